@@ -1,0 +1,33 @@
+// A technique: how the shadow volumes are counted, what it is known to fail at, and the function
+// that draws it.
+#pragma once
+
+#include "scenes/cause.h"
+#include "scenes/frame.h"
+#include "scenes/plan.h"
+#include "scenes/scene.h"
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof {
+
+class Gpu;
+
+struct Technique {
+    std::string_view name;    ///< "zfail_reversed"
+    std::string_view summary; ///< one clause: how it counts
+    std::string_view source;  ///< where it is described
+    std::string_view needs;   ///< what it asks of scene and driver
+    std::vector<Cause> fails_at; ///< the causes it is known to have
+    Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
+};
+
+/// All techniques in the order of the registry, techniques.inc.
+std::span<const Technique> all_techniques();
+
+/// Null where no technique has that name.
+const Technique* find_technique(std::string_view name);
+
+} // namespace shadowproof

@@ -1,0 +1,76 @@
+#include "scenes/camera.h"
+
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+glm::dvec2 half_extent(const Camera& camera) {
+    return {camera.tan_half_height * camera.width / camera.height, camera.tan_half_height};
+}
+
+glm::dvec3 ray_direction(const Camera& camera, double x, double y) {
+    const glm::dvec2 half = half_extent(camera);
+    const double right = half.x * (2 * x / camera.width - 1);
+    const double up = half.y * (1 - 2 * y / camera.height);
+    return camera.forward + right * camera.right + up * camera.up;
+}
+
+double view_depth(const Camera& camera, const glm::dvec3& point) {
+    return glm::dot(point - camera.eye, camera.forward);
+}
+
+glm::dvec2 project(const Camera& camera, const glm::dvec3& point) {
+    const glm::dvec3 relative = point - camera.eye;
+    const double depth = glm::dot(relative, camera.forward);
+    const glm::dvec2 half = half_extent(camera);
+    return {(glm::dot(relative, camera.right) / (depth * half.x) + 1) * 0.5 * camera.width,
+            (1 - glm::dot(relative, camera.up) / (depth * half.y)) * 0.5 * camera.height};
+}
+
+glm::dmat3 view_from_eye_relative(const Camera& camera) {
+    return glm::transpose(glm::dmat3(camera.right, camera.up, -camera.forward));
+}
+
+glm::dmat4 view_from_world(const Camera& camera) {
+    const glm::dmat3 rotation = view_from_eye_relative(camera);
+    glm::dmat4 view(rotation);
+    view[3] = glm::dvec4(rotation * -camera.eye, 1);
+    return view;
+}
+
+namespace {
+
+/// The part all projections share: x and y scales, and w = -z of view space.
+glm::dmat4 perspective(const Camera& camera) {
+    const glm::dvec2 half = half_extent(camera);
+    glm::dmat4 clip(0.0);
+    clip[0][0] = 1 / half.x;
+    clip[1][1] = 1 / half.y;
+    clip[2][3] = -1;
+    return clip;
+}
+
+} // namespace
+
+glm::dmat4 clip_from_view_finite(const Camera& camera, double far) {
+    const double near = camera.near;
+    glm::dmat4 clip = perspective(camera);
+    clip[2][2] = -(far + near) / (far - near);
+    clip[3][2] = -2 * far * near / (far - near);
+    return clip;
+}
+
+glm::dmat4 clip_from_view_infinite(const Camera& camera) {
+    glm::dmat4 clip = perspective(camera);
+    clip[2][2] = -1;
+    clip[3][2] = -2 * camera.near;
+    return clip;
+}
+
+glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera) {
+    glm::dmat4 clip = perspective(camera);
+    clip[3][2] = camera.near;
+    return clip;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,50 @@
+// The perspective camera, and THE definition of which ray belongs to which pixel: the reference
+// traces it, the rasterizer's matrices are made from it.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+/// World units are the scene's own; depth is measured along `forward`.
+struct Camera {
+    glm::dvec3 eye{0, 0, 0};
+    glm::dvec3 right{1, 0, 0};    ///< right, up, forward: orthonormal, right x up = -forward
+    glm::dvec3 up{0, 1, 0};
+    glm::dvec3 forward{0, 0, -1}; ///< the view direction
+    double tan_half_height = 1;   ///< tan(yfov / 2); the width follows from the picture's shape
+    double near = 0.1;            ///< depth of the near plane, > 0
+    double far = std::numeric_limits<double>::infinity(); ///< depth of the far plane
+    int width = 512;              ///< pixels
+    int height = 512;             ///< pixels
+};
+
+/// Half extents of the picture at depth 1: (tan_half_height * width / height, tan_half_height).
+glm::dvec2 half_extent(const Camera& camera);
+
+/// Direction D of the ray through picture point (x, y), in pixels from the top left corner, so that
+/// eye + t * D has view depth t. Its three doubles, as rounded here, ARE the ray: the reference
+/// takes them as exact.
+glm::dvec3 ray_direction(const Camera& camera, double x, double y);
+
+/// View depth of a world point: dot(point - eye, forward).
+double view_depth(const Camera& camera, const glm::dvec3& point);
+
+/// Picture point, in pixels from the top left corner, of a world point in front of the eye
+/// (view depth > 0).
+glm::dvec2 project(const Camera& camera, const glm::dvec3& point);
+
+/// The three rows right, up, -forward: eye-relative world vectors to OpenGL view space (looking
+/// down -z). No translation: subtract the eye first.
+glm::dmat3 view_from_eye_relative(const Camera& camera);
+glm::dmat4 view_from_world(const Camera& camera);
+
+/// OpenGL projections; window depth grows away from the eye except in the last.
+glm::dmat4 clip_from_view_finite(const Camera& camera, double far);      ///< z in [-w, w]
+glm::dmat4 clip_from_view_infinite(const Camera& camera);                ///< z in [-w, w]
+glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera);       ///< z in [0, w], 1 at near
+
+} // namespace shadowproof

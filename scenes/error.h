@@ -1,0 +1,16 @@
+// The one exception type: something outside the program (a file, a driver, a setting) is not as it
+// must be. A disagreement between truth and claim is a result, never an error.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace shadowproof {
+
+/// Message reads "<where>: <what is wrong>; <remedy>", one sentence, no trailing newline.
+struct Error : std::runtime_error {
+    Error(const std::string& where, const std::string& what, const std::string& remedy)
+        : std::runtime_error(where + ": " + what + "; " + remedy) {}
+};
+
+} // namespace shadowproof

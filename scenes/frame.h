@@ -1,0 +1,59 @@
+// What one technique says of one scene: the pictures read back, and how it counted, which is all
+// that is needed to predict them.
+#pragma once
+
+#include "scenes/image.h"
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+namespace shadowproof {
+
+/// What a pixel shows; the values are those of the class map, 8-bit gray.
+enum class Visibility : std::uint8_t { background = 0, shadowed = 64, lit = 255 };
+
+/// How a stencil technique counts the faces of the shadow volumes at a pixel.
+struct Counting {
+    enum class Test : std::uint8_t {
+        depth_pass, ///< faces in front of the surface: front +1, back -1
+        depth_fail, ///< faces behind the surface: back +1, front -1
+    };
+    Test test = Test::depth_fail;
+    bool depth_clamp = false; ///< faces past the near and far planes are kept
+    bool light_cap = true;    ///< the light-facing triangles themselves are drawn
+    bool dark_cap = true;     ///< so are they at infinity, where the projection keeps them
+    int stencil_bits = 8;     ///< the counter wraps modulo 2^stencil_bits
+};
+
+/// How window depth is made and stored.
+struct DepthModel {
+    enum class Projection : std::uint8_t { finite, infinite, infinite_reversed };
+    Projection projection = Projection::finite;
+    double near = 0.1;
+    double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
+    bool floating = false;     ///< D32F; otherwise 24-bit fixed point
+    bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
+    int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
+};
+
+struct Frame {
+    Image<Visibility> claim;
+    Image<std::uint8_t> stencil;   ///< the counter, before the light pass
+    Image<float> depth;            ///< window depth in [0, 1]
+    Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
+    Counting counting;
+    DepthModel depth_model;
+    double milliseconds = 0; ///< drawing and finishing, without the read-back
+};
+
+/// The driver behind a frame, as it names itself.
+struct DriverInfo {
+    std::string version;
+    std::string renderer;
+    int subpixel_bits = 0;
+    int depth_bits = 0;
+    int stencil_bits = 0;
+};
+
+} // namespace shadowproof

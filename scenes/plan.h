@@ -1,0 +1,22 @@
+// What a scene needs, decided before any work; what it does not need is left out and said.
+// Every "not needed" is conservative: it is claimed only where it is certain.
+#pragma once
+
+#include "scenes/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+struct Plan {
+    bool hole_filling = true;       ///< some caster is open
+    bool dark_cap = true;           ///< some volume may be seen all the way to infinity
+    bool volume_meets_near = true;  ///< some volume may contain a point of the near rectangle
+    bool volume_meets_far = true;   ///< some volume may contain a point of the far rectangle
+    std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
+};
+
+Plan make_plan(const Scene& scene);
+
+} // namespace shadowproof

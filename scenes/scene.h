@@ -1,0 +1,73 @@
+// A scene as both sides see it: triangles baked once to world-space float32, one camera, one light
+// chosen among the file's. Plain data; indices for references.
+#pragma once
+
+#include "scenes/camera.h"
+#include "scenes/cause.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+inline constexpr std::uint32_t no_triangle = 0xffffffffU;
+
+struct Material {
+    std::string name;
+    bool double_sided = false; ///< otherwise a triangle is not seen from behind, as glTF says
+};
+
+/// A run of triangles with one material: one glTF primitive of one node.
+struct Mesh {
+    std::string name; ///< for messages: node and mesh names, or their JSON pointer
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+    std::uint32_t material = 0; ///< index into Scene::materials
+};
+
+struct Light {
+    enum class Kind : std::uint8_t { point, spot, directional };
+    std::string name;
+    Kind kind = Kind::point;
+    glm::dvec3 position{0, 0, 0};   ///< point and spot
+    glm::dvec3 direction{0, 0, -1}; ///< spot and directional: where the light shines to, unit
+    double inner_cone = 0;          ///< spot, radians
+    double outer_cone = 0.7853981633974483; ///< spot, radians
+    glm::dvec3 color{1, 1, 1};      ///< linear
+    double intensity = 1;           ///< candela, or lux where directional
+};
+
+struct Scene {
+    std::string name;           ///< bundled name, or the file's stem
+    std::filesystem::path file; ///< as given
+    std::vector<glm::vec3> positions;  ///< world space; the same array goes to OpenGL
+    std::vector<glm::uvec3> triangles; ///< into positions; counter-clockwise from the front, the
+                                       ///< flip of mirroring nodes already made
+    std::vector<Mesh> meshes;          ///< cover all triangles, in order, without gaps
+    std::vector<Material> materials;   ///< at least one
+    Camera camera;
+    std::vector<Light> lights; ///< at least one
+    std::size_t light = 0;     ///< the one that is judged
+    std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
+    bool declares_provokes = false; ///< whether the file says what it provokes
+    std::vector<std::string> notes; ///< said on the console: defaults taken, things not evaluated
+};
+
+/// Corner k (0..2) of a triangle, as the doubles that the floats are.
+inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
+    return scene.positions[scene.triangles[triangle][k]];
+}
+
+inline const Light& chosen_light(const Scene& scene) { return scene.lights[scene.light]; }
+
+/// Index into Scene::meshes of the mesh that holds a triangle.
+std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
+
+/// One flag a triangle: 1 where its material is double sided.
+std::vector<std::uint8_t> double_sided_triangles(const Scene& scene);
+
+} // namespace shadowproof

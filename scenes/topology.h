@@ -1,0 +1,44 @@
+// Half-edge adjacency of a triangle soup welded by position: closed and two-manifold checks,
+// boundary rings.
+#pragma once
+
+#include "scenes/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// For each position the index of the first position that is equal to it (-0 equals 0).
+std::vector<std::uint32_t> weld_by_position(std::span<const glm::vec3> positions);
+
+/// A directed edge of the welded soup with its surplus: how many more triangles run through it
+/// from a to b than from b to a. All surpluses zero: the soup bounds a volume.
+struct SurplusEdge {
+    std::uint32_t a = 0; ///< welded position indices
+    std::uint32_t b = 0;
+    int surplus = 0; ///< > 0
+};
+
+/// The boundary of a set of triangles (indices into scene.triangles), in a deterministic order
+/// (by a, then b). Triangles with two equal welded corners have no area and take no part.
+/// O(n log n) time.
+std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint32_t> welded,
+                                  std::span<const std::uint32_t> triangles);
+
+/// One mesh's state as a caster.
+struct CasterReport {
+    std::uint32_t mesh = 0;
+    std::size_t boundary_edges = 0; ///< edges with a triangle on one side only
+    std::size_t rings = 0;          ///< closed chains of boundary edges
+    std::size_t non_manifold_edges = 0; ///< edges with more than two triangles
+    bool closed() const { return boundary_edges == 0; }
+};
+
+std::vector<CasterReport> inspect_casters(const Scene& scene);
+
+} // namespace shadowproof
