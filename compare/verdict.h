@@ -1,0 +1,28 @@
+// A cell's verdict: do scene and technique agree, or fail as was predicted?
+#pragma once
+
+#include "compare/classify.h"
+#include "scenes/scene.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace shadowproof {
+
+enum class Verdict : std::uint8_t { agrees, fails_as_predicted, defect, unexplained };
+
+std::string_view name_of(Verdict verdict);
+
+/// `fails_at`: the causes the technique is known to have. A cause is excused where the technique
+/// has it and the scene declares that it provokes it (a scene that declares nothing may provoke
+/// any). `edge` is no failing; `precision` lies in the depth format, so no scene need declare it.
+Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Comparison& comparison);
+
+/// Causes that the scene declares, that some technique shown here is known for, and that no
+/// comparison found: the scene has stopped provoking them.
+std::vector<Cause> no_longer_provoked(const Scene& scene,
+                                      std::span<const std::vector<Cause>> fails_at,
+                                      std::span<const Comparison> comparisons);
+
+} // namespace shadowproof

@@ -1,0 +1,52 @@
+// What each algorithm's counter should read at a pixel, from first principles: shadow depths s(Q),
+// the number of light-facing triangles strictly between Q and the light, found by tracing.
+#pragma once
+
+#include "reference/trace.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shadowproof {
+
+/// Shadow depths at the points of each pixel's eye ray that the formulas of the ledger ask for.
+struct ShadowDepths {
+    Image<std::int32_t> at_surface;  ///< just before the seen surface; 0 at background
+    Image<std::int32_t> at_near;     ///< on the near plane
+    Image<std::int32_t> at_far;      ///< on the far plane of `far`
+    Image<std::int32_t> at_infinity; ///< light-facing triangles met from the light along the eye
+                                     ///< ray's direction
+    std::int32_t at_eye = 0;
+    double far = 0; ///< the finite far plane that at_far speaks of
+};
+
+/// `far`: depth of the far plane of the techniques that have a finite one.
+ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far);
+
+/// The counter before wrapping, as the technique ought to have it at a pixel.
+std::int64_t predicted_count(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
+                             const Counting& counting, const DepthModel& depth_model);
+
+/// One crossing of an eye ray with the boundary of the shadow volumes.
+struct Crossing {
+    enum class Kind : std::uint8_t { light_cap, side };
+    double depth = 0; ///< view depth
+    int change = 0;   ///< +1: entering a volume, -1: leaving it
+    Kind kind = Kind::side;
+    std::uint32_t triangle = no_triangle; ///< whose volume (one of them, where sides cancel)
+};
+
+/// The ledger along one ray: crossings by increasing depth from the eye on, the count at the eye,
+/// and the count at infinity.
+struct RayLedger {
+    std::int32_t at_eye = 0;
+    std::vector<Crossing> crossings;
+    std::int32_t at_infinity = 0;
+};
+
+/// Sides shared by two light-facing triangles cancel and are not listed. Double precision; ties as
+/// they round.
+RayLedger ray_ledger(const Tracer& tracer, const glm::dvec3& direction);
+
+} // namespace shadowproof

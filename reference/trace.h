@@ -1,0 +1,82 @@
+// The door of reference/: what is true at each pixel centre, decided by the sign of exact
+// expressions.
+#pragma once
+
+#include "scenes/frame.h"
+#include "scenes/image.h"
+#include "scenes/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace shadowproof {
+
+/// How far a pixel's decision had to go. Ordered; a pixel records the furthest.
+enum class Exactness : std::uint8_t {
+    filtered,   ///< float and double filters decided all
+    exact,      ///< at least one sign came from exact arithmetic
+    degenerate, ///< at least one sign was exactly zero
+};
+
+struct TraceStatistics {
+    double milliseconds = 0;       ///< tracing alone
+    double build_milliseconds = 0; ///< the hierarchy
+    std::uint64_t rays = 0;        ///< eye rays and shadow rays
+    std::uint64_t exact_decisions = 0; ///< signs from exact arithmetic
+    std::uint64_t lit = 0;
+    std::uint64_t shadowed = 0;
+    std::uint64_t background = 0;
+    std::uint64_t degenerate = 0;
+};
+
+struct GroundTruth {
+    Image<Visibility> visibility;
+    Image<std::uint32_t> triangle; ///< the seen one, or no_triangle
+    Image<double> depth;           ///< view depth of the seen point, rounded; infinity: background
+    Image<Exactness> exactness;
+    TraceStatistics statistics;
+};
+
+/// A scene prepared for tracing: hierarchy, light and camera. Keeps a reference to the scene.
+class Tracer {
+public:
+    /// threads 0: one per core. Throws Error for what the reference does not decide: a directional
+    /// light, no triangles, coordinates that are not finite.
+    explicit Tracer(const Scene& scene, int threads = 0);
+    ~Tracer();
+    Tracer(Tracer&&) noexcept;
+    Tracer& operator=(Tracer&&) noexcept;
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    const Scene& scene() const;
+    int threads() const;
+
+    struct State; ///< for the rooms of reference/ only
+    const State& state() const { return *state_; }
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+/// Same answer, bit for bit, for any number of threads and any instruction set.
+GroundTruth trace(const Tracer& tracer);
+
+/// The truth along one ray of direction D from the eye (as Camera's ray_direction gives it).
+struct RayTruth {
+    Visibility visibility = Visibility::background;
+    std::uint32_t triangle = no_triangle;
+    double depth = 0;
+    std::uint32_t occluder = no_triangle; ///< where shadowed by one: some triangle in between
+    bool faces_light = false; ///< eye and light strictly on the same side of the seen triangle
+    Exactness exactness = Exactness::filtered;
+};
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
+
+/// Version of the Embree library that runs, "3.13.5".
+std::string embree_version();
+
+} // namespace shadowproof
