@@ -17,7 +17,8 @@ namespace shadowproof {
 /// One technique on one scene.
 struct Cell {
     std::string technique;
-    std::string error; ///< not empty: the cell could not run; the rest is then meaningless
+    std::string summary; ///< one clause: how the technique counts
+    std::string error;   ///< not empty: the cell could not run; the rest is then meaningless
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
     Comparison comparison;
@@ -27,6 +28,8 @@ struct Cell {
 struct SceneResult {
     std::string name;
     std::string file;
+    std::string argument; ///< what names the scene on the command line; empty: name
+    std::string folder;   ///< of its pictures in the report, unique in the run; empty: from name
     int width = 0;
     int height = 0;
     std::size_t triangles = 0;
@@ -40,26 +43,79 @@ struct SceneResult {
     std::vector<Cell> cells;
 };
 
+/// What a run is failed for.
+enum class Gate : std::uint8_t {
+    defects,     ///< a verdict of defect or unexplained
+    differences, ///< any differing pixel whose cause is not edge
+};
+
 struct Report {
     std::string version;
     DriverInfo gl;
     std::string embree;
-    std::vector<std::string> arguments; ///< that reproduce the run, without the program's name
+    std::vector<std::string> arguments; ///< the settings that reproduce a cell: without the
+                                        ///< program, the subcommand, scene, technique and outputs
+    Gate gate = Gate::defects;
     std::vector<SceneResult> scenes;
     bool passed = false;
 };
 
-/// One line a cell, as the console prints it, without colour.
-std::string cell_line(const Cell& cell);
+/// Does this cell fail the run? One that could not run does.
+bool fails(const Cell& cell, Gate gate);
+/// Does the scene: an error, a cause no longer provoked, or a failing cell?
+bool fails(const SceneResult& scene, Gate gate);
+
+/// One line a cell, as the console prints it, without colour: "zpass  near_plane  agrees  ...",
+/// its first three columns padded to the widths given.
+struct ColumnWidths {
+    int technique = 0;
+    int scene = 0;
+    int verdict = 0;
+};
+std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths = {});
+
+/// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
+std::string cause_counts(const Comparison& comparison);
+
+/// "1,204"
+std::string grouped(std::uint64_t number);
+
+/// The command that runs this cell alone, quoted for a POSIX shell.
+std::string reproducing_command(const Report& report, const SceneResult& scene, const Cell& cell);
 
 /// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
+
+/// The same for the picture that all cells of a scene share.
+std::string truth_path(const SceneResult& scene);
 
 /// results.json of schema shadowproof/results/1.
 std::string to_json(const Report& report);
 /// JUnit XML: a suite a scene, a case a cell.
 std::string to_junit(const Report& report);
-/// The folder with index.html, results.json and pictures; written beside and renamed into place.
+
+/// The folder with index.html, results.json and pictures while it is being written: beside its
+/// place under a name of its own, and renamed into place by finish(). Dropped before, it leaves
+/// nothing behind.
+class ReportFolder {
+public:
+    /// Throws Error where `folder` exists and is not a report, or cannot be written.
+    explicit ReportFolder(const std::filesystem::path& folder);
+    ~ReportFolder();
+    ReportFolder(const ReportFolder&) = delete;
+    ReportFolder& operator=(const ReportFolder&) = delete;
+
+    /// Writes the pictures of a scene, which may then be dropped. threads 0: one per core.
+    void add_pictures(const SceneResult& scene, int threads = 0);
+    /// Writes index.html and results.json, and replaces an older report.
+    void finish(const Report& report);
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path beside_;
+};
+
+/// The whole folder from a report that still holds its pictures.
 void write_html(const Report& report, const std::filesystem::path& folder);
 
 /// Writes text beside `file` and renames it into place. Throws Error naming the file.

@@ -1,0 +1,14 @@
+// The subcommands. Each adds itself to the command line; what it returns does its work after the
+// parsing, and gives the exit code.
+#pragma once
+
+#include "compare/command/options.h"
+
+namespace shadowproof {
+
+Work add_verify(CLI::App& app);  ///< verify.cpp
+Work add_render(CLI::App& app);  ///< render.cpp
+Work add_explain(CLI::App& app); ///< explain.cpp
+Work add_list(CLI::App& app);    ///< list.cpp
+
+} // namespace shadowproof

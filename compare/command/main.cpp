@@ -1,0 +1,74 @@
+#include "compare/command/commands.h"
+#include "reference/trace.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+using namespace shadowproof;
+
+namespace {
+
+constexpr const char* description =
+    "Which pixels of a rasterized shadow are wrong, why, and would your build have caught it?\n"
+    "For a glTF scene, shadowproof decides exactly at each pixel whether the light is seen,\n"
+    "renders the scene with the classic shadow techniques through OpenGL, and names the cause\n"
+    "of every pixel that differs.\n";
+
+constexpr const char* footer =
+    "\nExamples:\n"
+    "  shadowproof verify                              every bundled scene, report in report/\n"
+    "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
+    "  shadowproof explain near_plane --pixel 212,340  why one pixel is what it is\n"
+    "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
+    "\nExit codes:\n"
+    "  0  every technique agrees with the truth, or fails as was predicted\n"
+    "  1  a defect, an unexplained pixel, or a scene that stopped provoking its causes\n"
+    "  2  wrong usage\n"
+    "  3  could not run: unreadable scene, no OpenGL, a blank or NaN render\n";
+
+int run(int argc, char** argv) {
+    CLI::App app(description, "shadowproof");
+    app.footer(footer);
+    app.require_subcommand(1);
+    app.set_version_flag("--version", [] {
+        return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
+    });
+    const std::vector<Work> works{add_verify(app), add_render(app), add_explain(app),
+                                  add_list(app)};
+    const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
+    std::string offered;
+    for (const CLI::App* command : commands)
+        offered += (offered.empty() ? "" : ", ") + command->get_name();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        fmt::print(stderr, "shadowproof: {}\n", error.what());
+        const std::vector<CLI::App*> chosen = app.get_subcommands();
+        if (chosen.empty())
+            fmt::print(stderr, "The commands are {}; see shadowproof --help.\n", offered);
+        else
+            fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
+        return exit_usage;
+    }
+    for (std::size_t i = 0; i < commands.size(); ++i)
+        if (commands[i]->parsed()) return works[i]();
+    return exit_usage;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "shadowproof: there is not enough memory; try a smaller --size\n");
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "shadowproof: {}\n", error.what());
+    }
+    return exit_could_not;
+}

@@ -1,0 +1,134 @@
+#include "compare/command/options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace shadowproof {
+
+namespace {
+
+/// Pixels along a side: what a 32-bit float's 24 bits and every OpenGL 4.5 framebuffer hold.
+constexpr int largest_side = 16384;
+
+PictureSize parse_size(const std::string& text) {
+    PictureSize size;
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool separated = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height =
+        separated ? std::from_chars(width.ptr + 1, end, size.height) : std::from_chars_result{};
+    if (!separated || height.ec != std::errc() || height.ptr != end || size.width < 1 ||
+        size.height < 1 || size.width > largest_side || size.height > largest_side)
+        throw CLI::ValidationError("--size", fmt::format("'{}' is not a size; give WIDTHxHEIGHT "
+                                                         "of 1 to {} pixels, as 512x512",
+                                                         text, largest_side));
+    return size;
+}
+
+std::string technique_names() {
+    std::string names;
+    for (const Technique& technique : all_techniques())
+        names += (names.empty() ? "" : ", ") + std::string(technique.name);
+    return names;
+}
+
+const Technique* parse_technique(const std::string& name) {
+    const Technique* technique = find_technique(name);
+    if (technique == nullptr)
+        throw CLI::ValidationError(
+            "--technique",
+            fmt::format("there is no technique '{}'; there are {}", name, technique_names()));
+    return technique;
+}
+
+GlPlatform parse_platform(const std::string& text) {
+    if (text == "osmesa") return GlPlatform::osmesa;
+    if (text == "egl") return GlPlatform::egl;
+    throw CLI::ValidationError("--gl", "'" + text + "' is not known; give osmesa or egl");
+}
+
+} // namespace
+
+SceneRequest SceneOptions::request() const {
+    return {
+        .camera = camera, .light = light, .time = time, .width = size.width, .height = size.height};
+}
+
+bool SceneOptions::is_default() const {
+    const PictureSize ordinary;
+    return !camera && !light && time == 0 && size.width == ordinary.width &&
+           size.height == ordinary.height;
+}
+
+std::vector<const Technique*> TechniqueOptions::chosen() const {
+    if (!techniques.empty()) return techniques;
+    std::vector<const Technique*> all;
+    for (const Technique& technique : all_techniques()) all.push_back(&technique);
+    return all;
+}
+
+void add_scene_flags(CLI::App& command, SceneOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--size", [&](const std::string& text) { options.size = parse_size(text); },
+            "Picture size in pixels (512x512)")
+        ->type_name("WxH");
+    command.add_option("--camera", options.camera, "Camera, by name or index (the first)")
+        ->type_name("CAMERA");
+    command.add_option("--light", options.light, "Light, by name or index (the first)")
+        ->type_name("LIGHT");
+    command.add_option("--time", options.time, "Seconds at which animations are posed (0)")
+        ->type_name("T")
+        ->check([](const std::string& text) {
+            double time = 0;
+            const bool good = CLI::detail::lexical_cast(text, time) && std::isfinite(time);
+            return good ? "" : "'" + text + "' is not a time; give seconds, as 1.5";
+        });
+    command.add_option("--threads", options.threads, "Threads (0: one per core)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024));
+}
+
+void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--technique",
+            [&](const std::vector<std::string>& names) {
+                options.techniques.clear();
+                for (const std::string& name : names)
+                    options.techniques.push_back(parse_technique(name));
+            },
+            "Techniques, separated by commas (all)")
+        ->delimiter(',')
+        ->type_name("A,B");
+    command
+        .add_option_function<std::string>(
+            "--gl", [&](const std::string& text) { options.platform = parse_platform(text); },
+            "Where OpenGL comes from: osmesa or egl (osmesa)")
+        ->type_name("PLATFORM");
+}
+
+CLI::Validator not_empty() {
+    return {[](const std::string& text) { return text.empty() ? "the path is empty" : ""; }, "",
+            "not empty"};
+}
+
+std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOptions& technique) {
+    std::vector<std::string> words;
+    const auto add = [&](const char* flag, const std::string& value) {
+        words.emplace_back(flag);
+        words.push_back(value);
+    };
+    const PictureSize ordinary;
+    if (scene.size.width != ordinary.width || scene.size.height != ordinary.height)
+        add("--size", fmt::format("{}x{}", scene.size.width, scene.size.height));
+    if (scene.camera) add("--camera", *scene.camera);
+    if (scene.light) add("--light", *scene.light);
+    if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
+    if (technique.platform == GlPlatform::egl) add("--gl", "egl");
+    return words;
+}
+
+} // namespace shadowproof

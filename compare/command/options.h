@@ -1,0 +1,65 @@
+// What the subcommands understand in common: scenes, techniques, size, time, outputs.
+#pragma once
+
+#include "compare/report.h"
+#include "raster/context.h"
+#include "raster/technique.h"
+#include "scenes/gltf.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// What a run ends with, for scripts and build servers.
+enum ExitCode : int {
+    exit_passed = 0,    ///< agrees, or fails as predicted
+    exit_failed = 1,    ///< a defect or an unexplained pixel
+    exit_usage = 2,     ///< wrong usage
+    exit_could_not = 3, ///< unreadable scene, no OpenGL, blank or NaN render
+};
+
+/// A subcommand's work, returning an exit code; main() registers and runs them.
+using Work = std::function<int()>;
+
+struct PictureSize {
+    int width = 512;
+    int height = 512;
+};
+
+/// Which picture of a scene, and by which techniques.
+struct SceneOptions {
+    PictureSize size;
+    std::optional<std::string> camera;
+    std::optional<std::string> light;
+    double time = 0; ///< seconds
+    int threads = 0; ///< 0: one per core
+
+    SceneRequest request() const;
+    /// Nothing here asks for other than a scene's own default picture.
+    bool is_default() const;
+};
+
+struct TechniqueOptions {
+    std::vector<const Technique*> techniques; ///< empty: all
+    GlPlatform platform = GlPlatform::osmesa;
+
+    std::vector<const Technique*> chosen() const;
+};
+
+/// Adds the flags to a subcommand. Values are checked as they are parsed: a bad one is wrong usage,
+/// and its message says what is possible.
+void add_scene_flags(CLI::App& command, SceneOptions& options);
+void add_technique_flags(CLI::App& command, TechniqueOptions& options);
+
+/// A check for CLI11: the path may not be empty.
+CLI::Validator not_empty();
+
+/// The flags that differ from their defaults, as words of a command line.
+std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOptions& technique);
+
+} // namespace shadowproof

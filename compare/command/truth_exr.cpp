@@ -1,0 +1,83 @@
+#include "compare/command/truth_exr.h"
+
+#include "compare/write_file.h"
+#include "scenes/error.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+/// One pixel as it lies in the buffer: the channels of spec_of, without gaps.
+struct Pixel {
+    float position[3];
+    float normal[3];
+    float depth;
+    float visibility;
+    float exactness;
+    std::uint32_t triangle;
+};
+static_assert(sizeof(Pixel) == 40);
+
+OIIO::ImageSpec spec_of(const Scene& scene) {
+    using OIIO::TypeDesc;
+    OIIO::ImageSpec spec(scene.camera.width, scene.camera.height, 10, TypeDesc::FLOAT);
+    spec.channelnames = {"P.X",       "P.Y",   "P.Z",     "N.X",
+                         "N.Y",       "N.Z",   "depth.Z", "visibility." + chosen_light(scene).name,
+                         "exactness", "primId"};
+    spec.channelformats.assign(9, TypeDesc::FLOAT);
+    spec.channelformats.emplace_back(TypeDesc::UINT32);
+    spec.attribute("compression", "zip");
+    return spec;
+}
+
+/// Unit normal of the side that the eye sees.
+glm::dvec3 seen_normal(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 normal =
+        glm::normalize(glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a));
+    return glm::dot(normal, direction) > 0 ? -normal : normal;
+}
+
+Pixel pixel_of(const Scene& scene, const GroundTruth& truth, int x, int y) {
+    Pixel pixel{};
+    pixel.triangle = truth.triangle.at(x, y);
+    pixel.depth = static_cast<float>(truth.depth.at(x, y));
+    pixel.visibility = static_cast<float>(static_cast<double>(truth.visibility.at(x, y)) / 255.0);
+    pixel.exactness = static_cast<float>(truth.exactness.at(x, y));
+    if (pixel.triangle == no_triangle) return pixel;
+    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
+    const glm::dvec3 position = scene.camera.eye + truth.depth.at(x, y) * direction;
+    const glm::dvec3 normal = seen_normal(scene, pixel.triangle, direction);
+    for (int k = 0; k < 3; ++k) {
+        pixel.position[k] = static_cast<float>(position[k]);
+        pixel.normal[k] = static_cast<float>(normal[k]);
+    }
+    return pixel;
+}
+
+} // namespace
+
+void write_truth_exr(const Scene& scene, const GroundTruth& truth,
+                     const std::filesystem::path& file) {
+    Image<Pixel> picture(truth.visibility.width, truth.visibility.height);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) picture.at(x, y) = pixel_of(scene, truth, x, y);
+
+    write_beside(file, [&](const std::filesystem::path& beside) {
+        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
+        // An unknown format means: each channel in its own.
+        if (output && output->open(beside.string(), spec_of(scene)) &&
+            output->write_image(OIIO::TypeDesc::UNKNOWN, picture.pixels.data(), sizeof(Pixel)) &&
+            output->close())
+            return;
+        throw Error(file.string(),
+                    "cannot be written (" + (output ? output->geterror() : OIIO::geterror()) + ")",
+                    "name a file in a folder that exists and is writable");
+    });
+}
+
+} // namespace shadowproof

@@ -1,0 +1,96 @@
+#include "compare/report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json causes_of(const Comparison& comparison) {
+    Json causes = Json::object();
+    for (const CauseWords& words : all_causes) {
+        const std::uint64_t pixels = comparison.causes[static_cast<std::size_t>(words.cause)];
+        if (pixels > 0) causes[std::string(words.name)] = pixels;
+    }
+    return causes;
+}
+
+Json cell_of(const SceneResult& scene, const Cell& cell) {
+    Json json{{"name", cell.technique}};
+    if (!cell.error.empty()) {
+        json["error"] = cell.error;
+        return json;
+    }
+    const Comparison& comparison = cell.comparison;
+    json["ms"] = cell.milliseconds;
+    json["verdict"] = name_of(cell.verdict);
+    json["pixels"] =
+        static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+    json["differing"] = comparison.differing;
+    json["causes"] = causes_of(comparison);
+    if (comparison.first)
+        json["first"] = {{"x", comparison.first->x},
+                         {"y", comparison.first->y},
+                         {"cause", name_of(comparison.first->cause)}};
+    json["ledger"] = {{"equal", comparison.ledger.equal},
+                      {"in_band", comparison.ledger.in_band},
+                      {"unexplained", comparison.ledger.unexplained}};
+    for (const char* kind : {"claim", "difference", "cause"})
+        json["images"][kind] = picture_path(scene, cell, kind);
+    return json;
+}
+
+Json scene_of(const SceneResult& scene) {
+    Json json{{"name", scene.name},
+              {"file", scene.file},
+              {"width", scene.width},
+              {"height", scene.height}};
+    if (!scene.error.empty()) {
+        json["error"] = scene.error;
+        return json;
+    }
+    const TraceStatistics& traced = scene.truth.statistics;
+    json["triangles"] = scene.triangles;
+    json["light"] = scene.light;
+    json["provokes"] = scene.provokes;
+    json["no_longer_provoked"] = scene.no_longer_provoked;
+    json["left_out"] = scene.left_out;
+    json["notes"] = scene.notes;
+    json["reference"] = {{"ms", traced.milliseconds},
+                         {"build_ms", traced.build_milliseconds},
+                         {"rays", traced.rays},
+                         {"exact_decisions", traced.exact_decisions},
+                         {"lit", traced.lit},
+                         {"shadowed", traced.shadowed},
+                         {"background", traced.background},
+                         {"degenerate", traced.degenerate}};
+    json["images"] = {{"truth", truth_path(scene)}};
+    json["techniques"] = Json::array();
+    for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(scene, cell));
+    return json;
+}
+
+} // namespace
+
+std::string to_json(const Report& report) {
+    Json json{{"schema", "shadowproof/results/1"},
+              {"version", report.version},
+              {"gl",
+               {{"version", report.gl.version},
+                {"renderer", report.gl.renderer},
+                {"subpixel_bits", report.gl.subpixel_bits},
+                {"depth_bits", report.gl.depth_bits},
+                {"stencil_bits", report.gl.stencil_bits}}},
+              {"embree", report.embree},
+              {"arguments", report.arguments},
+              {"gate", report.gate == Gate::defects ? "defects" : "differences"},
+              {"passed", report.passed},
+              {"scenes", Json::array()}};
+    for (const SceneResult& scene : report.scenes) json["scenes"].push_back(scene_of(scene));
+    // A file name need not be UTF-8; what is not is shown as U+FFFD.
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace shadowproof

@@ -1,0 +1,21 @@
+# Writes OUTPUT, a C++ source whose viewer_file() returns the text of each of FILES by its name.
+set(cases "")
+foreach(file ${FILES})
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} text)
+    string(APPEND cases "    if (name == \"${name}\")\n        return R\"viewer(${text})viewer\";\n")
+endforeach()
+file(WRITE ${OUTPUT} "// Made by compare/viewer/embed.cmake.
+#include \"compare/report_template.h\"
+
+#include <cassert>
+
+namespace shadowproof {
+
+std::string_view viewer_file(std::string_view name) {
+${cases}    assert(false && \"no such file in compare/viewer\");
+    return {};
+}
+
+} // namespace shadowproof
+")

@@ -1,0 +1,14 @@
+// A file appears whole or not at all: it is written beside its place and renamed into it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+namespace shadowproof {
+
+/// Calls `write` with a path beside `file`, and renames what it wrote into place. Whatever `write`
+/// throws passes through, with nothing left behind. Throws Error where the renaming fails.
+void write_beside(const std::filesystem::path& file,
+                  const std::function<void(const std::filesystem::path&)>& write);
+
+} // namespace shadowproof

@@ -1,0 +1,21 @@
+# Fails on an include against the arrows scenes <- reference | raster <- compare. Only
+# compare/command may know every room.
+function(forbid FOLDER REMEDY)
+    file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${FOLDER}/*.h ${SOURCE}/${FOLDER}/*.cpp)
+    foreach(file ${files})
+        if(FOLDER STREQUAL "compare" AND file MATCHES "^compare/command/")
+            continue()
+        endif()
+        foreach(room ${ARGN})
+            file(STRINGS ${SOURCE}/${file} hits REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"](\\.\\./)*${room}/")
+            foreach(hit ${hits})
+                message(SEND_ERROR "${file}: ${hit}: against the arrows; ${REMEDY}")
+            endforeach()
+        endforeach()
+    endforeach()
+endfunction()
+
+forbid(scenes "scenes is the lowest room" reference raster compare)
+forbid(reference "what both sides need belongs in scenes" raster compare)
+forbid(raster "what both sides need belongs in scenes" reference compare)
+forbid(compare "frames are plain data of scenes/frame.h" raster)
