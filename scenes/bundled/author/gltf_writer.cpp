@@ -1,0 +1,184 @@
+#include "scenes/bundled/author/gltf_writer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+namespace shadowproof::author {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers of the glTF 2.0 specification.
+constexpr int component_unsigned_short = 5123;
+constexpr int component_float = 5126;
+constexpr int target_vertices = 34962;
+constexpr int target_indices = 34963;
+
+Json array(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+Json array(const glm::dquat& q) {
+    return Json::array({q.x, q.y, q.z, q.w});
+}
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t length = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < length ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= length ? digits[group >> (18 - 6 * k) & 63U] : '=';
+    }
+    return text;
+}
+
+/// The buffer, and the accessors and views into it, as they grow.
+struct Buffer {
+    std::vector<std::uint8_t> bytes;
+    Json views = Json::array();
+    Json accessors = Json::array();
+
+    void append(std::uint32_t word, unsigned size) {
+        for (unsigned i = 0; i < size; ++i)
+            bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+    }
+
+    /// A view from `offset` to the end, the buffer then padded to whole words. Its index.
+    std::size_t close_view(std::size_t offset, int target) {
+        views.push_back({{"buffer", 0},
+                         {"byteOffset", offset},
+                         {"byteLength", bytes.size() - offset},
+                         {"target", target}});
+        while (bytes.size() % 4 != 0) bytes.push_back(0);
+        return views.size() - 1;
+    }
+};
+
+/// Index of the new accessor.
+std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertices) {
+    const std::size_t offset = buffer.bytes.size();
+    glm::vec3 low(vertices.front());
+    glm::vec3 high = low;
+    for (const glm::dvec3& vertex : vertices) {
+        const glm::vec3 rounded(vertex);
+        low = glm::min(low, rounded);
+        high = glm::max(high, rounded);
+        for (int k = 0; k < 3; ++k) buffer.append(std::bit_cast<std::uint32_t>(rounded[k]), 4);
+    }
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
+                                {"componentType", component_float},
+                                {"count", vertices.size()},
+                                {"type", "VEC3"},
+                                {"min", array(low)},
+                                {"max", array(high)}});
+    return buffer.accessors.size() - 1;
+}
+
+std::size_t add_indices(Buffer& buffer, const std::vector<glm::uvec3>& triangles) {
+    const std::size_t offset = buffer.bytes.size();
+    for (const glm::uvec3& triangle : triangles)
+        for (int k = 0; k < 3; ++k) buffer.append(triangle[k], 2);
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_indices)},
+                                {"componentType", component_unsigned_short},
+                                {"count", 3 * triangles.size()},
+                                {"type", "SCALAR"}});
+    return buffer.accessors.size() - 1;
+}
+
+Json material_of(const Placed& thing) {
+    Json color = array(thing.color);
+    color.push_back(1);
+    return {{"name", thing.name},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
+}
+
+Json node_of(const Placed& thing, std::size_t mesh) {
+    return {{"name", thing.name},
+            {"mesh", mesh},
+            {"translation", array(thing.position)},
+            {"rotation", array(glm::angleAxis(thing.turn, glm::normalize(thing.turn_axis)))}};
+}
+
+/// Looks down its own -z, y up.
+Json camera_node(const Stage& stage) {
+    const glm::dvec3 back = glm::normalize(stage.eye - stage.target);
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
+    const glm::dquat rotation(glm::dmat3(right, glm::cross(back, right), back));
+    return {{"name", "camera"},
+            {"camera", 0},
+            {"translation", array(stage.eye)},
+            {"rotation", array(glm::normalize(rotation))}};
+}
+
+Json light_node(const Stage& stage) {
+    return {{"name", "light"},
+            {"translation", array(stage.light)},
+            {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+}
+
+Json cameras_of(const Stage& stage) {
+    return {
+        {{"name", "camera"},
+         {"type", "perspective"},
+         {"perspective", {{"yfov", stage.yfov}, {"znear", stage.znear}, {"zfar", stage.zfar}}}}};
+}
+
+Json lights_of(const Stage& stage) {
+    return {{"KHR_lights_punctual",
+             {{"lights", {{{"name", "light"}, {"type", "point"}, {"intensity", stage.candela}}}}}}};
+}
+
+} // namespace
+
+std::string write_gltf(const Stage& stage) {
+    Buffer buffer;
+    Json nodes = Json::array();
+    Json meshes = Json::array();
+    Json materials = Json::array();
+    for (const Placed& thing : stage.things) {
+        const std::size_t positions = add_positions(buffer, thing.shape.vertices);
+        const std::size_t indices = add_indices(buffer, thing.shape.triangles);
+        nodes.push_back(node_of(thing, meshes.size()));
+        meshes.push_back({{"name", thing.name},
+                          {"primitives",
+                           {{{"attributes", {{"POSITION", positions}}},
+                             {"indices", indices},
+                             {"material", materials.size()}}}}});
+        materials.push_back(material_of(thing));
+    }
+    nodes.push_back(camera_node(stage));
+    nodes.push_back(light_node(stage));
+    Json roots = Json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+
+    Json gltf;
+    gltf["asset"] = {{"version", "2.0"},
+                     {"generator", "shadowproof_author"},
+                     {"extras", {{"title", stage.title}}}};
+    gltf["extras"] = {{"shadowproof", {{"provokes", stage.provokes}}}};
+    gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf["extensions"] = lights_of(stage);
+    gltf["scene"] = 0;
+    gltf["scenes"] = {{{"name", stage.name}, {"nodes", roots}}};
+    gltf["nodes"] = nodes;
+    gltf["cameras"] = cameras_of(stage);
+    gltf["meshes"] = meshes;
+    gltf["materials"] = materials;
+    gltf["accessors"] = buffer.accessors;
+    gltf["bufferViews"] = buffer.views;
+    gltf["buffers"] = {{{"byteLength", buffer.bytes.size()},
+                        {"uri", "data:application/octet-stream;base64," + base64(buffer.bytes)}}};
+    return gltf.dump(1) + '\n';
+}
+
+} // namespace shadowproof::author

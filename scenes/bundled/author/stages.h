@@ -1,0 +1,14 @@
+// The compositions that come with shadowproof. Each provokes exactly the causes it names; the
+// tests trace every claim made here.
+#pragma once
+
+#include "scenes/bundled/author/gltf_writer.h"
+
+#include <vector>
+
+namespace shadowproof::author {
+
+/// In the order of the catalog.
+std::vector<Stage> all_stages();
+
+} // namespace shadowproof::author

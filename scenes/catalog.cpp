@@ -1,0 +1,75 @@
+#include "scenes/catalog.h"
+
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#ifndef SHADOWPROOF_SOURCE_SCENES
+#error "SHADOWPROOF_SOURCE_SCENES and SHADOWPROOF_INSTALLED_SCENES are set by CMakeLists.txt"
+#endif
+
+namespace shadowproof {
+
+const std::vector<BundledScene>& bundled_scenes() {
+    static const std::vector<BundledScene> scenes{
+        {"ordinary", "box, torus and ball on a floor: nothing that any technique fails at"},
+        {"near_plane", "a volume passes between the eye and a part of the near plane"},
+        {"far_plane", "volumes run through the far plane behind lit surfaces"},
+        {"eye_inside", "the eye stands in the shadow of a canopy"},
+    };
+    return scenes;
+}
+
+namespace {
+
+/// <prefix>/bin/shadowproof -> <prefix>/<SHADOWPROOF_INSTALLED_SCENES>.
+std::filesystem::path installed_folder() {
+    std::error_code failure;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", failure);
+    return failure ? std::filesystem::path{}
+                   : program.parent_path().parent_path() / SHADOWPROOF_INSTALLED_SCENES;
+}
+
+bool holds_scenes(const std::filesystem::path& folder) {
+    return !folder.empty() && std::filesystem::exists(folder / "ordinary.gltf");
+}
+
+std::string listed_names() {
+    std::string names;
+    for (const BundledScene& scene : bundled_scenes())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
+    return names;
+}
+
+} // namespace
+
+std::filesystem::path bundled_folder() {
+    if (const char* given = std::getenv("SHADOWPROOF_SCENES"); given != nullptr && *given != '\0') {
+        if (!holds_scenes(given))
+            throw Error(fmt::format("SHADOWPROOF_SCENES={}", given), "holds no bundled scenes",
+                        "name the folder with ordinary.gltf, or unset it");
+        return given;
+    }
+    for (const std::filesystem::path& folder :
+         {installed_folder(), std::filesystem::path(SHADOWPROOF_SOURCE_SCENES)})
+        if (holds_scenes(folder)) return folder;
+    throw Error("bundled scenes",
+                fmt::format("not found beside the program nor in {}", SHADOWPROOF_SOURCE_SCENES),
+                "set SHADOWPROOF_SCENES to their folder");
+}
+
+Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
+    const auto& bundled = bundled_scenes();
+    if (std::any_of(bundled.begin(), bundled.end(),
+                    [&](const BundledScene& scene) { return scene.name == name_or_path; }))
+        return load_gltf(bundled_folder() / (name_or_path + ".gltf"), request);
+    if (!std::filesystem::exists(name_or_path))
+        throw Error(name_or_path, "is neither a bundled scene nor a file",
+                    "use a path to .gltf or .glb, or one of " + listed_names());
+    return load_gltf(name_or_path, request);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,61 @@
+// Accessors (glTF 2.0, section 3.6.2): every type, normalized integers, strides and sparse
+// substitution, each byte range checked before it is read.
+#pragma once
+
+#include "scenes/gltf_file.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof::gltf {
+
+/// Values of one accessor as doubles, element by element, each finite.
+struct Elements {
+    std::size_t count = 0;
+    std::size_t components = 1; ///< 1 to 4, or 16
+    std::vector<double> values; ///< count * components
+
+    glm::dvec3 vec3(std::size_t element) const {
+        const double* v = values.data() + element * components;
+        return {v[0], v[1], v[2]};
+    }
+};
+
+/// A bit a kind of component that a reader takes.
+enum ComponentKinds : unsigned {
+    floats = 1,
+    normalized_integers = 2,
+    plain_integers = 4,
+    unsigned_integers = 8, ///< not normalized
+};
+
+/// Reads accessors of one document and keeps account of how much was read in all, so that a small
+/// file that asks for the same bytes again and again is refused.
+class AccessorReader {
+public:
+    explicit AccessorReader(const Document& document) : document_(document) {}
+
+    /// The accessor that `reference` (an index) names; `type` is one of those listed, "VEC3".
+    /// Refused at the reference: wrong type or component kind, NaN, infinity.
+    Elements read(const Item& reference, std::initializer_list<std::string_view> types,
+                  unsigned component_kinds);
+
+    /// A scalar accessor of unsigned integers, each below `end`.
+    std::vector<std::uint32_t> read_indices(const Item& reference, std::size_t end);
+
+    /// Elements an accessor has, without reading them.
+    std::size_t count(const Item& reference) const;
+
+    const Document& document() const { return document_; }
+
+private:
+    void charge(const Item& reference, std::size_t elements);
+
+    const Document& document_;
+    std::uint64_t elements_read_ = 0;
+};
+
+} // namespace shadowproof::gltf

@@ -1,0 +1,266 @@
+#include "scenes/gltf_view.h"
+
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+namespace shadowproof::gltf {
+
+namespace {
+
+struct Sphere {
+    glm::dvec3 centre{0, 0, 0};
+    double radius = 0;
+};
+
+/// Around the bounding box's centre; the radius reaches the furthest vertex.
+Sphere bounding_sphere(const Scene& scene) {
+    glm::dvec3 low = scene.positions.front();
+    glm::dvec3 high = low;
+    for (const glm::dvec3 position : scene.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    Sphere sphere{low * 0.5 + high * 0.5, 0};
+    for (const glm::dvec3 position : scene.positions)
+        sphere.radius = std::max(sphere.radius, glm::distance(sphere.centre, position));
+    if (!(sphere.radius > 0))
+        throw Error(scene.file.string(), "all vertices lie at one point, so nothing can be framed",
+                    "add a camera and a light");
+    return sphere;
+}
+
+/// Sets right, up and forward from a view direction and some up direction; nothing where they
+/// are parallel, zero or not finite.
+bool orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
+    camera.forward = glm::normalize(forward);
+    camera.right = glm::normalize(glm::cross(camera.forward, glm::normalize(up)));
+    camera.up = glm::cross(camera.right, camera.forward);
+    return std::isfinite(glm::dot(camera.up, camera.up));
+}
+
+Camera default_camera(const Scene& scene, const SceneRequest& request) {
+    const Sphere sphere = bounding_sphere(scene);
+    const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.5, 0.4, 1));
+    Camera camera;
+    camera.width = request.width;
+    camera.height = request.height;
+    camera.tan_half_height = std::tan(std::numbers::pi / 8);
+    const glm::dvec2 half = half_extent(camera);
+    const double distance = sphere.radius / std::sin(std::atan(std::min(half.x, half.y)));
+    camera.eye = sphere.centre + distance * toward_eye;
+    camera.near = (distance - sphere.radius) / 2;
+    orient(camera, -toward_eye, {0, 1, 0});
+    return camera;
+}
+
+/// A node that carries a camera or a light, with the names it answers to.
+struct Carrier {
+    std::size_t node = 0;
+    Item item; ///< the camera's or the light's own JSON
+    std::string name;
+};
+
+/// "camera 1 \"main\"" for messages and notes.
+std::string described(const char* kind, std::size_t index, const Carrier& carrier) {
+    return carrier.name.empty() ? fmt::format("{} {}", kind, index)
+                                : fmt::format("{} {} \"{}\"", kind, index, carrier.name);
+}
+
+/// The one that `wanted` names: node name, own name, or number in the order of the scene.
+std::size_t find_named(const std::string& file, const char* kind,
+                       const std::vector<Carrier>& carriers, const NodeGraph& graph,
+                       const std::string& wanted) {
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+        if (graph.nodes[carriers[i].node].name == wanted || carriers[i].name == wanted) return i;
+    std::size_t index = 0;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [parsed, failure] = std::from_chars(wanted.data(), end, index);
+    if (failure == std::errc{} && parsed == end && index < carriers.size()) return index;
+    std::string offered;
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+        offered += (i == 0 ? "" : ", ") + described(kind, i, carriers[i]);
+    throw Error(file, fmt::format("has no {} \"{}\"", kind, wanted),
+                offered.empty() ? fmt::format("there is no {} in the scene", kind)
+                                : "choose one of: " + offered);
+}
+
+std::string name_of_carrier(const Node& node, const Item& item) {
+    const std::string own = item.text_or("name", "");
+    return own.empty() ? node.name : own;
+}
+
+std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& graph) {
+    std::vector<Carrier> cameras;
+    for (const std::size_t node : graph.in_scene)
+        if (const auto reference = node_item(document, node).find("camera")) {
+            const Item item = referenced(document.root(), "cameras", *reference);
+            cameras.push_back({node, item, name_of_carrier(graph.nodes[node], item)});
+        }
+    return cameras;
+}
+
+bool is_perspective(const Item& camera) {
+    const std::string type = camera.at("type").text();
+    if (type != "perspective" && type != "orthographic")
+        camera.at("type").refuse(fmt::format("\"{}\" is no camera type", type),
+                                 "use \"perspective\"");
+    return type == "perspective";
+}
+
+Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
+                   const SceneRequest& request) {
+    if (!is_perspective(carrier.item))
+        carrier.item.refuse("is an orthographic camera, which is not evaluated",
+                            "choose or add a perspective camera");
+    const Item perspective = carrier.item.at("perspective");
+    const double yfov = perspective.at("yfov").number(); // radians
+    if (!(yfov > 0 && yfov < std::numbers::pi))
+        perspective.at("yfov").refuse(fmt::format("{} is not between 0 and pi", yfov),
+                                      "write radians");
+    Camera camera;
+    camera.width = request.width;
+    camera.height = request.height;
+    camera.tan_half_height = std::tan(yfov / 2);
+    camera.near = perspective.at("znear").number();
+    if (!(camera.near > 0))
+        perspective.at("znear").refuse(fmt::format("{} is not above 0", camera.near),
+                                       "move the near plane in front of the eye");
+    camera.far = perspective.number_or("zfar", camera.far);
+    if (!(camera.far > camera.near))
+        perspective.at("zfar").refuse(
+            fmt::format("{} is not above znear {}", camera.far, camera.near),
+            "move the far plane back, or leave it out");
+    const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
+    camera.eye = glm::dvec3(world[3]);
+    if (!orient(camera, -glm::dvec3(world[2]), glm::dvec3(world[1])))
+        node_item(document, carrier.node)
+            .refuse("has a transform that leaves its camera no direction",
+                    "use a transform without zero scale");
+    return camera;
+}
+
+std::optional<Item> light_extension(const Item& owner) {
+    const auto extensions = owner.find("extensions");
+    return extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
+}
+
+std::vector<Carrier> find_lights(const Document& document, const NodeGraph& graph) {
+    std::vector<Carrier> lights;
+    const auto offered = light_extension(document.root());
+    for (const std::size_t node : graph.in_scene)
+        if (const auto extension = light_extension(node_item(document, node))) {
+            const Item reference = extension->at("light");
+            if (!offered)
+                reference.refuse("names a light but the file's KHR_lights_punctual has none",
+                                 "add /extensions/KHR_lights_punctual/lights");
+            const Item item = referenced(*offered, "lights", reference);
+            lights.push_back({node, item, name_of_carrier(graph.nodes[node], item)});
+        }
+    return lights;
+}
+
+Light::Kind light_kind(const Item& item) {
+    const std::string type = item.at("type").text();
+    if (type == "point") return Light::Kind::point;
+    if (type == "spot") return Light::Kind::spot;
+    if (type == "directional") return Light::Kind::directional;
+    item.at("type").refuse(fmt::format("\"{}\" is no light type", type),
+                           "use \"point\", \"spot\" or \"directional\"");
+}
+
+void read_cones(const Item& item, Light& light) {
+    const auto spot = item.find("spot");
+    if (!spot) return;
+    light.inner_cone = spot->number_or("innerConeAngle", light.inner_cone);
+    light.outer_cone = spot->number_or("outerConeAngle", light.outer_cone);
+    if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone &&
+          light.outer_cone <= std::numbers::pi / 2))
+        spot->refuse(fmt::format("cone angles {} and {} do not satisfy 0 <= inner < outer <= pi/2",
+                                 light.inner_cone, light.outer_cone),
+                     "mend the angles");
+}
+
+Light read_light(const Document& document, const NodeGraph& graph, const Carrier& carrier) {
+    Light light;
+    light.name = carrier.name;
+    light.kind = light_kind(carrier.item);
+    if (const auto color = carrier.item.find("color")) light.color = color->vector();
+    light.intensity = carrier.item.number_or("intensity", 1);
+    if (light.intensity < 0)
+        carrier.item.at("intensity").refuse("is negative", "write candela, or lux");
+    if (light.kind == Light::Kind::spot) read_cones(carrier.item, light);
+    const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
+    light.position = glm::dvec3(world[3]);
+    light.direction = glm::normalize(-glm::dvec3(world[2]));
+    if (light.kind != Light::Kind::point &&
+        !std::isfinite(glm::dot(light.direction, light.direction)))
+        node_item(document, carrier.node)
+            .refuse("has a transform that leaves its light no direction",
+                    "use a transform without zero scale");
+    if (light.kind == Light::Kind::point) light.direction = {0, 0, -1}; // has no meaning
+    return light;
+}
+
+Light default_light(const Scene& scene) {
+    const Sphere sphere = bounding_sphere(scene);
+    const glm::dvec3 toward_light =
+        glm::normalize(scene.camera.up - 0.5 * scene.camera.right - 0.6 * scene.camera.forward);
+    Light light;
+    light.name = "default";
+    light.position = sphere.centre + 3 * sphere.radius * toward_light;
+    return light;
+}
+
+} // namespace
+
+Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
+                     Scene& scene) {
+    const std::vector<Carrier> cameras = find_cameras(document, graph);
+    if (request.camera)
+        return read_camera(
+            document, graph,
+            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request);
+    if (cameras.empty()) {
+        scene.notes.push_back("no camera in the file: default framing from the front, right and "
+                              "above, 45 degrees, no far plane");
+        return default_camera(scene, request);
+    }
+    const auto first = std::find_if(cameras.begin(), cameras.end(), [](const Carrier& carrier) {
+        return is_perspective(carrier.item);
+    });
+    if (first == cameras.end()) return read_camera(document, graph, cameras.front(), request);
+    if (first != cameras.begin())
+        scene.notes.push_back(fmt::format(
+            "orthographic cameras are not evaluated: {} is used",
+            described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
+    return read_camera(document, graph, *first, request);
+}
+
+void choose_light(const Document& document, const NodeGraph& graph, const SceneRequest& request,
+                  Scene& scene) {
+    const std::vector<Carrier> lights = find_lights(document, graph);
+    if (request.light)
+        scene.light = find_named(document.file, "light", lights, graph, *request.light);
+    for (const Carrier& carrier : lights)
+        scene.lights.push_back(read_light(document, graph, carrier));
+    if (lights.empty()) {
+        scene.notes.push_back("no light in the file: a point light above and to the left of the "
+                              "camera");
+        scene.lights.push_back(default_light(scene));
+    }
+    if (lights.size() > 1)
+        scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
+                                          described("light", scene.light, lights[scene.light])));
+    if (chosen_light(scene).kind == Light::Kind::spot)
+        scene.notes.push_back("the spot light's cone is not evaluated: visibility only");
+}
+
+} // namespace shadowproof::gltf
