@@ -1,0 +1,287 @@
+#include "reference/packet.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Highway compiles what follows once for each instruction set, then chooses when it runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reference/packet.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace shadowproof::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::CappedTag<float, packet_size>;
+using Ids = hn::RebindToUnsigned<Floats>;
+using Vector = hn::Vec<Floats>;
+using Mask = hn::Mask<Floats>;
+
+enum class Query : std::uint8_t { nearest, any, count };
+
+constexpr Floats floats;
+constexpr Ids ids;
+
+int step() { return static_cast<int>(hn::Lanes(floats)); }
+
+std::uint32_t bits_of(Mask mask, int first_lane) {
+    alignas(8) std::array<std::uint8_t, 8> bytes{};
+    hn::StoreMaskBits(floats, mask, bytes.data());
+    return (static_cast<std::uint32_t>(bytes[0]) | (static_cast<std::uint32_t>(bytes[1]) << 8U))
+           << static_cast<unsigned>(first_lane);
+}
+
+Vector load(const Lanes<float>& values, int i) {
+    return hn::Load(floats, values.data() + i);
+}
+
+// Does any lane's ray meet the box? The plane x = p is reached at s = p / w_x. In float that is
+// p' r with p' = p - pad, r = 1/w_x and w_x each rounded, and the product rounded: 4 roundings, so
+// entry and exit are right to within a factor 1 +- 4.01 2^-24, and signs are right. 1 + 2^-20
+// covers both, and that of `farthest`.
+bool meets_box(const RayPacket& packet, const Entry& box) {
+    const Vector grown = hn::Set(floats, 1 + 0x1p-20F);
+    const float pad = packet.pad;
+    const auto slab = [&](std::size_t axis, const Lanes<float>& reciprocal, int i, Vector& entry,
+                          Vector& exit) {
+        const Vector r = load(reciprocal, i);
+        const Vector a = hn::Mul(hn::Set(floats, box.lower[axis] - pad), r);
+        const Vector b = hn::Mul(hn::Set(floats, box.upper[axis] + pad), r);
+        entry = hn::Max(entry, hn::Min(a, b));
+        exit = hn::Min(exit, hn::Max(a, b));
+    };
+    for (int i = 0; i < packet_size; i += step()) {
+        Vector entry = hn::Zero(floats);
+        Vector exit = load(packet.farthest, i);
+        slab(0, packet.rx, i, entry, exit);
+        slab(1, packet.ry, i, entry, exit);
+        slab(2, packet.rz, i, entry, exit);
+        if (!hn::AllFalse(floats, hn::Le(entry, hn::Mul(exit, grown)))) return true;
+    }
+    return false;
+}
+
+/// What floats say of one triangle and some lanes. Neither certain: undecided.
+struct Answer {
+    Mask met;
+    Mask undecided;
+    Vector lo; ///< 1/s lies in [lo, hi]
+    Vector hi;
+};
+
+Vector dot(const RayPacket& packet, int i, const std::array<float, 3>& n) {
+    return hn::Add(hn::Add(hn::Mul(load(packet.x, i), hn::Set(floats, n[0])),
+                           hn::Mul(load(packet.y, i), hn::Set(floats, n[1]))),
+                   hn::Mul(load(packet.z, i), hn::Set(floats, n[2])));
+}
+
+/// Comparisons with NaN are false, so whatever overflows is undecided.
+Answer test(const RayPacket& packet, int i, const TriangleRecord& triangle) {
+    const Vector magnitude = load(packet.magnitude, i);
+    const Vector edge_tolerance = hn::Mul(magnitude, hn::Set(floats, triangle.edge_tolerance));
+    const Vector inner = hn::Min(hn::Min(dot(packet, i, triangle.edge[0]),
+                                         dot(packet, i, triangle.edge[1])),
+                                 dot(packet, i, triangle.edge[2]));
+    Answer answer;
+    const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(edge_tolerance)));
+    if (hn::AllFalse(floats, maybe_inside)) {
+        answer.met = answer.undecided = maybe_inside;
+        answer.lo = answer.hi = inner;
+        return answer;
+    }
+    const Vector tolerance = hn::Mul(magnitude, hn::Set(floats, triangle.inverse_tolerance));
+    const Vector inverse = dot(packet, i, triangle.inverse);
+    answer.lo = hn::Sub(inverse, tolerance);
+    answer.hi = hn::Add(inverse, tolerance);
+    const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
+    const Mask skipped = hn::RebindMask(
+        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, triangle.triangle)));
+    const Mask out = hn::Or(hn::Lt(answer.hi, load(packet.lower_lo, i)),
+                            hn::Gt(answer.lo, load(packet.upper_hi, i)));
+    const Mask candidate = hn::And(hn::AndNot(out, maybe_inside), hn::AndNot(skipped, awake));
+    answer.met = hn::And(hn::And(candidate, hn::Ge(inner, edge_tolerance)),
+                         hn::And(hn::Gt(answer.lo, load(packet.lower_hi, i)),
+                                 hn::Lt(answer.hi, load(packet.upper_lo, i))));
+    answer.undecided = hn::AndNot(answer.met, candidate);
+    return answer;
+}
+
+void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t triangle) {
+    const auto blend = [&](Lanes<float>& values, Vector value) {
+        hn::BlendedStore(value, answer.met, floats, values.data() + i);
+    };
+    blend(packet.lower_lo, answer.lo);
+    blend(packet.lower_hi, answer.hi);
+    blend(packet.farthest, hn::Mul(hn::Div(hn::Set(floats, 1), answer.lo),
+                                   hn::Set(floats, 1 + 0x1p-20F)));
+    hn::BlendedStore(hn::Set(ids, triangle), hn::RebindMask(ids, answer.met), ids,
+                     packet.hit.data() + i);
+}
+
+template <Query query>
+void meet_triangle(RayPacket& packet, const TriangleRecord& triangle, Arbiter& arbiter) {
+    for (int i = 0; i < packet_size; i += step()) {
+        const Answer answer = test(packet, i, triangle);
+        if (!hn::AllFalse(floats, answer.met)) {
+            if constexpr (query == Query::nearest) {
+                keep_nearest(packet, i, answer, triangle.triangle);
+            } else {
+                for (std::uint32_t left = bits_of(answer.met, i); left != 0; left &= left - 1) {
+                    const int lane = __builtin_ctz(left);
+                    const auto l = static_cast<std::size_t>(lane);
+                    if constexpr (query == Query::count) {
+                        ++packet.crossed[l];
+                    } else {
+                        packet.hit[l] = triangle.triangle;
+                        finish_lane(packet, lane);
+                    }
+                }
+            }
+        }
+        if (hn::AllFalse(floats, answer.undecided)) continue;
+        for (std::uint32_t left = bits_of(answer.undecided, i); left != 0; left &= left - 1)
+            arbiter.decide(packet, __builtin_ctz(left), triangle.triangle);
+    }
+}
+
+/// A node has at most 4 children and the tree at most 64 levels, and coinciding triangles make
+/// leaves of at most 4 clusters.
+constexpr std::size_t stack_size = 4 * 66;
+
+template <Query query>
+void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    const std::vector<Entry>& entries = records.view().entries;
+    std::array<std::uint32_t, stack_size> stack; // NOLINT: filled as it is used
+    stack[0] = 0;
+    for (std::size_t size = 1; size > 0 && packet.active != 0;) {
+        const Entry& entry = entries[stack[--size]];
+        if (!meets_box(packet, entry)) continue;
+        // Nearest first, so pushed last.
+        for (std::uint32_t i = entry.count; i > 0; --i) stack[size++] = entry.first + i - 1;
+        if (entry.count > 0) continue;
+        const ClusterRecord& cluster = records.of(entry.first);
+        for (std::uint32_t i = 0; i < cluster.count; ++i)
+            meet_triangle<query>(packet, cluster.triangles[i], arbiter);
+    }
+}
+
+void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    traverse<Query::nearest>(packet, records, arbiter);
+}
+void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    traverse<Query::any>(packet, records, arbiter);
+}
+void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    traverse<Query::count>(packet, records, arbiter);
+}
+
+} // namespace
+} // namespace shadowproof::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shadowproof {
+
+namespace {
+HWY_EXPORT(find_nearest);
+HWY_EXPORT(find_any);
+HWY_EXPORT(count_all);
+} // namespace
+
+void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    HWY_DYNAMIC_DISPATCH(find_nearest)(packet, records, arbiter);
+}
+void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    HWY_DYNAMIC_DISPATCH(find_any)(packet, records, arbiter);
+}
+void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    HWY_DYNAMIC_DISPATCH(count_all)(packet, records, arbiter);
+}
+
+RayPacket empty_packet() {
+    RayPacket packet;
+    packet.farthest.fill(-1);
+    packet.rx.fill(1);
+    packet.ry.fill(1);
+    packet.rz.fill(1);
+    packet.hit.fill(no_triangle);
+    packet.skip.fill(no_triangle);
+    return packet;
+}
+
+namespace {
+
+/// Slower than any distance in scaled coordinates is long; see set_lane.
+constexpr float nearly_still = 0x1p-31F;
+constexpr float reciprocal_of_still = 0x1p100F;
+
+float reciprocal(float w) { return w == 0 ? reciprocal_of_still : 1 / w; }
+
+/// Beyond this 1/s no box needs to be looked into.
+float farthest_at(float lower_lo) {
+    return lower_lo > 0 ? 1 / lower_lo * (1 + 0x1p-20F) : std::numeric_limits<float>::infinity();
+}
+
+} // namespace
+
+// The float ray must meet every box, enlarged by pad, that the exact ray meets. A hit lies within
+// the scene, so s |w| <= 1 there (scaled coordinates). Each component of w is off by a relative
+// 2^-24, which meets_box allows for, and by w.error: s w.error <= w.error / |w| of pad. Components
+// below 2^-31 |w| are made +0: another 2^-31 of pad, which leaves 2^-31 of the 2^-30 given so that
+// a box that is really met holds the plane through the origin with room to spare, and
+// 2^100 * 2^-31 is beyond every s. A second w.error covers |w| itself being off.
+void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
+              std::uint32_t skip) {
+    const auto l = static_cast<std::size_t>(lane);
+    const double size =
+        std::max({std::abs(w.direction.x), std::abs(w.direction.y), std::abs(w.direction.z)});
+    // Where nothing is known of the direction, any will do: all boxes are met (they are at most 1
+    // away, so a pad of 4 holds the ray's start) and every triangle is decided exactly.
+    const bool unknown = !(size > 0x1p-100) || !(w.error < size);
+    const glm::dvec3 direction = unknown ? glm::dvec3(1, 1, 1) : w.direction;
+    // Powers of two only: 1 <= |w| < 2 afterwards.
+    const double shrink = unknown ? 1 : std::exp2(-std::ilogb(size));
+    const auto component = [&](double value) {
+        return std::abs(value) < nearly_still * size ? 0.0F : static_cast<float>(value * shrink);
+    };
+    packet.x[l] = component(direction.x);
+    packet.y[l] = component(direction.y);
+    packet.z[l] = component(direction.z);
+    packet.rx[l] = reciprocal(packet.x[l]);
+    packet.ry[l] = reciprocal(packet.y[l]);
+    packet.rz[l] = reciprocal(packet.z[l]);
+    packet.magnitude[l] =
+        unknown || w.error > 0x1p-25 * size
+            ? std::numeric_limits<float>::infinity()
+            : std::max({std::abs(packet.x[l]), std::abs(packet.y[l]), std::abs(packet.z[l])});
+    const double pad = unknown ? 4 : 0x1p-30 + 2 * w.error / size;
+    packet.pad = std::max(packet.pad, static_cast<float>(pad));
+    // 1/s shrinks as w does.
+    packet.unit[l] = static_cast<float>(shrink);
+    packet.lower_lo[l] = limits.lower_lo * packet.unit[l];
+    packet.lower_hi[l] = limits.lower_hi * packet.unit[l];
+    packet.upper_lo[l] = limits.upper_lo * packet.unit[l];
+    packet.upper_hi[l] = limits.upper_hi * packet.unit[l];
+    packet.farthest[l] = farthest_at(packet.lower_lo[l]);
+    packet.skip[l] = skip;
+    packet.hit[l] = no_triangle;
+    packet.crossed[l] = 0;
+    packet.active |= 1U << static_cast<unsigned>(lane);
+}
+
+void finish_lane(RayPacket& packet, int lane) {
+    packet.farthest[static_cast<std::size_t>(lane)] = -1;
+    packet.active &= ~(1U << static_cast<unsigned>(lane));
+}
+
+void raise_lower_limit(RayPacket& packet, int lane, float lo, float hi) {
+    const auto l = static_cast<std::size_t>(lane);
+    packet.lower_lo[l] = lo * packet.unit[l];
+    packet.lower_hi[l] = hi * packet.unit[l];
+    packet.farthest[l] = farthest_at(packet.lower_lo[l]);
+}
+
+} // namespace shadowproof
+#endif

@@ -1,0 +1,78 @@
+// Sixteen rays from one origin through the hierarchy, in float with bounds: what a float cannot
+// decide is handed out, lane by lane, to be decided exactly. Runs with the widest vectors that the
+// processor has; the answer is the same with any.
+#pragma once
+
+#include "reference/records.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace shadowproof {
+
+inline constexpr int packet_size = 16;
+
+template <class T>
+using Lanes = std::array<T, packet_size>;
+
+/// A ray's direction as the exact one, w, is approximated: |w - direction| <= error a component.
+struct ApproximateDirection {
+    glm::dvec3 direction{0, 0, 0};
+    double error = 0;
+};
+
+/// Rays are O + s w, O the view's origin, coordinates scaled as the view's. A hit must have
+/// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi].
+struct RayPacket {
+    alignas(64) Lanes<float> x{}, y{}, z{};    ///< w
+    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w
+    alignas(64) Lanes<float> magnitude{};      ///< |w|, at least 0.5; infinite: decide nothing
+    alignas(64) Lanes<float> unit{};           ///< w over the direction given: a power of two
+    alignas(64) Lanes<float> lower_lo{}, lower_hi{};
+    alignas(64) Lanes<float> upper_lo{}, upper_hi{};
+    alignas(64) Lanes<float> farthest{};       ///< boxes beyond are passed by; -1: lane is done
+    alignas(64) Lanes<std::uint32_t> skip{};   ///< a triangle that is not met, or no_triangle
+    alignas(64) Lanes<std::uint32_t> hit{};    ///< nearest or any, or no_triangle
+    alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
+    float pad = 0;            ///< by which boxes are enlarged
+    std::uint32_t active = 0; ///< a bit a lane that still looks
+};
+
+/// A packet without rays.
+RayPacket empty_packet();
+
+/// Sets a lane's ray and wakes it. `limits`: 1/s in units of the direction as given.
+struct Limits {
+    float lower_lo = 0, lower_hi = 0;
+    float upper_lo = std::numeric_limits<float>::infinity();
+    float upper_hi = std::numeric_limits<float>::infinity();
+};
+void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
+              std::uint32_t skip);
+
+/// Lane's ray needs to look no further.
+void finish_lane(RayPacket& packet, int lane);
+
+/// Hits with 1/s below this, in units of the direction given, are no longer looked for.
+void raise_lower_limit(RayPacket& packet, int lane, float lo, float hi);
+
+/// Decides what floats could not: whether lane's ray meets the triangle within its limits, and
+/// what follows from it (packet.hit and limits, finish_lane, or packet.crossed).
+class Arbiter {
+public:
+    Arbiter() = default;
+    Arbiter(const Arbiter&) = delete;
+    Arbiter& operator=(const Arbiter&) = delete;
+    virtual ~Arbiter() = default;
+    virtual void decide(RayPacket& packet, int lane, std::uint32_t triangle) = 0;
+};
+
+/// packet.hit: the triangle with the largest 1/s.
+void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
+/// packet.hit: some triangle; the lane is then done.
+void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
+/// packet.crossed: how many triangles.
+void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
+
+} // namespace shadowproof

@@ -1,0 +1,193 @@
+#include "reference/predicates.h"
+
+#include "reference/bounded.h"
+#include "reference/exact.h"
+
+#include <array>
+#include <cstddef>
+
+namespace shadowproof {
+
+namespace {
+
+template <class Arithmetic>
+using Number = typename Arithmetic::Number;
+
+template <class Arithmetic>
+struct Vector {
+    Number<Arithmetic> x, y, z;
+};
+
+template <class A>
+Vector<A> vector(const A& arithmetic, const glm::dvec3& v) {
+    return {arithmetic.number(v.x), arithmetic.number(v.y), arithmetic.number(v.z)};
+}
+
+template <class A>
+Vector<A> difference(const A& arithmetic, const glm::dvec3& v, const glm::dvec3& w) {
+    return {arithmetic.difference(v.x, w.x), arithmetic.difference(v.y, w.y),
+            arithmetic.difference(v.z, w.z)};
+}
+
+template <class A>
+Vector<A> cross(const Vector<A>& v, const Vector<A>& w) {
+    return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x};
+}
+
+template <class A>
+Number<A> dot(const Vector<A>& v, const Vector<A>& w) {
+    return v.x * w.x + v.y * w.y + v.z * w.z;
+}
+
+template <class A>
+Vector<A> normal(const A& arithmetic, const Corners& t) {
+    return cross<A>(difference(arithmetic, t.b, t.a), difference(arithmetic, t.c, t.a));
+}
+
+/// (a - o) x (b - o), written with the edge b - a because that is short where o is far away.
+template <class A>
+Vector<A> edge_plane(const A& arithmetic, const glm::dvec3& o, const glm::dvec3& a,
+                     const glm::dvec3& b) {
+    return cross<A>(difference(arithmetic, a, o), difference(arithmetic, b, a));
+}
+
+/// A quotient kept apart: Q = E + (numerator / denominator) D.
+template <class A>
+struct Quotient {
+    Number<A> numerator, denominator;
+};
+
+/// Where the eye ray meets T's plane: t = (a - E) . N / (D . N).
+template <class A>
+Quotient<A> plane_depth(const A& arithmetic, const EyeRay& ray, const Corners& t) {
+    const Vector<A> n = normal(arithmetic, t);
+    return {dot<A>(difference(arithmetic, t.a, ray.eye), n),
+            dot<A>(vector(arithmetic, ray.direction), n)};
+}
+
+/// (n, d) of a point: a depth is n / 1, infinity 1 / 0. A surface's denominator may be negative.
+template <class A>
+Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) {
+    switch (q.kind) {
+    case RayPoint::Kind::surface:
+        return plane_depth(arithmetic, ray, q.surface);
+    case RayPoint::Kind::depth:
+        return {arithmetic.number(q.depth), arithmetic.number(1)};
+    case RayPoint::Kind::infinity:
+        break;
+    }
+    return {arithmetic.number(1), arithmetic.number(0)};
+}
+
+std::optional<int> sign_of(const Bounded& number) { return number.sign(); }
+int sign_of(const Expansion& number) { return number.sign(); }
+int sign_of(const RationalArithmetic::Number& number) { return number.sign(); }
+
+/// Room for an ordinary degree-6 sign; larger ones go on in the heap.
+constexpr std::size_t arena_bytes = std::size_t{1} << 16;
+
+/// `formula(arithmetic)` returns the number, or the product of numbers as a sign, that is asked
+/// for; it is written once and evaluated with as much precision as it takes.
+template <class Formula>
+Decision decide(bool rationals, const Formula& formula) {
+    if (const std::optional<int> sign = formula(BoundedArithmetic{}))
+        return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
+    int sign = 0;
+    if (rationals) {
+        sign = *formula(RationalArithmetic{});
+    } else {
+        alignas(std::max_align_t) std::array<std::byte, arena_bytes> buffer;
+        std::pmr::monotonic_buffer_resource arena(buffer.data(), buffer.size());
+        sign = *formula(ExpansionArithmetic{&arena});
+    }
+    return {sign, sign == 0 ? Exactness::degenerate : Exactness::exact};
+}
+
+/// Sign of value / denominator's sign, where both are certain.
+template <class N>
+std::optional<int> with_sign_of(const N& value, const N& denominator) {
+    const std::optional<int> v = sign_of(value);
+    const std::optional<int> d = sign_of(denominator);
+    if (!v || !d) return std::nullopt;
+    return *v * (*d < 0 ? -1 : 1);
+}
+
+/// Sign of (E - origin + (n / d) D) . plane, the plane's normal given: d (E - origin) . plane +
+/// n D . plane, with d made positive.
+template <class A>
+std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const RayPoint& q,
+                                 const glm::dvec3& origin, const Vector<A>& plane) {
+    const Number<A> along = dot<A>(vector(arithmetic, ray.direction), plane);
+    if (q.kind == RayPoint::Kind::infinity) return sign_of(along);
+    const Number<A> base = dot<A>(difference(arithmetic, ray.eye, origin), plane);
+    const Quotient<A> t = position(arithmetic, ray, q);
+    return with_sign_of(t.denominator * base + t.numerator * along, t.denominator);
+}
+
+} // namespace
+
+Decision Predicates::side(const glm::dvec3& o, const Corners& t) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(difference(arithmetic, t.a, o), normal(arithmetic, t)));
+    });
+}
+
+Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(vector(arithmetic, ray.direction),
+                              edge_plane(arithmetic, ray.eye, a, b)));
+    });
+}
+
+Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corners& u) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Quotient<A> p = plane_depth(arithmetic, ray, t);
+        const Quotient<A> q = plane_depth(arithmetic, ray, u);
+        const std::optional<int> order = with_sign_of(
+            p.numerator * q.denominator - q.numerator * p.denominator, p.denominator);
+        const std::optional<int> d = sign_of(q.denominator);
+        if (!order || !d) return std::nullopt;
+        return *order * (*d < 0 ? -1 : 1);
+    });
+}
+
+Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double depth) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Quotient<A> p = plane_depth(arithmetic, ray, t);
+        return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator,
+                            p.denominator);
+    });
+}
+
+Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
+                                 const glm::dvec3& b) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return point_against<A>(arithmetic, ray, q, ray.light,
+                                edge_plane(arithmetic, ray.light, a, b));
+    });
+}
+
+Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q,
+                                        const glm::dvec3& a, const glm::dvec3& b) const {
+    const Decision tied = shadow_edge(ray, q, a, b);
+    if (tied.sign != 0) return tied;
+    // Not all three are zero: then light, a and b would be collinear, and the light would lie in
+    // the plane of the triangle, which takes no part.
+    for (const int axis : {0, 1, 2}) {
+        const Decision moved =
+            decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+                const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
+                return sign_of(axis == 0 ? plane.x : (axis == 1 ? plane.y : plane.z));
+            });
+        if (moved.sign != 0) return {moved.sign, Exactness::degenerate};
+    }
+    return tied;
+}
+
+Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
+    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
+    });
+}
+
+} // namespace shadowproof

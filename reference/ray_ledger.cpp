@@ -1,0 +1,192 @@
+#include "reference/ledger.h"
+#include "reference/state.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+/// A linear function of space and the interval that its values must meet.
+struct Slab {
+    glm::dvec3 gradient{0, 0, 0};
+    double lower = 0; ///< of gradient . (X - L)
+    double upper = 0;
+};
+
+double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+double largest(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// All points between an eye ray and the light: X - L = p e + q D with e = E - L, 0 <= p <= 1 and
+/// 0 <= q. With m = e x D, m . (X - L) = 0, (D x m) . (X - L) = p m.m, (m x e) . (X - L) = q m.m.
+/// Rays next to D by `radius` move X by at most q radius a component.
+std::array<Slab, 3> swept_region(const glm::dvec3& e, const glm::dvec3& direction, double reach,
+                                 double radius) {
+    const glm::dvec3 m = glm::cross(e, direction);
+    const double mm = glm::dot(m, m);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    // q |D| <= |X - L| + |e|. Rounding is far below 2^-40 of the terms' sizes.
+    const double farthest = (reach + largest(e)) / largest(direction);
+    const auto margin = [&](const glm::dvec3& gradient) {
+        return sum_of(gradient) * (farthest * radius + 0x1p-40 * (reach + largest(e)));
+    };
+    const glm::dvec3 along_e = glm::cross(direction, m);
+    const glm::dvec3 along_d = glm::cross(m, e);
+    return {Slab{m, -margin(m), margin(m)},
+            Slab{along_e, -margin(along_e), mm + margin(along_e)},
+            Slab{along_d, -margin(along_d), infinity}};
+}
+
+bool may_meet(const Entry& entry, const glm::dvec3& light, const std::array<Slab, 3>& region) {
+    const glm::dvec3 lower(entry.lower[0], entry.lower[1], entry.lower[2]);
+    const glm::dvec3 upper(entry.upper[0], entry.upper[1], entry.upper[2]);
+    const glm::dvec3 centre = 0.5 * (lower + upper) - light;
+    const glm::dvec3 half = 0.5 * (upper - lower);
+    return std::all_of(region.begin(), region.end(), [&](const Slab& slab) {
+        const double middle = glm::dot(slab.gradient, centre);
+        const double extent = glm::dot(glm::abs(slab.gradient), half);
+        return middle - extent <= slab.upper && middle + extent >= slab.lower;
+    });
+}
+
+/// The stretch of an eye ray that lies in one triangle's shadow volume, which is convex.
+struct Stretch {
+    double begin = -std::numeric_limits<double>::infinity();
+    double end = std::numeric_limits<double>::infinity();
+    bool begins_at_cap = false;
+    bool ends_at_cap = false;
+
+    /// Keeps what has constant + t slope >= 0.
+    void cut(double constant, double slope, bool cap) {
+        if (slope == 0) {
+            if (constant < 0) end = begin;
+            return;
+        }
+        const double t = -constant / slope;
+        if (slope > 0 && t > begin) {
+            begin = t;
+            begins_at_cap = cap;
+        } else if (slope < 0 && t < end) {
+            end = t;
+            ends_at_cap = cap;
+        }
+    }
+};
+
+bool before(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+/// Both triangles at an edge must find the same bits, so the edge is always taken one way.
+glm::dvec3 side_plane(const glm::dvec3& light, const glm::dvec3& a, const glm::dvec3& b) {
+    if (before(b, a)) return -side_plane(light, b, a);
+    return glm::cross(a - light, b - a);
+}
+
+Stretch stretch_in_volume(const Tracer::State& state, const Corners& t,
+                          const glm::dvec3& direction) {
+    Stretch stretch;
+    // The light sees the front: from it a, c, b is the positive order.
+    const std::array<std::pair<const glm::dvec3*, const glm::dvec3*>, 3> edges{
+        {{&t.a, &t.c}, {&t.c, &t.b}, {&t.b, &t.a}}};
+    for (const auto& [from, to] : edges) {
+        const glm::dvec3 plane = side_plane(state.light, *from, *to);
+        stretch.cut(glm::dot(state.eye - state.light, plane), glm::dot(direction, plane), false);
+    }
+    const glm::dvec3 away = glm::cross(t.c - t.a, t.b - t.a);
+    stretch.cut(glm::dot(state.eye - t.a, away), glm::dot(direction, away), true);
+    return stretch;
+}
+
+/// Adds up sides at one depth; what remains is a side of the union with multiplicity.
+std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
+    std::sort(events.begin(), events.end(), [](const Crossing& a, const Crossing& b) {
+        if (a.depth != b.depth) return a.depth < b.depth;
+        if (a.kind != b.kind) return a.kind < b.kind;
+        if (a.change != b.change) return a.change < b.change;
+        return a.triangle < b.triangle;
+    });
+    std::vector<Crossing> kept;
+    for (std::size_t i = 0; i < events.size();) {
+        std::size_t end = i;
+        int sides = 0;
+        for (; end < events.size() && events[end].depth == events[i].depth; ++end) {
+            if (events[end].kind == Crossing::Kind::light_cap)
+                kept.push_back(events[end]);
+            else
+                sides += events[end].change;
+        }
+        const int change = sides > 0 ? 1 : -1;
+        for (std::size_t k = i; k < end && sides != 0; ++k) {
+            if (events[k].kind != Crossing::Kind::side || events[k].change != change) continue;
+            kept.push_back(events[k]);
+            sides -= change;
+        }
+        i = end;
+    }
+    return kept;
+}
+
+} // namespace
+
+NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, double radius) {
+    const Tracer::State& state = tracer.state();
+    const std::array<Slab, 3> region = swept_region(state.eye - state.light, direction,
+                                                    1 / state.from_light.scale, radius);
+    NearbyVolumes volumes;
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+        const Entry& entry = state.hierarchy.entries[stack.back()];
+        stack.pop_back();
+        if (!may_meet(entry, state.light, region)) continue;
+        for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
+        if (entry.count > 0) continue;
+        const Cluster& cluster = state.hierarchy.clusters[entry.first];
+        for (std::uint32_t i = 0; i < cluster.count; ++i)
+            if (state.from_light.side[cluster.triangles[i]] < 0)
+                volumes.triangles.push_back(cluster.triangles[i]);
+    }
+    std::sort(volumes.triangles.begin(), volumes.triangles.end());
+    return volumes;
+}
+
+RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
+                     const glm::dvec3& direction) {
+    const Tracer::State& state = tracer.state();
+    RayLedger ledger;
+    std::vector<Crossing> events;
+    for (const std::uint32_t triangle : volumes.triangles) {
+        const Stretch stretch =
+            stretch_in_volume(state, corners(*state.scene, triangle), direction);
+        if (!(stretch.begin < stretch.end) || stretch.end <= 0) continue;
+        const auto event = [&](double depth, int change, bool cap) {
+            events.push_back({depth, change,
+                              cap ? Crossing::Kind::light_cap : Crossing::Kind::side, triangle});
+        };
+        if (stretch.begin < 0)
+            ++ledger.at_eye;
+        else
+            event(stretch.begin, 1, stretch.begins_at_cap);
+        if (std::isinf(stretch.end))
+            ++ledger.at_infinity;
+        else
+            event(stretch.end, -1, stretch.ends_at_cap);
+    }
+    ledger.crossings = cancel_shared_sides(std::move(events));
+    return ledger;
+}
+
+RayLedger ray_ledger(const Tracer& tracer, const glm::dvec3& direction) {
+    return ray_ledger(tracer, volumes_near(tracer, direction, 0), direction);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,155 @@
+#include "reference/trace.h"
+
+#include "reference/exact.h"
+#include "reference/tiles.h"
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <initializer_list>
+
+namespace shadowproof {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void check(const Scene& scene) {
+    const std::string where = scene.file.empty() ? scene.name : scene.file.string();
+    if (scene.triangles.empty())
+        throw Error(where, "has no triangles", "give it a mesh with triangles");
+    if (chosen_light(scene).kind == Light::Kind::directional)
+        throw Error(where,
+                    "light '" + chosen_light(scene).name +
+                        "' is directional, and only point lights (and spots, as points) are "
+                        "decided",
+                    "choose another light with --light, or put a point light into the file");
+}
+
+bool beyond_expansions(double x) {
+    const double size = std::abs(x);
+    return size != 0 && !(size >= expansion_smallest && size <= expansion_largest);
+}
+
+/// Whether exact signs need rationals (exact.h). Ray directions are sums of the camera's axes:
+/// their smallest non-zero component is bounded by rounding, not by the axes, so is left to the
+/// predicates' range with room: 2^-53 of the largest is above 1e-17.
+bool needs_rationals(const Scene& scene) {
+    const auto beyond = [](const auto& v) {
+        return beyond_expansions(v.x) || beyond_expansions(v.y) || beyond_expansions(v.z);
+    };
+    return beyond(scene.camera.eye) || beyond(chosen_light(scene).position) ||
+           beyond_expansions(scene.camera.near) ||
+           (std::isfinite(scene.camera.far) && beyond_expansions(scene.camera.far)) ||
+           std::any_of(scene.positions.begin(), scene.positions.end(), beyond);
+}
+
+} // namespace
+
+Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>()) {
+    check(scene);
+    const Clock::time_point start = Clock::now();
+    State& state = *state_;
+    state.scene = &scene;
+    state.threads = thread_count(threads);
+    state.predicates = Predicates(needs_rationals(scene));
+    state.hierarchy = build_hierarchy(scene, state.threads);
+    state.double_sided = double_sided_triangles(scene);
+    state.eye = scene.camera.eye;
+    state.light = chosen_light(scene).position;
+    state.from_eye =
+        view_from(state.eye, scene, state.hierarchy, state.predicates, state.threads);
+    state.from_light =
+        view_from(state.light, scene, state.hierarchy, state.predicates, state.threads);
+    state.build_milliseconds = milliseconds_since(start);
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+const Scene& Tracer::scene() const { return *state_->scene; }
+int Tracer::threads() const { return state_->threads; }
+
+namespace {
+
+Visibility visibility_of(const Seen& seen, const Lighting& lighting) {
+    if (seen.triangle == no_triangle) return Visibility::background;
+    return lighting.lit ? Visibility::lit : Visibility::shadowed;
+}
+
+void count_classes(const GroundTruth& truth, TraceStatistics& statistics) {
+    for (const Visibility visibility : truth.visibility.pixels) {
+        statistics.lit += visibility == Visibility::lit;
+        statistics.shadowed += visibility == Visibility::shadowed;
+        statistics.background += visibility == Visibility::background;
+    }
+    statistics.degenerate = static_cast<std::uint64_t>(
+        std::count(truth.exactness.pixels.begin(), truth.exactness.pixels.end(),
+                   Exactness::degenerate));
+}
+
+} // namespace
+
+GroundTruth trace(const Tracer& tracer) {
+    const Tracer::State& state = tracer.state();
+    const Camera& camera = state.scene->camera;
+    const Clock::time_point start = Clock::now();
+    GroundTruth truth;
+    truth.visibility = Image<Visibility>(camera.width, camera.height);
+    truth.triangle = Image<std::uint32_t>(camera.width, camera.height, no_triangle);
+    truth.depth = Image<double>(camera.width, camera.height);
+    truth.exactness = Image<Exactness>(camera.width, camera.height);
+
+    const auto probers = for_tiles(state, [&](Prober& prober, const Tile& tile) {
+        Lanes<Seen> seen;
+        Lanes<Lighting> lighting;
+        prober.see(tile.directions, tile.lanes, seen);
+        prober.light(tile.directions, tile.lanes, seen, lighting);
+        for (std::size_t lane = 0; lane < packet_size; ++lane) {
+            if ((tile.lanes >> lane & 1U) == 0) continue;
+            const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
+            truth.visibility.pixels[pixel] = visibility_of(seen[lane], lighting[lane]);
+            truth.triangle.pixels[pixel] = seen[lane].triangle;
+            truth.depth.pixels[pixel] = seen[lane].depth;
+            truth.exactness.pixels[pixel] =
+                std::max(seen[lane].exactness, lighting[lane].exactness);
+        }
+    });
+
+    TraceStatistics& statistics = truth.statistics;
+    for (const auto& prober : probers) {
+        statistics.rays += prober->rays();
+        statistics.exact_decisions += prober->exact_decisions();
+    }
+    statistics.milliseconds = milliseconds_since(start);
+    statistics.build_milliseconds = state.build_milliseconds;
+    count_classes(truth, statistics);
+    return truth;
+}
+
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
+    Prober prober(tracer.state());
+    Lanes<glm::dvec3> directions{};
+    directions[0] = direction;
+    Lanes<Seen> seen;
+    Lanes<Lighting> lighting;
+    prober.see(directions, 1, seen);
+    prober.light(directions, 1, seen, lighting);
+    RayTruth truth;
+    truth.visibility = visibility_of(seen[0], lighting[0]);
+    truth.triangle = seen[0].triangle;
+    truth.depth = seen[0].depth;
+    truth.occluder = lighting[0].occluder;
+    truth.faces_light =
+        truth.triangle != no_triangle && tracer.state().faces_light(truth.triangle);
+    truth.exactness = std::max(seen[0].exactness, lighting[0].exactness);
+    return truth;
+}
+
+} // namespace shadowproof

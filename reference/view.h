@@ -1,0 +1,36 @@
+// The scene as seen from one point, the common origin of all rays of a query: the eye, or the light
+// (shadow rays run from the light to the surface). Relative to its origin a box or a plane is met
+// at a distance that is a mere product, so rounding errors stay relative and bounds stay tight.
+#pragma once
+
+#include "reference/embree.h"
+#include "reference/predicates.h"
+#include "scenes/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace shadowproof {
+
+Corners corners(const Scene& scene, std::uint32_t triangle);
+
+struct OriginView {
+    const Scene* scene = nullptr;
+    const Hierarchy* hierarchy = nullptr;
+    glm::dvec3 origin{0, 0, 0};
+    /// A power of two: relative coordinates times scale lie within [-1, 1].
+    double scale = 1;
+    /// Hierarchy::entries relative to the origin, scaled and rounded outwards; children sorted by
+    /// their distance, nearest first.
+    std::vector<Entry> entries;
+    /// Per triangle the sign of det(a - O, b - O, c - O): -1 where the origin sees its front,
+    /// 1 its back, 0 where it lies in the triangle's plane (or the triangle has no area). Exact.
+    std::vector<std::int8_t> side;
+};
+
+OriginView view_from(const glm::dvec3& origin, const Scene& scene, const Hierarchy& hierarchy,
+                     const Predicates& predicates, int threads);
+
+} // namespace shadowproof

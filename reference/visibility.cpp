@@ -1,0 +1,348 @@
+#include "reference/visibility.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double u = 0x1p-53;
+
+double largest(const glm::dvec3& w) {
+    return std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
+}
+
+float below(double x) {
+    return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float above(double x) {
+    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+/// Collects the signs of one question about one triangle. "Out" outweighs a tie, and a tie that
+/// does not decide anything is not one.
+class Signs {
+public:
+    /// False once the answer is no.
+    bool at_least_zero(const Decision& decision, int orientation) {
+        return take(decision, decision.sign * orientation >= 0);
+    }
+    bool above_zero(const Decision& decision, int orientation) {
+        return take(decision, decision.sign * orientation > 0);
+    }
+    std::uint64_t exact_decisions() const { return exact_; }
+    Exactness exactness() const { return exactness_; }
+
+private:
+    Exactness exactness_ = Exactness::filtered;
+    std::uint64_t exact_ = 0;
+
+    bool take(const Decision& decision, bool holds) {
+        if (decision.exactness != Exactness::filtered) ++exact_;
+        exactness_ = std::max(exactness_, decision.exactness);
+        return holds;
+    }
+};
+
+/// What all arbiters know of their rays.
+struct Question {
+    const Tracer::State* state = nullptr;
+    const Lanes<glm::dvec3>* directions = nullptr;
+    std::uint64_t exact_decisions = 0;
+
+    EyeRay ray(int lane) const {
+        return {state->eye, (*directions)[static_cast<std::size_t>(lane)], state->light};
+    }
+    Corners triangle(std::uint32_t index) const { return corners(*state->scene, index); }
+};
+
+class NearestArbiter final : public Arbiter {
+public:
+    NearestArbiter(Question& question, Lanes<Seen>& seen) : question_(question), seen_(seen) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
+        Signs signs;
+        const bool nearer = is_nearer(packet, lane, triangle, signs);
+        question_.exact_decisions += signs.exact_decisions();
+        Seen& seen = seen_[static_cast<std::size_t>(lane)];
+        // A miss decided exactly says so too; but a tie counts only where the triangle is met.
+        seen.exactness =
+            std::max(seen.exactness, met_ ? signs.exactness()
+                                          : std::min(signs.exactness(), Exactness::exact));
+        if (!nearer) return;
+        packet.hit[static_cast<std::size_t>(lane)] = triangle;
+        // Depth in double, widened to certain floats.
+        const EyeRay ray = question_.ray(lane);
+        const Corners t = question_.triangle(triangle);
+        raise_to_depth(packet, lane, ray, t);
+    }
+
+private:
+    Question& question_;
+    Lanes<Seen>& seen_;
+    bool met_ = false; ///< the last triangle asked about is met within [near, far]
+
+    bool is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle, Signs& signs) {
+        const Tracer::State& state = *question_.state;
+        const EyeRay ray = question_.ray(lane);
+        const Corners t = question_.triangle(triangle);
+        const int orientation = state.from_eye.side[triangle];
+        const Predicates& predicates = state.predicates;
+        // The edges' planes of an oriented triangle add up to its normal, so that no ray away from
+        // it has all three signs right.
+        met_ = signs.at_least_zero(predicates.edge(ray, t.a, t.b), orientation) &&
+               signs.at_least_zero(predicates.edge(ray, t.b, t.c), orientation) &&
+               signs.at_least_zero(predicates.edge(ray, t.c, t.a), orientation) &&
+               within_planes(ray, t, signs);
+        if (!met_) return false;
+        const std::uint32_t best = packet.hit[static_cast<std::size_t>(lane)];
+        if (best == no_triangle) return true;
+        const Decision order = predicates.depth_order(ray, t, question_.triangle(best));
+        signs.at_least_zero(order, 1);
+        return order.sign < 0 || (order.sign == 0 && triangle < best);
+    }
+
+    bool within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const {
+        const Camera& camera = question_.state->scene->camera;
+        const Predicates& predicates = question_.state->predicates;
+        return signs.at_least_zero(predicates.depth_against(ray, t, camera.near), 1) &&
+               (std::isinf(camera.far) ||
+                signs.at_least_zero(predicates.depth_against(ray, t, camera.far), -1));
+    }
+
+    void raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray, const Corners& t) const {
+        const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+        const double l = std::max(largest(t.b - t.a), largest(t.c - t.a));
+        const glm::dvec3 to_plane = t.a - ray.eye;
+        // As in view.cpp: 8 u l^2 a component, 50 u m l^2 for the dot product.
+        const double numerator = glm::dot(to_plane, normal);
+        const double numerator_error = 50 * u * largest(to_plane) * l * l;
+        const double denominator = glm::dot(ray.direction, normal);
+        const double denominator_error = 50 * u * largest(ray.direction) * l * l;
+        const double scale = question_.state->from_eye.scale;
+        if (!(std::abs(numerator) > 4 * numerator_error)) return; // the old limits stay valid
+        // 1/s = denominator / (numerator scale), both off by their errors.
+        const double inverse = denominator / (numerator * scale);
+        const double error = std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) +
+                                                  4 * u) +
+                             1.5 * denominator_error / std::abs(numerator * scale);
+        raise_lower_limit(packet, lane, std::max(below(inverse - error), 0.0F),
+                          above(inverse + error));
+    }
+};
+
+class AnyArbiter final : public Arbiter {
+public:
+    AnyArbiter(Question& question, const Lanes<RayPoint>& points, Lanes<Lighting>& lighting)
+        : question_(question), points_(points), lighting_(lighting) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
+        const auto l = static_cast<std::size_t>(lane);
+        Signs signs;
+        const bool blocked = is_between(question_.ray(lane), points_[l], triangle, signs);
+        question_.exact_decisions += signs.exact_decisions();
+        lighting_[l].exactness = std::max(
+            lighting_[l].exactness,
+            touched_ ? signs.exactness() : std::min(signs.exactness(), Exactness::exact));
+        if (!blocked) return;
+        packet.hit[l] = triangle;
+        finish_lane(packet, lane);
+    }
+
+private:
+    Question& question_;
+    const Lanes<RayPoint>& points_;
+    Lanes<Lighting>& lighting_;
+    bool touched_ = false; ///< no sign spoke strictly against it
+
+    bool is_between(const EyeRay& ray, const RayPoint& q, std::uint32_t triangle, Signs& signs) {
+        const Predicates& predicates = question_.state->predicates;
+        const Corners t = question_.triangle(triangle);
+        const int orientation = question_.state->from_light.side[triangle];
+        const Decision beyond = predicates.side_of_point(ray, q, t);
+        touched_ = signs.at_least_zero(beyond, orientation) &&
+                   signs.at_least_zero(predicates.shadow_edge(ray, q, t.a, t.b), orientation) &&
+                   signs.at_least_zero(predicates.shadow_edge(ray, q, t.b, t.c), orientation) &&
+                   signs.at_least_zero(predicates.shadow_edge(ray, q, t.c, t.a), orientation);
+        return touched_ && beyond.sign != 0;
+    }
+};
+
+class CountArbiter final : public Arbiter {
+public:
+    CountArbiter(Question& question, const Lanes<RayPoint>& points)
+        : question_(question), points_(points) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
+        const auto l = static_cast<std::size_t>(lane);
+        const EyeRay ray = question_.ray(lane);
+        const RayPoint& q = points_[l];
+        const Predicates& predicates = question_.state->predicates;
+        const Corners t = question_.triangle(triangle);
+        const int orientation = question_.state->from_light.side[triangle];
+        Signs signs;
+        const bool between =
+            signs.above_zero(predicates.side_of_point(ray, q, t), orientation) &&
+            signs.above_zero(predicates.shadow_edge_untied(ray, q, t.a, t.b), orientation) &&
+            signs.above_zero(predicates.shadow_edge_untied(ray, q, t.b, t.c), orientation) &&
+            signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation);
+        question_.exact_decisions += signs.exact_decisions();
+        if (between) ++packet.crossed[l];
+    }
+
+private:
+    Question& question_;
+    const Lanes<RayPoint>& points_;
+};
+
+/// Direction from the light to the point at depth t of an eye ray, in the light view's scale:
+/// (E - L) + t D, each term rounded, t itself off by t_error.
+ApproximateDirection from_light_to(const Tracer::State& state, const glm::dvec3& direction,
+                                   double t, double t_error) {
+    const double scale = state.from_light.scale;
+    const glm::dvec3 base = state.eye - state.light;
+    const glm::dvec3 along = t * direction;
+    // u for the difference, u for the product, u for the sum; 4 u for all with room.
+    const double error = 4 * u * (largest(base) + largest(along)) + largest(direction) * t_error;
+    return {(base + along) * scale, error * scale};
+}
+
+template <class Work>
+void for_lanes(std::uint32_t lanes, const Work& work) {
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) work(__builtin_ctz(left));
+}
+
+} // namespace
+
+Prober::Prober(const Tracer::State& state)
+    : state_(&state), seen_(state.from_eye, Part::seen, state.double_sided),
+      occluding_(state.from_light, Part::occluding, state.double_sided),
+      light_facing_(state.from_light, Part::light_facing, state.double_sided) {}
+
+/// t = numerator / denominator with running bounds; the bounds of both as in view.cpp.
+void Prober::measure_depth(const glm::dvec3& direction, Seen& seen) {
+    if (plane_.triangle != seen.triangle) {
+        const Corners t = corners(*state_->scene, seen.triangle);
+        const glm::dvec3 ab = t.b - t.a;
+        const glm::dvec3 ac = t.c - t.a;
+        const glm::dvec3 to_plane = t.a - state_->eye;
+        const double l = std::max(largest(ab), largest(ac));
+        plane_.triangle = seen.triangle;
+        plane_.normal = glm::cross(ab, ac);
+        plane_.normal_error = 8.1 * u * l * l;
+        plane_.numerator = glm::dot(to_plane, plane_.normal);
+        plane_.numerator_error = 50 * u * largest(to_plane) * l * l;
+    }
+    const double denominator = glm::dot(direction, plane_.normal);
+    // The normal's error, and 3 roundings of 3 terms.
+    const double size = largest(direction);
+    const double denominator_error =
+        size * (3.1 * plane_.normal_error + 9.1 * u * largest(plane_.normal));
+    seen.depth = plane_.numerator / denominator;
+    const double relative = plane_.numerator_error / std::abs(plane_.numerator) +
+                            denominator_error / std::abs(denominator);
+    // First order; doubled for the rest as long as it is small. Otherwise nothing is known.
+    seen.depth_error = relative < 0.125 ? std::abs(seen.depth) * (2 * relative + 2 * u)
+                                        : std::numeric_limits<double>::infinity();
+}
+
+void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes<Seen>& seen) {
+    const Camera& camera = state_->scene->camera;
+    const double scale = state_->from_eye.scale;
+    Limits limits;
+    limits.lower_lo = std::isinf(camera.far) ? 0 : below(1 / (camera.far * scale));
+    limits.lower_hi = std::isinf(camera.far) ? 0 : above(1 / (camera.far * scale));
+    limits.upper_lo = below(1 / (camera.near * scale));
+    limits.upper_hi = above(1 / (camera.near * scale));
+    RayPacket packet = empty_packet();
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        seen[l] = {};
+        set_lane(packet, lane, {directions[l], 0}, limits, no_triangle);
+        ++rays_;
+    });
+    Question question{state_, &directions, 0};
+    NearestArbiter arbiter(question, seen);
+    find_nearest(packet, seen_, arbiter);
+    exact_decisions_ += question.exact_decisions;
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        seen[l].triangle = packet.hit[l];
+        if (seen[l].triangle == no_triangle)
+            seen[l].depth = std::numeric_limits<double>::infinity();
+        else
+            measure_depth(directions[l], seen[l]);
+    });
+}
+
+void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
+                   const Lanes<Seen>& seen, Lanes<Lighting>& lighting) {
+    RayPacket packet = empty_packet();
+    Lanes<RayPoint> points;
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const std::uint32_t triangle = seen[l].triangle;
+        lighting[l] = {};
+        if (triangle == no_triangle) return;
+        if (state_->from_light.side[triangle] == 0) lighting[l].exactness = Exactness::degenerate;
+        if (!state_->faces_light(triangle)) return;
+        points[l].kind = RayPoint::Kind::surface;
+        points[l].surface = corners(*state_->scene, triangle);
+        // Between light and surface: s < 1.
+        set_lane(packet, lane,
+                 from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error),
+                 {.lower_lo = 1, .lower_hi = 1}, triangle);
+        ++rays_;
+    });
+    const std::uint32_t asked = packet.active;
+    Question question{state_, &directions, 0};
+    AnyArbiter arbiter(question, points, lighting);
+    find_any(packet, occluding_, arbiter);
+    exact_decisions_ += question.exact_decisions;
+    for_lanes(asked, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        lighting[l].occluder = packet.hit[l];
+        lighting[l].lit = packet.hit[l] == no_triangle;
+    });
+}
+
+void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
+                   const Lanes<Point>& points, Lanes<std::int32_t>& counts) {
+    RayPacket packet = empty_packet();
+    Lanes<RayPoint> exact_points;
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const Point& point = points[l];
+        exact_points[l].kind = point.kind;
+        exact_points[l].depth = point.depth;
+        Seen at{.triangle = point.skip, .depth = point.depth};
+        if (point.kind == RayPoint::Kind::surface) {
+            exact_points[l].surface = corners(*state_->scene, point.skip);
+            measure_depth(directions[l], at);
+        }
+        const bool infinite = point.kind == RayPoint::Kind::infinity;
+        const ApproximateDirection w =
+            infinite ? ApproximateDirection{directions[l], 0}
+                     : from_light_to(*state_, directions[l], at.depth, at.depth_error);
+        const float limit = infinite ? 0.0F : 1.0F;
+        set_lane(packet, lane, w, {.lower_lo = limit, .lower_hi = limit}, point.skip);
+    });
+    Question question{state_, &directions, 0};
+    CountArbiter arbiter(question, exact_points);
+    count_all(packet, light_facing_, arbiter);
+    exact_decisions_ += question.exact_decisions;
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        counts[l] = static_cast<std::int32_t>(packet.crossed[l]);
+        // Seen from behind, a light-facing triangle lies between its own surface and the light.
+        const std::uint32_t own = points[l].skip;
+        if (own != no_triangle && state_->from_light.side[own] < 0 && state_->from_eye.side[own] > 0)
+            ++counts[l];
+    });
+}
+
+} // namespace shadowproof
