@@ -31,7 +31,7 @@ constexpr unsigned int branching = 4;
 /// What Embree's builder makes: children it was given, or triangles.
 struct BuildNode {
     std::array<BuildNode*, branching> children{};
-    unsigned int child_count = 0;                ///< 0: a leaf
+    unsigned int child_count = 0; ///< 0: a leaf
     std::array<std::uint32_t, RTC_BUILD_MAX_PRIMITIVES_PER_LEAF> triangles{};
     unsigned int triangle_count = 0;
 };
@@ -78,8 +78,8 @@ Entry empty_entry() {
 }
 
 void include(Entry& entry, const Scene& scene, std::uint32_t triangle) {
-    for (const glm::uint index : {scene.triangles[triangle].x, scene.triangles[triangle].y,
-                                  scene.triangles[triangle].z}) {
+    for (const glm::uint index :
+         {scene.triangles[triangle].x, scene.triangles[triangle].y, scene.triangles[triangle].z}) {
         const glm::vec3& p = scene.positions[index];
         include(entry, {p.x, p.y, p.z}, {p.x, p.y, p.z});
     }
@@ -159,9 +159,10 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
 Hierarchy build_hierarchy(const Scene& scene, int threads) {
     const Device device(rtcNewDevice(fmt::format("threads={}", threads).c_str()));
     if (!device)
-        throw Error("Embree", fmt::format("no device (error {})",
-                                          static_cast<int>(rtcGetDeviceError(nullptr))),
-                    "check that the processor has SSE2");
+        throw Error(
+            "Embree",
+            fmt::format("no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
+            "check that the processor has SSE2");
     const Bvh bvh(rtcNewBVH(device.get()));
     std::vector<RTCBuildPrimitive> primitives = primitives_of(scene);
 

@@ -50,8 +50,7 @@ Expansion Expansion::sum(const Expansion& other, double factor) const {
     std::size_t i = 0;
     std::size_t j = 0;
     const auto next = [&] {
-        const bool mine =
-            j == m || (i < n && std::abs(terms_[i]) <= std::abs(other.terms_[j]));
+        const bool mine = j == m || (i < n && std::abs(terms_[i]) <= std::abs(other.terms_[j]));
         return mine ? terms_[i++] : factor * other.terms_[j++];
     };
     double running = next();

@@ -72,8 +72,7 @@ std::int64_t predicted_count(const ShadowDepths& depths, const GroundTruth& trut
     const bool background = truth.triangle.at(x, y) == no_triangle;
     // A clamped or finite picture's background is at its far plane, an infinite one's at infinity.
     std::int64_t at_surface = depths.at_surface.at(x, y);
-    if (background)
-        at_surface = infinite ? depths.at_infinity.at(x, y) : depths.at_far.at(x, y);
+    if (background) at_surface = infinite ? depths.at_infinity.at(x, y) : depths.at_far.at(x, y);
     if (counting.test == Counting::Test::depth_pass)
         return at_surface - (counting.depth_clamp ? depths.at_eye : depths.at_near.at(x, y));
     // Faces past a far plane that clips are lost, and with them what contains that plane.

@@ -24,7 +24,9 @@ enum class Query : std::uint8_t { nearest, any, count };
 constexpr Floats floats;
 constexpr Ids ids;
 
-int step() { return static_cast<int>(hn::Lanes(floats)); }
+int step() {
+    return static_cast<int>(hn::Lanes(floats));
+}
 
 std::uint32_t bits_of(Mask mask, int first_lane) {
     alignas(8) std::array<std::uint8_t, 8> bytes{};
@@ -81,9 +83,9 @@ Vector dot(const RayPacket& packet, int i, const std::array<float, 3>& n) {
 Answer test(const RayPacket& packet, int i, const TriangleRecord& triangle) {
     const Vector magnitude = load(packet.magnitude, i);
     const Vector edge_tolerance = hn::Mul(magnitude, hn::Set(floats, triangle.edge_tolerance));
-    const Vector inner = hn::Min(hn::Min(dot(packet, i, triangle.edge[0]),
-                                         dot(packet, i, triangle.edge[1])),
-                                 dot(packet, i, triangle.edge[2]));
+    const Vector inner =
+        hn::Min(hn::Min(dot(packet, i, triangle.edge[0]), dot(packet, i, triangle.edge[1])),
+                dot(packet, i, triangle.edge[2]));
     Answer answer;
     const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(edge_tolerance)));
     if (hn::AllFalse(floats, maybe_inside)) {
@@ -114,8 +116,8 @@ void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t 
     };
     blend(packet.lower_lo, answer.lo);
     blend(packet.lower_hi, answer.hi);
-    blend(packet.farthest, hn::Mul(hn::Div(hn::Set(floats, 1), answer.lo),
-                                   hn::Set(floats, 1 + 0x1p-20F)));
+    blend(packet.farthest,
+          hn::Mul(hn::Div(hn::Set(floats, 1), answer.lo), hn::Set(floats, 1 + 0x1p-20F)));
     hn::BlendedStore(hn::Set(ids, triangle), hn::RebindMask(ids, answer.met), ids,
                      packet.hit.data() + i);
 }
@@ -217,7 +219,9 @@ namespace {
 constexpr float nearly_still = 0x1p-31F;
 constexpr float reciprocal_of_still = 0x1p100F;
 
-float reciprocal(float w) { return w == 0 ? reciprocal_of_still : 1 / w; }
+float reciprocal(float w) {
+    return w == 0 ? reciprocal_of_still : 1 / w;
+}
 
 /// Beyond this 1/s no box needs to be looked into.
 float farthest_at(float lower_lo) {

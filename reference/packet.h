@@ -31,12 +31,12 @@ struct RayPacket {
     alignas(64) Lanes<float> unit{};           ///< w over the direction given: a power of two
     alignas(64) Lanes<float> lower_lo{}, lower_hi{};
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
-    alignas(64) Lanes<float> farthest{};       ///< boxes beyond are passed by; -1: lane is done
-    alignas(64) Lanes<std::uint32_t> skip{};   ///< a triangle that is not met, or no_triangle
-    alignas(64) Lanes<std::uint32_t> hit{};    ///< nearest or any, or no_triangle
+    alignas(64) Lanes<float> farthest{};        ///< boxes beyond are passed by; -1: lane is done
+    alignas(64) Lanes<std::uint32_t> skip{};    ///< a triangle that is not met, or no_triangle
+    alignas(64) Lanes<std::uint32_t> hit{};     ///< nearest or any, or no_triangle
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
-    float pad = 0;            ///< by which boxes are enlarged
-    std::uint32_t active = 0; ///< a bit a lane that still looks
+    float pad = 0;                              ///< by which boxes are enlarged
+    std::uint32_t active = 0;                   ///< a bit a lane that still looks
 };
 
 /// A packet without rays.

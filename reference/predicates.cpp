@@ -79,9 +79,15 @@ Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) 
     return {arithmetic.number(1), arithmetic.number(0)};
 }
 
-std::optional<int> sign_of(const Bounded& number) { return number.sign(); }
-int sign_of(const Expansion& number) { return number.sign(); }
-int sign_of(const RationalArithmetic::Number& number) { return number.sign(); }
+std::optional<int> sign_of(const Bounded& number) {
+    return number.sign();
+}
+int sign_of(const Expansion& number) {
+    return number.sign();
+}
+int sign_of(const RationalArithmetic::Number& number) {
+    return number.sign();
+}
 
 /// Room for an ordinary degree-6 sign; larger ones go on in the heap.
 constexpr std::size_t arena_bytes = std::size_t{1} << 16;
@@ -134,8 +140,8 @@ Decision Predicates::side(const glm::dvec3& o, const Corners& t) const {
 
 Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        return sign_of(dot<A>(vector(arithmetic, ray.direction),
-                              edge_plane(arithmetic, ray.eye, a, b)));
+        return sign_of(
+            dot<A>(vector(arithmetic, ray.direction), edge_plane(arithmetic, ray.eye, a, b)));
     });
 }
 
@@ -143,8 +149,8 @@ Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corn
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
         const Quotient<A> q = plane_depth(arithmetic, ray, u);
-        const std::optional<int> order = with_sign_of(
-            p.numerator * q.denominator - q.numerator * p.denominator, p.denominator);
+        const std::optional<int> order =
+            with_sign_of(p.numerator * q.denominator - q.numerator * p.denominator, p.denominator);
         const std::optional<int> d = sign_of(q.denominator);
         if (!order || !d) return std::nullopt;
         return *order * (*d < 0 ? -1 : 1);
@@ -154,8 +160,7 @@ Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corn
 Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double depth) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
-        return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator,
-                            p.denominator);
+        return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator, p.denominator);
     });
 }
 
@@ -167,8 +172,8 @@ Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm
     });
 }
 
-Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q,
-                                        const glm::dvec3& a, const glm::dvec3& b) const {
+Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
+                                        const glm::dvec3& b) const {
     const Decision tied = shadow_edge(ray, q, a, b);
     if (tied.sign != 0) return tied;
     // Not all three are zero: then light, a and b would be collinear, and the light would lie in

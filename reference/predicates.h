@@ -4,9 +4,8 @@
 
 #include "reference/trace.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
+#include <glm/vec3.hpp>
 
 namespace shadowproof {
 

@@ -1,11 +1,10 @@
 #include "reference/ledger.h"
 #include "reference/state.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -21,7 +20,9 @@ struct Slab {
     double upper = 0;
 };
 
-double sum_of(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+double sum_of(const glm::dvec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -41,8 +42,7 @@ std::array<Slab, 3> swept_region(const glm::dvec3& e, const glm::dvec3& directio
     };
     const glm::dvec3 along_e = glm::cross(direction, m);
     const glm::dvec3 along_d = glm::cross(m, e);
-    return {Slab{m, -margin(m), margin(m)},
-            Slab{along_e, -margin(along_e), mm + margin(along_e)},
+    return {Slab{m, -margin(m), margin(m)}, Slab{along_e, -margin(along_e), mm + margin(along_e)},
             Slab{along_d, -margin(along_d), infinity}};
 }
 
@@ -140,8 +140,8 @@ std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
 
 NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, double radius) {
     const Tracer::State& state = tracer.state();
-    const std::array<Slab, 3> region = swept_region(state.eye - state.light, direction,
-                                                    1 / state.from_light.scale, radius);
+    const std::array<Slab, 3> region =
+        swept_region(state.eye - state.light, direction, 1 / state.from_light.scale, radius);
     NearbyVolumes volumes;
     std::vector<std::uint32_t> stack{0};
     while (!stack.empty()) {
@@ -169,8 +169,8 @@ RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
             stretch_in_volume(state, corners(*state.scene, triangle), direction);
         if (!(stretch.begin < stretch.end) || stretch.end <= 0) continue;
         const auto event = [&](double depth, int change, bool cap) {
-            events.push_back({depth, change,
-                              cap ? Crossing::Kind::light_cap : Crossing::Kind::side, triangle});
+            events.push_back(
+                {depth, change, cap ? Crossing::Kind::light_cap : Crossing::Kind::side, triangle});
         };
         if (stretch.begin < 0)
             ++ledger.at_eye;

@@ -1,9 +1,8 @@
 #include "reference/records.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
@@ -22,7 +21,9 @@ double largest(const glm::dvec3& w) {
     return std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
 }
 
-double sum_of(const glm::dvec3& w) { return std::abs(w.x) + std::abs(w.y) + std::abs(w.z); }
+double sum_of(const glm::dvec3& w) {
+    return std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
+}
 
 std::array<float, 3> rounded(const glm::dvec3& w) {
     return {static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};

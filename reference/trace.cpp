@@ -62,8 +62,7 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.double_sided = double_sided_triangles(scene);
     state.eye = scene.camera.eye;
     state.light = chosen_light(scene).position;
-    state.from_eye =
-        view_from(state.eye, scene, state.hierarchy, state.predicates, state.threads);
+    state.from_eye = view_from(state.eye, scene, state.hierarchy, state.predicates, state.threads);
     state.from_light =
         view_from(state.light, scene, state.hierarchy, state.predicates, state.threads);
     state.build_milliseconds = milliseconds_since(start);
@@ -73,8 +72,12 @@ Tracer::~Tracer() = default;
 Tracer::Tracer(Tracer&&) noexcept = default;
 Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
-const Scene& Tracer::scene() const { return *state_->scene; }
-int Tracer::threads() const { return state_->threads; }
+const Scene& Tracer::scene() const {
+    return *state_->scene;
+}
+int Tracer::threads() const {
+    return state_->threads;
+}
 
 namespace {
 
@@ -89,9 +92,8 @@ void count_classes(const GroundTruth& truth, TraceStatistics& statistics) {
         statistics.shadowed += visibility == Visibility::shadowed;
         statistics.background += visibility == Visibility::background;
     }
-    statistics.degenerate = static_cast<std::uint64_t>(
-        std::count(truth.exactness.pixels.begin(), truth.exactness.pixels.end(),
-                   Exactness::degenerate));
+    statistics.degenerate = static_cast<std::uint64_t>(std::count(
+        truth.exactness.pixels.begin(), truth.exactness.pixels.end(), Exactness::degenerate));
 }
 
 } // namespace
@@ -146,8 +148,7 @@ RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
     truth.triangle = seen[0].triangle;
     truth.depth = seen[0].depth;
     truth.occluder = lighting[0].occluder;
-    truth.faces_light =
-        truth.triangle != no_triangle && tracer.state().faces_light(truth.triangle);
+    truth.faces_light = truth.triangle != no_triangle && tracer.state().faces_light(truth.triangle);
     truth.exactness = std::max(seen[0].exactness, lighting[0].exactness);
     return truth;
 }

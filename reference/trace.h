@@ -6,9 +6,8 @@
 #include "scenes/image.h"
 #include "scenes/scene.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <string>
 
@@ -22,9 +21,9 @@ enum class Exactness : std::uint8_t {
 };
 
 struct TraceStatistics {
-    double milliseconds = 0;       ///< tracing alone
-    double build_milliseconds = 0; ///< the hierarchy
-    std::uint64_t rays = 0;        ///< eye rays and shadow rays
+    double milliseconds = 0;           ///< tracing alone
+    double build_milliseconds = 0;     ///< the hierarchy
+    std::uint64_t rays = 0;            ///< eye rays and shadow rays
     std::uint64_t exact_decisions = 0; ///< signs from exact arithmetic
     std::uint64_t lit = 0;
     std::uint64_t shadowed = 0;

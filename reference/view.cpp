@@ -2,11 +2,10 @@
 
 #include "reference/parallel.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace shadowproof {
@@ -44,10 +43,10 @@ Entry relative(const Entry& entry, const glm::dvec3& origin, double scale) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        result.lower[i] = std::nextafter(
-            static_cast<float>((entry.lower[i] - origin[axis]) * scale), -infinity);
-        result.upper[i] = std::nextafter(
-            static_cast<float>((entry.upper[i] - origin[axis]) * scale), infinity);
+        result.lower[i] =
+            std::nextafter(static_cast<float>((entry.lower[i] - origin[axis]) * scale), -infinity);
+        result.upper[i] =
+            std::nextafter(static_cast<float>((entry.upper[i] - origin[axis]) * scale), infinity);
     }
     return result;
 }
@@ -66,9 +65,8 @@ void sort_children(std::vector<Entry>& entries) {
     for (const Entry& entry : entries) {
         if (entry.count == 0) continue;
         const auto first = entries.begin() + entry.first;
-        std::stable_sort(first, first + entry.count, [](const Entry& a, const Entry& b) {
-            return distance(a) < distance(b);
-        });
+        std::stable_sort(first, first + entry.count,
+                         [](const Entry& a, const Entry& b) { return distance(a) < distance(b); });
     }
 }
 

@@ -7,9 +7,8 @@
 #include "reference/predicates.h"
 #include "scenes/scene.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 namespace shadowproof {

@@ -1,9 +1,8 @@
 #include "reference/visibility.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace shadowproof {
@@ -71,8 +70,8 @@ public:
         Seen& seen = seen_[static_cast<std::size_t>(lane)];
         // A miss decided exactly says so too; but a tie counts only where the triangle is met.
         seen.exactness =
-            std::max(seen.exactness, met_ ? signs.exactness()
-                                          : std::min(signs.exactness(), Exactness::exact));
+            std::max(seen.exactness,
+                     met_ ? signs.exactness() : std::min(signs.exactness(), Exactness::exact));
         if (!nearer) return;
         packet.hit[static_cast<std::size_t>(lane)] = triangle;
         // Depth in double, widened to certain floats.
@@ -127,9 +126,9 @@ private:
         if (!(std::abs(numerator) > 4 * numerator_error)) return; // the old limits stay valid
         // 1/s = denominator / (numerator scale), both off by their errors.
         const double inverse = denominator / (numerator * scale);
-        const double error = std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) +
-                                                  4 * u) +
-                             1.5 * denominator_error / std::abs(numerator * scale);
+        const double error =
+            std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) + 4 * u) +
+            1.5 * denominator_error / std::abs(numerator * scale);
         raise_lower_limit(packet, lane, std::max(below(inverse - error), 0.0F),
                           above(inverse + error));
     }
@@ -145,9 +144,9 @@ public:
         Signs signs;
         const bool blocked = is_between(question_.ray(lane), points_[l], triangle, signs);
         question_.exact_decisions += signs.exact_decisions();
-        lighting_[l].exactness = std::max(
-            lighting_[l].exactness,
-            touched_ ? signs.exactness() : std::min(signs.exactness(), Exactness::exact));
+        lighting_[l].exactness =
+            std::max(lighting_[l].exactness,
+                     touched_ ? signs.exactness() : std::min(signs.exactness(), Exactness::exact));
         if (!blocked) return;
         packet.hit[l] = triangle;
         finish_lane(packet, lane);
@@ -340,7 +339,8 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         counts[l] = static_cast<std::int32_t>(packet.crossed[l]);
         // Seen from behind, a light-facing triangle lies between its own surface and the light.
         const std::uint32_t own = points[l].skip;
-        if (own != no_triangle && state_->from_light.side[own] < 0 && state_->from_eye.side[own] > 0)
+        if (own != no_triangle && state_->from_light.side[own] < 0 &&
+            state_->from_eye.side[own] > 0)
             ++counts[l];
     });
 }

@@ -53,8 +53,8 @@ public:
         double depth = 0;                 ///< where the kind is depth
         std::uint32_t skip = no_triangle; ///< the triangle of a surface point
     };
-    void count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
-               const Lanes<Point>& points, Lanes<std::int32_t>& counts);
+    void count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, const Lanes<Point>& points,
+               Lanes<std::int32_t>& counts);
 
     std::uint64_t rays() const { return rays_; }
     std::uint64_t exact_decisions() const { return exact_decisions_; }

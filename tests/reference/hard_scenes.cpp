@@ -1,0 +1,198 @@
+#include "tests/reference/hard_scenes.h"
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr int size = 32;
+
+glm::vec3 random_point(std::mt19937& random, const glm::vec3& centre, float radius) {
+    std::uniform_real_distribution<float> spread(-radius, radius);
+    const float x = spread(random);
+    const float y = spread(random);
+    const float z = spread(random);
+    return centre + glm::vec3(x, y, z);
+}
+
+/// Triangles of all sizes before the camera, double sided.
+Scene soup(std::uint32_t seed, float scale, const glm::vec3& offset) {
+    std::mt19937 random(seed);
+    Scene scene = empty_scene(size);
+    std::uniform_real_distribution<float> extent(0.1F, 1.5F);
+    for (int i = 0; i < 24; ++i) {
+        const glm::vec3 centre = random_point(random, {0, 0, -4}, 2.5F);
+        const float radius = extent(random);
+        add_triangle(scene, offset + scale * random_point(random, centre, radius),
+                     offset + scale * random_point(random, centre, radius),
+                     offset + scale * random_point(random, centre, radius));
+    }
+    scene.lights[0].position = glm::dvec3(offset) + double(scale) * glm::dvec3(1.3, 2.1, -1.2);
+    scene.camera.eye = glm::dvec3(offset);
+    scene.camera.near = 0.1 * scale;
+    finish(scene, true);
+    return scene;
+}
+
+/// A regular grid of quads that faces the camera, its vertices exactly on pixel rays.
+Scene vertices_on_rays() {
+    Scene scene = empty_scene(size);
+    for (int j = -4; j < 4; ++j)
+        for (int i = -4; i < 4; ++i) {
+            // Pixel rays are odd multiples of 1 / size at depth 1; at depth 4, of 4 / size.
+            const auto at = [](int x, int y) {
+                return glm::vec3(float(8 * x + 1) / size * 4, float(8 * y + 1) / size * 4, -4);
+            };
+            add_triangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            add_triangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    add_box(scene, {-0.5F, -0.5F, -2.5F}, {0.5F, 0.5F, -2});
+    scene.lights[0].position = {0.25, 0.25, -1};
+    finish(scene, false);
+    return scene;
+}
+
+/// Boxes on a floor, all axis-parallel, the light where `position` says.
+Scene boxes(const glm::dvec3& position, bool double_sided = false) {
+    Scene scene = empty_scene(size);
+    add_box(scene, {-3, -1.5F, -8}, {3, -1, -2});
+    add_box(scene, {-0.5F, -1, -4}, {0.5F, 0, -3});
+    add_box(scene, {0.75F, -1, -5}, {1.75F, 1, -4});
+    add_box(scene, {-2, -1, -5}, {-1, 0.5F, -4});
+    scene.lights[0].position = position;
+    finish(scene, double_sided);
+    return scene;
+}
+
+/// Long thin triangles, edges nearly through the pixel rays.
+Scene slivers() {
+    Scene scene = empty_scene(size);
+    for (int i = -8; i < 8; ++i) {
+        const float x = float(2 * i + 1) / size * 3;
+        add_triangle(scene, {x, -3, -3}, {std::nextafter(x, 9.0F), 3, -3.01F}, {x, 3, -3});
+        add_triangle(scene, {-3, x, -3.5F}, {3, std::nextafter(x, 9.0F), -3.5F}, {3, x, -3.4F});
+    }
+    add_box(scene, {-4, -4, -6}, {4, 4, -5});
+    scene.lights[0].position = {0.1, 0.2, -1};
+    finish(scene, true);
+    return scene;
+}
+
+/// The same triangles twice, and a third copy next to them by one unit in the last place.
+Scene coinciding() {
+    Scene scene = boxes({2, 3, -2});
+    const std::vector<glm::uvec3> once = scene.triangles;
+    for (const glm::uvec3& t : once) scene.triangles.push_back(t);
+    for (const glm::uvec3& t : once) {
+        const auto lifted = [&](glm::uint i) {
+            glm::vec3 p = scene.positions[i];
+            p.z = std::nextafter(p.z, 0.0F);
+            return p;
+        };
+        add_triangle(scene, lifted(t.x), lifted(t.y), lifted(t.z));
+    }
+    finish(scene, false);
+    return scene;
+}
+
+/// Needles towards the light and points without extent.
+Scene degenerate_triangles() {
+    Scene scene = boxes({1, 2.5, -2});
+    std::mt19937 random(7);
+    for (int i = 0; i < 16; ++i) {
+        const glm::vec3 p = random_point(random, {0, 0, -3.5F}, 1);
+        const glm::vec3 q = random_point(random, {0, 0, -3.5F}, 1);
+        add_triangle(scene, p, q, p);
+        add_triangle(scene, p, p, p);
+        add_triangle(scene, p, 0.5F * (p + q), q);
+    }
+    finish(scene, true);
+    return scene;
+}
+
+/// Vertices as small as floats go, beyond what expansions can hold.
+Scene denormals() {
+    Scene scene = boxes({2, 3, -2});
+    for (glm::vec3& p : scene.positions)
+        if (p.y == -1.0F) p.y += 1e-39F;
+    add_triangle(scene, {1e-40F, 0, -3}, {1, 1e-42F, -3}, {0, 1, -3});
+    scene.positions.back().x = 1e-44F;
+    finish(scene, true);
+    return scene;
+}
+
+} // namespace
+
+Scene empty_scene(int width) {
+    Scene scene;
+    scene.name = "test";
+    scene.camera.width = width;
+    scene.camera.height = width;
+    scene.camera.near = 0.125;
+    scene.lights.emplace_back();
+    scene.lights[0].name = "light";
+    return scene;
+}
+
+void add_triangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    scene.positions.insert(scene.positions.end(), {a, b, c});
+    scene.triangles.emplace_back(first, first + 1, first + 2);
+}
+
+void add_box(Scene& scene, const glm::vec3& lower, const glm::vec3& upper) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    for (int i = 0; i < 8; ++i)
+        scene.positions.emplace_back((i & 1) != 0 ? upper.x : lower.x,
+                                     (i & 2) != 0 ? upper.y : lower.y,
+                                     (i & 4) != 0 ? upper.z : lower.z);
+    constexpr std::array<std::array<glm::uint, 4>, 6> faces{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    for (const auto& f : faces) {
+        scene.triangles.emplace_back(first + f[0], first + f[1], first + f[2]);
+        scene.triangles.emplace_back(first + f[0], first + f[2], first + f[3]);
+    }
+}
+
+void finish(Scene& scene, bool double_sided) {
+    scene.materials = {{"material", double_sided}};
+    scene.meshes = {{"mesh", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
+}
+
+std::vector<HardScene> hard_scenes() {
+    std::vector<HardScene> scenes;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed)
+        scenes.push_back({"soup_" + std::to_string(seed), [seed] {
+                              return soup(seed, 1, {0, 0, 0});
+                          }});
+    scenes.push_back({"soup_scaled_by_1e-4", [] { return soup(5, 1e-4F, {0, 0, 0}); }});
+    scenes.push_back({"soup_scaled_by_1e6", [] { return soup(6, 1e6F, {0, 0, 0}); }});
+    scenes.push_back({"soup_1e6_away", [] { return soup(7, 1, {1e6F, -1e6F, 1e6F}); }});
+    scenes.push_back({"soup_scaled_by_1e-30", [] { return soup(8, 1e-30F, {0, 0, 0}); }});
+    scenes.push_back({"soup_scaled_by_1e25", [] { return soup(9, 1e25F, {0, 0, 0}); }});
+    scenes.push_back({"rays_through_vertices_and_edges", vertices_on_rays});
+    scenes.push_back({"ordinary_light", [] { return boxes({2.1, 3.3, -1.7}); }});
+    scenes.push_back({"light_in_plane_of_a_face", [] { return boxes({3.5, 0, -1}); }});
+    scenes.push_back({"light_in_planes_of_two_faces", [] { return boxes({0.5, 0, -1}); }});
+    scenes.push_back({"light_on_an_edge", [] { return boxes({0.5, 0, -3.5}, true); }});
+    scenes.push_back({"light_on_a_vertex", [] { return boxes({0.5, 0, -3}, true); }});
+    scenes.push_back({"light_on_a_face", [] { return boxes({0.25, 0, -3.5}, true); }});
+    scenes.push_back({"light_at_the_eye", [] { return boxes({0, 0, 0}); }});
+    scenes.push_back({"light_inside_a_box", [] { return boxes({0, -0.5, -3.5}, true); }});
+    scenes.push_back({"slivers", slivers});
+    scenes.push_back({"coinciding_triangles", coinciding});
+    scenes.push_back({"degenerate_triangles", degenerate_triangles});
+    scenes.push_back({"denormal_vertices", denormals});
+    scenes.push_back({"near_and_far_in_planes", [] {
+                          Scene scene = boxes({2, 3, -2});
+                          scene.camera.near = 3;
+                          scene.camera.far = 5;
+                          return scene;
+                      }});
+    return scenes;
+}
+
+} // namespace shadowproof

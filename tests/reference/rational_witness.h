@@ -1,0 +1,56 @@
+// The witness: visibility and shadow depth by brute force over rationals. It shares no code with
+// reference/ but the scene's own structs, and uses other formulas: hit points, not edge planes.
+#pragma once
+
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shadowproof::witness {
+
+using Point = std::array<mpq_class, 3>;
+
+struct Plane {
+    Point a, b, c, normal;
+    bool has_area = false;
+    bool seen_from_behind = false;
+};
+
+struct Answer {
+    Visibility visibility = Visibility::background;
+    std::uint32_t triangle = no_triangle;
+    Point hit;
+};
+
+class Witness {
+public:
+    explicit Witness(const Scene& scene);
+
+    Answer look(const glm::dvec3& direction) const;
+
+    /// Light-facing triangles strictly between q and the light; ties broken by really moving the
+    /// line's end by (e, e^2, e^3) with e = 2^-400. `skip` does not count.
+    int shadow_depth(const Point& q, std::uint32_t skip) const;
+    /// The same for the point at infinity in a direction from the light.
+    int shadow_depth_at_infinity(const glm::dvec3& direction) const;
+
+    Point on_ray(const glm::dvec3& direction, double depth) const;
+    int side_of_eye(std::uint32_t triangle) const;   ///< 1: the front is seen
+    int side_of_light(std::uint32_t triangle) const; ///< 1: the front is lit
+
+private:
+    Point eye_, light_;
+    mpq_class near_;
+    std::optional<mpq_class> far_;
+    std::vector<Plane> planes_;
+
+    bool occluded(const Point& hit, std::uint32_t own) const;
+};
+
+} // namespace shadowproof::witness

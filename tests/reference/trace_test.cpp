@@ -1,0 +1,63 @@
+#include "reference/ledger.h"
+#include "reference/trace.h"
+#include "tests/reference/hard_scenes.h"
+#include "tests/reference/rational_witness.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowproof {
+namespace {
+
+class HardSceneTest : public testing::TestWithParam<HardScene> {};
+
+TEST_P(HardSceneTest, not_one_pixel_differs_from_brute_force_over_rationals) {
+    const Scene scene = GetParam().make();
+    const Tracer tracer(scene);
+    const GroundTruth truth = trace(tracer);
+    const witness::Witness witness(scene);
+    for (int y = 0; y < scene.camera.height; ++y)
+        for (int x = 0; x < scene.camera.width; ++x) {
+            const witness::Answer expected =
+                witness.look(ray_direction(scene.camera, x + 0.5, y + 0.5));
+            ASSERT_EQ(truth.triangle.at(x, y), expected.triangle) << "at " << x << ", " << y;
+            ASSERT_EQ(truth.visibility.at(x, y), expected.visibility) << "at " << x << ", " << y;
+        }
+}
+
+TEST_P(HardSceneTest, shadow_depths_equal_those_of_brute_force_with_a_really_moved_ray) {
+    const Scene scene = GetParam().make();
+    const Tracer tracer(scene);
+    const GroundTruth truth = trace(tracer);
+    const double far = 6 * scene.camera.near / 0.125;
+    const ShadowDepths depths = count_shadow_depths(tracer, truth, far);
+    const witness::Witness witness(scene);
+    EXPECT_EQ(depths.at_eye, witness.shadow_depth(witness.on_ray({0, 0, -1}, 0), no_triangle));
+    for (int y = 0; y < scene.camera.height; ++y)
+        for (int x = 0; x < scene.camera.width; ++x) {
+            const glm::dvec3 d = ray_direction(scene.camera, x + 0.5, y + 0.5);
+            const auto at = [&](double depth) {
+                return witness.shadow_depth(witness.on_ray(d, depth), no_triangle);
+            };
+            ASSERT_EQ(depths.at_near.at(x, y), at(scene.camera.near)) << x << ", " << y;
+            ASSERT_EQ(depths.at_far.at(x, y), at(far)) << x << ", " << y;
+            ASSERT_EQ(depths.at_infinity.at(x, y), witness.shadow_depth_at_infinity(d))
+                << x << ", " << y;
+            const std::uint32_t own = truth.triangle.at(x, y);
+            if (own == no_triangle) continue;
+            const bool behind = witness.side_of_eye(own) < 0 && witness.side_of_light(own) > 0;
+            ASSERT_EQ(depths.at_surface.at(x, y),
+                      witness.shadow_depth(witness.look(d).hit, own) + (behind ? 1 : 0))
+                << x << ", " << y;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, HardSceneTest, testing::ValuesIn(hard_scenes()),
+                         [](const testing::TestParamInfo<HardScene>& scene) {
+                             std::string name = scene.param.name;
+                             for (char& c : name)
+                                 if (c == '-') c = '_';
+                             return name;
+                         });
+
+} // namespace
+} // namespace shadowproof
