@@ -10,13 +10,17 @@
 namespace shadowproof {
 
 struct Plan {
-    bool hole_filling = true;       ///< some caster is open
-    bool dark_cap = true;           ///< some volume may be seen all the way to infinity
-    bool volume_meets_near = true;  ///< some volume may contain a point of the near rectangle
-    bool volume_meets_far = true;   ///< some volume may contain a point of the far rectangle
+    bool hole_filling = true;          ///< some caster is open
+    bool dark_cap = true;              ///< some volume may be seen all the way to infinity
+    bool volume_meets_near = true;     ///< some volume may contain a point of the near rectangle
+    bool volume_meets_far = true;      ///< some volume may contain a point of the far rectangle
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
 };
 
 Plan make_plan(const Scene& scene);
+
+/// The far plane of the techniques that have a finite one: the camera's own, else 1.5 times the
+/// largest view depth of any vertex, and at least twice the near plane's.
+double finite_far(const Scene& scene);
 
 } // namespace shadowproof

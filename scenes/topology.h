@@ -4,9 +4,8 @@
 
 #include "scenes/scene.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,12 +32,13 @@ std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint3
 /// One mesh's state as a caster.
 struct CasterReport {
     std::uint32_t mesh = 0;
-    std::size_t boundary_edges = 0; ///< edges with a triangle on one side only
-    std::size_t rings = 0;          ///< closed chains of boundary edges
+    std::size_t boundary_edges = 0; ///< edges with a surplus: more triangles on one side
+    std::size_t rings = 0;          ///< closed chains of boundary edges; those that touch are one
     std::size_t non_manifold_edges = 0; ///< edges with more than two triangles
     bool closed() const { return boundary_edges == 0; }
 };
 
+/// In the order of scene.meshes.
 std::vector<CasterReport> inspect_casters(const Scene& scene);
 
 } // namespace shadowproof

@@ -1,6 +1,8 @@
 #include "scenes/bundled/author/stages.h"
 
+#include <cmath>
 #include <numbers>
+#include <string>
 
 namespace shadowproof::author {
 
@@ -21,55 +23,107 @@ Placed floor(double radius) {
             0.0171};
 }
 
-/// The light stands high over a small floor, and the eye looks along it rather than down: every
-/// ray leaves the cone of the shadows again before the far plane, and none points into it.
-Stage ordinary() {
+/// The eye looks along a small floor under a light that stands high: every ray leaves the cones of
+/// the shadows again before the far plane, and none points into one for ever.
+Stage looking_along_floor() {
     Stage stage;
-    stage.name = "ordinary";
-    stage.title = "A box, a torus and a ball on a floor, all closed; no technique fails here.";
-    stage.things = {
-        floor(4.43),
-        {"box", box({0.83, 0.83, 0.83}, 6), slate, {-1.637, 0.861, -0.893}, {0, 1, 0}, 0.5371},
-        {"torus",
-         torus(0.787, 0.313, 88, 32),
-         coral,
-         {-0.109, 0.967, 1.243},
-         {0.913, 0.071, 0.402},
-         1.1713},
-        {"ball", ball(0.917, 4), teal, {1.753, 0.949, -0.571}, {0.31, 0.83, 0.47}, 0.7331},
-    };
-    stage.eye = {1.237, 4.873, 11.317};
-    stage.target = {0.041, 0.387, 0.013};
-    stage.yfov = 0.6137;
+    stage.things = {floor(4.43)};
+    stage.eye = {1.337, 5.273, 12.617};
+    stage.target = {0.041, -0.241, 0.013};
+    stage.yfov = 0.5637;
     stage.znear = 0.913;
     stage.zfar = 71.3;
-    stage.light = {-2.171, 9.377, 2.383};
+    stage.light = {-3.471, 8.877, -0.683};
     return stage;
 }
 
-/// A ring hangs above the eye, outside the picture. Its shadow falls steeply past the near plane
-/// onto the floor; the eye itself stays in the light.
+void add(Stage& stage, std::vector<Placed> things) {
+    stage.things.insert(stage.things.end(), things.begin(), things.end());
+}
+
+Stage ordinary() {
+    Stage stage = looking_along_floor();
+    stage.name = "ordinary";
+    stage.title = "A box, a torus and a ball on a floor, all closed; no technique fails here.";
+    add(stage,
+        {{"box", box({0.83, 0.83, 0.83}, 6), slate, {-1.637, 0.861, -0.893}, {0, 1, 0}, 0.5371},
+         {"torus",
+          torus(0.787, 0.313, 88, 32),
+          coral,
+          {-0.109, 0.967, 1.243},
+          {0.913, 0.071, 0.402},
+          1.1713},
+         {"ball", ball(0.917, 4), teal, {1.753, 0.949, -0.571}, {0.31, 0.83, 0.47}, 0.7331}});
+    return stage;
+}
+
+/// A ring hangs off the picture, between the light and the near plane. Its shadow crosses the near
+/// plane at a slant and passes the eye by.
 Stage near_plane() {
-    Stage stage = ordinary();
+    Stage stage = looking_along_floor();
     stage.name = "near_plane";
-    stage.title = "The shadow of a ring overhead passes through a part of the near plane.";
+    stage.title = "The shadow of a ring off the picture crosses a part of the near plane.";
     stage.provokes = {"near_plane"};
+    add(stage,
+        {{"planet", ball(1.213, 4), amber, {-0.371, 1.493, 0.117}, {0.31, 0.83, 0.47}, 0.7331},
+         {"belt",
+          torus(1.817, 0.147, 96, 20),
+          teal,
+          {-0.371, 1.493, 0.117},
+          {0.913, 0.071, -0.402},
+          0.3713},
+         {"box", box({0.513, 0.513, 0.513}, 5), slate, {2.571, 0.541, 1.093}, {0, 1, 0}, 0.9371},
+         {"ring",
+          torus(0.153, 0.063, 64, 24),
+          coral,
+          {0.319, 5.647, 9.027},
+          {0.9, 0.1, -0.2},
+          1.3713}});
     return stage;
 }
 
+/// The far plane lies close behind the floor: rays that go through the near half of the floor are
+/// still in its shadow there, rays that graze the far half have left it.
 Stage far_plane() {
-    Stage stage = ordinary();
+    Stage stage = looking_along_floor();
     stage.name = "far_plane";
     stage.title = "Shadows run out through the far plane behind surfaces that are lit.";
     stage.provokes = {"far_plane"};
+    constexpr int stones = 5;
+    for (int i = 0; i < stones; ++i) {
+        const double angle = 0.413 + 0.587 * i; // radians, an arc open to the eye
+        const double height = 0.971 + 0.213 * ((i * 2) % stones);
+        add(stage, {{"stone " + std::to_string(i + 1),
+                     box({0.413, height, 0.257}, 4),
+                     slate,
+                     {3.013 * std::cos(angle), height + 0.031, -2.913 * std::sin(angle) + 0.4},
+                     {0, 1, 0},
+                     angle + std::numbers::pi / 2 + 0.071}});
+    }
+    add(stage,
+        {{"ball", ball(0.917, 4), coral, {-0.213, 0.949, 0.671}, {0.31, 0.83, 0.47}, 0.7331}});
+    stage.zfar = 20.3;
+    stage.light = {-2.171, 7.877, 3.683};
     return stage;
 }
 
+/// A canopy shades the eye and the whole near plane, and nothing that is seen.
 Stage eye_inside() {
-    Stage stage = ordinary();
+    Stage stage = looking_along_floor();
     stage.name = "eye_inside";
     stage.title = "The eye stands in the shadow of a canopy and looks out into the light.";
     stage.provokes = {"eye_inside"};
+    add(stage,
+        {{"torus", torus(1.187, 0.413, 88, 32), amber, {-0.809, 0.447, 0.343}, {1, 0, 0}, 0.0213},
+         {"ball", ball(0.713, 4), coral, {-0.793, 0.957, 0.371}, {0.31, 0.83, 0.47}, 0.7331},
+         {"pillar", disc(0.463, 1.217, 48), teal, {2.013, 1.241, -0.871}, {0, 1, 0}, 0.171},
+         {"canopy",
+          disc(1.013, 0.087, 72),
+          slate,
+          {0.267, 6.213, 9.571},
+          {0.9, 0.1, -0.2},
+          0.713}});
+    stage.znear = 0.313;
     return stage;
 }
 
