@@ -5,26 +5,36 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace shadowproof {
 
 enum class GlPlatform : std::uint8_t { osmesa, egl };
 
 struct GlFunctions; // gl.h
+struct Platform;    // platform.h
 
 /// Owns the context. Passed to everything that draws; there is no hidden current one: each object
-/// that holds a GL name keeps a reference to its Gpu.
+/// that holds a GL name keeps a reference to its Gpu's functions, and must not outlive the Gpu.
 class Gpu {
 public:
-    explicit Gpu(GlPlatform platform); ///< throws Error: no library, no context, wrong renderer
+    /// Current on this thread afterwards. Throws Error: no library, no context, wrong renderer.
+    explicit Gpu(GlPlatform platform);
     ~Gpu();
     Gpu(Gpu&&) noexcept;
     Gpu& operator=(Gpu&&) noexcept;
     Gpu(const Gpu&) = delete;
     Gpu& operator=(const Gpu&) = delete;
 
+    /// Whoever draws says so first: another Gpu, or another thread, may have come between.
+    void make_current();
+
     const GlFunctions& gl() const;
-    const DriverInfo& driver() const;
+    const DriverInfo& driver() const; ///< depth and stencil bits are those of a D24_S8 texture
+
+    /// An extension is there when its name is listed. Its pointers prove nothing: Mesa hands out
+    /// some for extensions that it does not have.
+    bool has_extension(std::string_view name) const;
 
 private:
     struct Context;

@@ -16,10 +16,10 @@ namespace shadowproof {
 class Gpu;
 
 struct Technique {
-    std::string_view name;    ///< "zfail_reversed"
-    std::string_view summary; ///< one clause: how it counts
-    std::string_view source;  ///< where it is described
-    std::string_view needs;   ///< what it asks of scene and driver
+    std::string_view name;       ///< "zfail_reversed"
+    std::string_view summary;    ///< one clause: how it counts
+    std::string_view source;     ///< where it is described
+    std::string_view needs;      ///< what it asks of scene and driver
     std::vector<Cause> fails_at; ///< the causes it is known to have
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };

@@ -1,0 +1,14 @@
+#version 450 core
+// Lights the surfaces that the shadow test let through. Of two triangles that tie in depth only the
+// one that is seen speaks.
+
+layout(binding = 0) uniform usampler2D seen_triangle;
+layout(std430, binding = 0) readonly buffer LitSides { uint triangle_drawn[]; };
+
+layout(location = 0) out float claim;
+
+void main() {
+    uint seen = texelFetch(seen_triangle, ivec2(gl_FragCoord.xy), 0).r;
+    if (seen != triangle_drawn[gl_PrimitiveID]) discard;
+    claim = 1;
+}

@@ -1,0 +1,22 @@
+#version 450 core
+// The one vertex shader of every pass: what coincides in the scene coincides in depth, bit for bit.
+// Vertices [0, finite_vertices) are the scene's; those after them the same, moved away from the
+// light to infinity: w = 0.
+
+layout(location = 0) in vec3 position;
+
+layout(location = 0) uniform mat4 clip_from_relative;
+layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or zero
+layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
+layout(location = 3) uniform vec3 light_high;
+layout(location = 4) uniform vec3 light_low;
+layout(location = 5) uniform int finite_vertices;
+
+invariant gl_Position;
+
+void main() {
+    precise vec3 relative = (position - origin_high) - origin_low;
+    precise vec3 away = (position - light_high) - light_low;
+    gl_Position =
+        clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, 0));
+}

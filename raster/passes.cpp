@@ -1,0 +1,298 @@
+#include "raster/passes.h"
+
+#include "raster/volume.h"
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+
+namespace shadowproof {
+
+namespace {
+
+Texture make_picture(const GlFunctions& gl, GLenum format, int width, int height) {
+    Texture texture = make_texture(gl, GL_TEXTURE_2D);
+    gl.TextureStorage2D(texture.name(), 1, format, width, height);
+    return texture;
+}
+
+void require_complete(const GlFunctions& gl, const Framebuffer& framebuffer) {
+    if (gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER) !=
+        GL_FRAMEBUFFER_COMPLETE)
+        throw Error("OpenGL", "the driver cannot draw into R8, R32UI and depth-stencil textures",
+                    "use --gl osmesa");
+}
+
+/// An empty buffer may not be made: it holds one unused byte instead.
+Buffer make_filled_buffer(const GlFunctions& gl,
+                          std::span<const std::span<const std::byte>> parts) {
+    std::size_t size = 0;
+    for (const auto& part : parts) size += part.size();
+    Buffer buffer = make_buffer(gl);
+    gl.NamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(size, 1)),
+                          nullptr, GL_DYNAMIC_STORAGE_BIT);
+    std::size_t offset = 0;
+    for (const auto& part : parts) {
+        if (!part.empty())
+            gl.NamedBufferSubData(buffer.name(), static_cast<GLintptr>(offset),
+                                  static_cast<GLsizeiptr>(part.size()), part.data());
+        offset += part.size();
+    }
+    return buffer;
+}
+
+/// The point as a sum of two floats, exact to 48 bits.
+void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low) {
+    high = glm::vec3(point);
+    low = glm::vec3(point - glm::dvec3(high));
+}
+
+glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
+    switch (model.projection) {
+    case DepthModel::Projection::finite:
+        return clip_from_view_finite(camera, model.far);
+    case DepthModel::Projection::infinite:
+        return clip_from_view_infinite(camera);
+    case DepthModel::Projection::infinite_reversed:
+        return clip_from_view_infinite_reversed(camera);
+    }
+    assert(false);
+    return glm::dmat4(1);
+}
+
+/// OpenGL's rows run from the bottom.
+template <class Value>
+Image<Value> from_bottom_up(int width, int height, const std::vector<Value>& rows) {
+    Image<Value> image(width, height);
+    const auto stride = static_cast<std::ptrdiff_t>(width);
+    for (std::ptrdiff_t y = 0; y < height; ++y)
+        std::copy_n(rows.begin() + (height - 1 - y) * stride, stride,
+                    image.pixels.begin() + y * stride);
+    return image;
+}
+
+template <class Value>
+Image<Value> read_picture(const GlFunctions& gl, const Target& target, GLenum format, GLenum type) {
+    std::vector<Value> rows(static_cast<std::size_t>(target.width) *
+                            static_cast<std::size_t>(target.height));
+    gl.ReadPixels(0, 0, target.width, target.height, format, type, rows.data());
+    return from_bottom_up(target.width, target.height, rows);
+}
+
+} // namespace
+
+Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
+    GLint most = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (camera.width > most || camera.height > most)
+        throw Error("size " + std::to_string(camera.width) + "x" + std::to_string(camera.height),
+                    "the driver draws at most " + std::to_string(most) + " pixels a side",
+                    "ask for a smaller picture");
+
+    const auto picture = [&](GLenum format) {
+        return make_picture(gl, format, camera.width, camera.height);
+    };
+    Target target{.width = camera.width,
+                  .height = camera.height,
+                  .claim = picture(GL_R8),
+                  .triangle = picture(GL_R32UI),
+                  .depth_stencil = picture(floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8),
+                  .surface = make_framebuffer(gl),
+                  .light = make_framebuffer(gl)};
+    for (const GLuint framebuffer : {target.surface.name(), target.light.name()}) {
+        gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.claim.name(), 0);
+        gl.NamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT,
+                                   target.depth_stencil.name(), 0);
+    }
+    gl.NamedFramebufferTexture(target.surface.name(), GL_COLOR_ATTACHMENT1, target.triangle.name(),
+                               0);
+    constexpr std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    gl.NamedFramebufferDrawBuffers(target.surface.name(), 2, both.data());
+    require_complete(gl, target.surface);
+    require_complete(gl, target.light);
+    check(gl, "making the pictures");
+    return target;
+}
+
+ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
+    const glm::dmat4 projection = clip_from_view(scene.camera, depth_model);
+    ClipTransform transform;
+    if (depth_model.eye_relative) {
+        split(scene.camera.eye, transform.origin_high, transform.origin_low);
+        transform.clip_from_relative =
+            glm::mat4(projection * glm::dmat4(view_from_eye_relative(scene.camera)));
+    } else {
+        transform.clip_from_relative = glm::mat4(projection * view_from_world(scene.camera));
+    }
+    split(chosen_light(scene).position, transform.light_high, transform.light_low);
+    return transform;
+}
+
+Triangles upload_triangles(const GlFunctions& gl,
+                           std::span<const std::span<const glm::uvec3>> parts) {
+    std::vector<std::span<const std::byte>> bytes;
+    std::size_t count = 0;
+    for (const auto& part : parts) {
+        bytes.push_back(std::as_bytes(part));
+        count += part.size();
+    }
+    // glDrawElements takes the number of indices as an int.
+    if (count > std::size_t{std::numeric_limits<GLsizei>::max()} / 3)
+        throw Error("scene", std::to_string(count) + " triangles in one draw call are too many",
+                    "split the scene");
+    return {make_filled_buffer(gl, bytes), static_cast<std::uint32_t>(count)};
+}
+
+std::vector<SurfaceRun> surface_runs(const Scene& scene) {
+    std::vector<SurfaceRun> runs;
+    for (const Mesh& mesh : scene.meshes) {
+        const bool double_sided = scene.materials[mesh.material].double_sided;
+        if (runs.empty() || runs.back().double_sided != double_sided)
+            runs.push_back({mesh.first_triangle, 0, double_sided});
+        runs.back().triangle_count += mesh.triangle_count;
+    }
+    return runs;
+}
+
+Geometry upload(const GlFunctions& gl, const Scene& scene) {
+    Geometry geometry{.position_count = static_cast<std::uint32_t>(scene.positions.size()),
+                      .vertices = make_vertex_array(gl),
+                      .runs = surface_runs(scene)};
+    const std::span<const std::byte> positions = std::as_bytes(std::span(scene.positions));
+    geometry.positions = make_filled_buffer(gl, std::array{positions, positions});
+    const GLuint vertices = geometry.vertices.name();
+    gl.VertexArrayVertexBuffer(vertices, 0, geometry.positions.name(), 0, sizeof(glm::vec3));
+    gl.VertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    gl.VertexArrayAttribBinding(vertices, 0, 0);
+    gl.EnableVertexArrayAttrib(vertices, 0);
+    geometry.surface = upload_triangles(gl, std::array{std::span(scene.triangles)});
+
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::uvec3> lit_sides;
+    const glm::dvec3 light = chosen_light(scene).position;
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const double of_light = side(scene, triangle, light);
+        const double of_eye = side(scene, triangle, scene.camera.eye);
+        if ((of_light > 0 && of_eye > 0) || (of_light < 0 && of_eye < 0)) {
+            indices.push_back(triangle);
+            lit_sides.push_back(scene.triangles[triangle]);
+        }
+    }
+    geometry.lit_sides = upload_triangles(gl, std::array{std::span<const glm::uvec3>(lit_sides)});
+    geometry.lit_side_indices =
+        make_filled_buffer(gl, std::array{std::as_bytes(std::span(indices))});
+    check(gl, "uploading the scene");
+    return geometry;
+}
+
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform,
+                   const Geometry& geometry) {
+    // Locations as project.vert lays them out.
+    gl.ProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE,
+                               glm::value_ptr(transform.clip_from_relative));
+    gl.ProgramUniform3fv(program.name(), 1, 1, glm::value_ptr(transform.origin_high));
+    gl.ProgramUniform3fv(program.name(), 2, 1, glm::value_ptr(transform.origin_low));
+    gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light_high));
+    gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light_low));
+    gl.ProgramUniform1i(program.name(), 5, static_cast<GLint>(geometry.position_count));
+}
+
+void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
+                 const DepthModel& depth_model, bool depth_clamp) {
+    const bool reversed = depth_model.projection == DepthModel::Projection::infinite_reversed;
+    gl.Viewport(0, 0, target.width, target.height);
+    gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    set_enabled(gl, GL_DEPTH_CLAMP, depth_clamp);
+    gl.FrontFace(GL_CCW);
+    gl.CullFace(GL_BACK);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.BindVertexArray(geometry.vertices.name());
+}
+
+void end_frame(const GlFunctions& gl) {
+    gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    for (const GLenum capability : {GL_DEPTH_CLAMP, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE})
+        gl.Disable(capability);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0U);
+    gl.BindVertexArray(0);
+    gl.UseProgram(0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
+                    std::uint32_t first, std::uint32_t count) {
+    gl.VertexArrayElementBuffer(geometry.vertices.name(), triangles.buffer.name());
+    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(std::size_t{3} * sizeof(GLuint) * first));
+}
+
+void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+                  const Geometry& geometry, const DepthModel& depth_model,
+                  const VisibleDepths& visible) {
+    const bool reversed = depth_model.projection == DepthModel::Projection::infinite_reversed;
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0U);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
+
+    const GLuint framebuffer = target.surface.name();
+    constexpr std::array<GLfloat, 4> background{0, 0, 0, 0};
+    constexpr std::array<GLuint, 4> nothing{no_triangle, no_triangle, no_triangle, no_triangle};
+    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());
+    gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 1, nothing.data());
+    gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, 0);
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.UseProgram(surface.name());
+    // Locations as surface.frag lays them out.
+    gl.ProgramUniform2f(surface.name(), 6, visible.near, visible.far);
+    for (const SurfaceRun& run : geometry.runs) {
+        set_enabled(gl, GL_CULL_FACE, !run.double_sided);
+        gl.ProgramUniform1ui(surface.name(), 7, run.first_triangle);
+        draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
+    }
+    check(gl, "the surface pass");
+}
+
+void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
+                const Geometry& geometry) {
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_FALSE);
+    gl.DepthFunc(GL_EQUAL);
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilMask(0);
+    gl.StencilFunc(GL_EQUAL, 0, ~0U);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    gl.Disable(GL_CULL_FACE); // a side that is culled in the surface pass is not the one seen
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
+    gl.UseProgram(light.name());
+    gl.BindTextureUnit(0, target.triangle.name());
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.lit_side_indices.name());
+    draw_triangles(gl, geometry, geometry.lit_sides, 0, geometry.lit_sides.count);
+    check(gl, "the light pass");
+}
+
+Frame read_back(const GlFunctions& gl, const Target& target) {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.surface.name());
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    Frame frame;
+    gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT0);
+    frame.claim = read_picture<Visibility>(gl, target, GL_RED, GL_UNSIGNED_BYTE);
+    gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT1);
+    frame.triangle = read_picture<std::uint32_t>(gl, target, GL_RED_INTEGER, GL_UNSIGNED_INT);
+    frame.stencil = read_picture<std::uint8_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE);
+    frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    check(gl, "reading back");
+    return frame;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,108 @@
+// The steps that techniques share: what is drawn into, the uploaded scene, the surface pass, the
+// light pass, and reading back. Every pass sets all the state that it depends on.
+#pragma once
+
+#include "raster/context.h"
+#include "raster/gl.h"
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+/// The pictures that the passes draw, of the camera's size.
+struct Target {
+    int width = 0;
+    int height = 0;
+    Texture claim;         ///< R8: values of Visibility
+    Texture triangle;      ///< R32UI
+    Texture depth_stencil; ///< D24 or D32F, and 8 bits
+    Framebuffer surface;   ///< all three
+    Framebuffer light;     ///< without `triangle`, which the light pass reads
+};
+Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
+
+/// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
+/// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
+/// floats, and the matrix is computed in double and rounded once.
+struct ClipTransform {
+    glm::mat4 clip_from_relative{1};
+    glm::vec3 origin_high{0};
+    glm::vec3 origin_low{0};
+    glm::vec3 light_high{0};
+    glm::vec3 light_low{0};
+};
+/// Row z of an infinite projection equals row w in all coefficients of directions, so corners at
+/// infinity get z == w bit for bit and are not clipped.
+ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model);
+
+/// A buffer of indices, ready to draw as triangles.
+struct Triangles {
+    Buffer buffer{};
+    std::uint32_t count = 0; ///< of triangles
+};
+/// The parts one after the other, in one draw call.
+Triangles upload_triangles(const GlFunctions& gl,
+                           std::span<const std::span<const glm::uvec3>> parts);
+
+/// A run of triangles that are culled alike.
+struct SurfaceRun {
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+    bool double_sided = false;
+};
+/// Covers all triangles in order with the fewest runs.
+std::vector<SurfaceRun> surface_runs(const Scene& scene);
+
+/// A scene on the GPU.
+struct Geometry {
+    std::uint32_t position_count = 0;
+    Buffer positions{}; ///< all of them twice: corners i and i + position_count
+    VertexArray vertices{};
+    Triangles surface{}; ///< the scene's triangles
+    std::vector<SurfaceRun> runs{};
+    Triangles lit_sides{};     ///< those whose side seen from the eye is the light's
+    Buffer lit_side_indices{}; ///< their indices into Scene::triangles
+};
+Geometry upload(const GlFunctions& gl, const Scene& scene);
+
+/// Makes the program's vertices those of the scene under the transform.
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform,
+                   const Geometry& geometry);
+
+void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
+                    std::uint32_t first, std::uint32_t count);
+
+/// State that holds for a whole frame: how depth is made, which side is the front.
+void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
+                 const DepthModel& depth_model, bool depth_clamp);
+/// Back to OpenGL's initial values.
+void end_frame(const GlFunctions& gl);
+
+/// View depths that are seen. Where the projection clips at near and far itself, everything that
+/// is left is.
+struct VisibleDepths {
+    float near = 0;
+    float far = std::numeric_limits<float>::infinity();
+};
+
+/// Clears the target and draws the nearest surfaces: `shadowed`, depth, triangle.
+void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+                  const Geometry& geometry, const DepthModel& depth_model,
+                  const VisibleDepths& visible);
+
+/// Draws the lit sides again where the stencil is zero and the depth equal: `lit`. Writes neither
+/// stencil nor depth.
+void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
+                const Geometry& geometry);
+
+/// The pictures, rows from the top. Counting and depth model are left to the caller.
+Frame read_back(const GlFunctions& gl, const Target& target);
+
+} // namespace shadowproof

@@ -1,0 +1,56 @@
+#include "raster/render.h"
+
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace shadowproof {
+
+namespace {
+
+void require_drawable(const Scene& scene, const DriverInfo& driver) {
+    constexpr int llvmpipe_subpixel_bits = 8;
+    if (driver.subpixel_bits < llvmpipe_subpixel_bits)
+        throw Error("OpenGL",
+                    driver.renderer + " snaps vertices to " + std::to_string(driver.subpixel_bits) +
+                        " bits of a pixel",
+                    "use a driver with at least 8 (llvmpipe)");
+    if (chosen_light(scene).kind == Light::Kind::directional)
+        throw Error(scene.name, "light '" + chosen_light(scene).name + "' is directional",
+                    "choose a point or spot light with --light");
+}
+
+/// Written so that NaN fails.
+bool is_window_depth(float depth) {
+    return depth >= 0 && depth <= 1;
+}
+
+void require_picture(const Frame& frame, const Scene& scene, std::string_view technique) {
+    const auto refuse = [&](const char* what) {
+        throw Error(std::string(technique), "the driver's " + std::string(what), "use --gl osmesa");
+    };
+    if (!std::ranges::all_of(frame.depth.pixels, is_window_depth))
+        refuse("picture holds depths that are NaN or outside [0, 1]");
+    if (!std::ranges::all_of(frame.triangle.pixels, [&](std::uint32_t triangle) {
+            return triangle < scene.triangles.size() || triangle == no_triangle;
+        }))
+        refuse("picture shows triangles that the scene does not have");
+    if (!std::ranges::all_of(frame.claim.pixels, [](Visibility claim) {
+            return claim == Visibility::background || claim == Visibility::shadowed ||
+                   claim == Visibility::lit;
+        }))
+        refuse("claim is neither background nor shadowed nor lit");
+}
+
+} // namespace
+
+Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
+    require_drawable(scene, gpu.driver());
+    gpu.make_current();
+    Frame frame = technique.run(gpu, scene, plan);
+    require_picture(frame, scene, technique.name);
+    return frame;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,79 @@
+#include "raster/shader.h"
+
+#include "scenes/error.h"
+
+#include <cassert>
+#include <regex>
+#include <string>
+
+namespace shadowproof {
+
+namespace {
+
+GLenum stage_of(std::string_view file) {
+    if (file.ends_with(".vert")) return GL_VERTEX_SHADER;
+    if (file.ends_with(".geom")) return GL_GEOMETRY_SHADER;
+    assert(file.ends_with(".frag"));
+    return GL_FRAGMENT_SHADER;
+}
+
+/// Mesa writes "0:12(5): error"; NVIDIA "0(12) : error". Both become "file:12".
+std::string name_lines(const std::string& log, std::string_view file) {
+    static const std::regex mesa(R"((^|\n)0:(\d+)\((\d+)\))");
+    static const std::regex nvidia(R"((^|\n)0\((\d+)\))");
+    const std::string name(file);
+    const std::string named = std::regex_replace(log, mesa, "$1" + name + ":$2:$3");
+    return std::regex_replace(named, nvidia, "$1" + name + ":$2");
+}
+
+std::string without_last_newline(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\0')) text.pop_back();
+    return text;
+}
+
+Shader compile(const GlFunctions& gl, const ShaderText& source) {
+    Shader shader(gl, gl.CreateShader(stage_of(source.file)));
+    const GLchar* const text = source.text.data();
+    const auto length = static_cast<GLint>(source.text.size());
+    gl.ShaderSource(shader.name(), 1, &text, &length);
+    gl.CompileShader(shader.name());
+    GLint compiled = GL_FALSE;
+    gl.GetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
+    if (compiled) return shader;
+
+    GLint size = 0;
+    gl.GetShaderiv(shader.name(), GL_INFO_LOG_LENGTH, &size);
+    std::string log(static_cast<std::size_t>(size), '\0');
+    gl.GetShaderInfoLog(shader.name(), size, nullptr, log.data());
+    throw Error(std::string(source.file),
+                "does not compile: " + name_lines(without_last_newline(log), source.file),
+                "correct the shader");
+}
+
+} // namespace
+
+Program link(const GlFunctions& gl, const ShaderText& vertex, const ShaderText& fragment) {
+    const Shader vertex_shader = compile(gl, vertex);
+    const Shader fragment_shader = compile(gl, fragment);
+    Program program(gl, gl.CreateProgram());
+    gl.AttachShader(program.name(), vertex_shader.name());
+    gl.AttachShader(program.name(), fragment_shader.name());
+    gl.LinkProgram(program.name());
+    GLint linked = GL_FALSE;
+    gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (linked) return program;
+
+    GLint size = 0;
+    gl.GetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
+    std::string log(static_cast<std::size_t>(size), '\0');
+    gl.GetProgramInfoLog(program.name(), size, nullptr, log.data());
+    throw Error(std::string(vertex.file) + " and " + std::string(fragment.file),
+                "do not link: " + without_last_newline(log), "correct the shaders");
+}
+
+Program link_files(const GlFunctions& gl, std::string_view vertex, std::string_view fragment) {
+    assert(!glsl_source(vertex).empty() && !glsl_source(fragment).empty());
+    return link(gl, {vertex, glsl_source(vertex)}, {fragment, glsl_source(fragment)});
+}
+
+} // namespace shadowproof

@@ -1,0 +1,33 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Counts volume faces behind the visible surface, so an eye inside shadow is no special case, but
+/// the far plane clips: s(surface) - s(far plane). It clips all of the dark cap, which is therefore
+/// not drawn.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    ShadowVolume volume = extrude(scene);
+    volume.dark_cap.clear();
+    return draw_stencil_shadows(gpu, scene, volume,
+                                {.counting = {.test = Counting::Test::depth_fail},
+                                 .steps = {.front = -1, .back = +1},
+                                 .depth_model = {.projection = DepthModel::Projection::finite,
+                                                 .near = scene.camera.near,
+                                                 .far = finite_far(scene)}});
+}
+
+} // namespace
+
+Technique zfail_technique() {
+    return {.name = "zfail",
+            .summary = "counts volume faces behind the surface, up to a far plane that clips",
+            .source = "Kilgard 2001, \"Carmack's reverse\"; VGP353 week 5",
+            .needs = "closed volumes, and a far plane that cuts none of them",
+            .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

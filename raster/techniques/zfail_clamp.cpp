@@ -1,0 +1,33 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Counts volume faces behind the visible surface; depth clamping keeps what lies past the far
+/// plane, so the whole volume is counted.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    ShadowVolume volume = extrude(scene);
+    if (!plan.dark_cap) volume.dark_cap.clear();
+    return draw_stencil_shadows(
+        gpu, scene, volume,
+        {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
+         .steps = {.front = -1, .back = +1},
+         .depth_model = {.projection = DepthModel::Projection::finite,
+                         .near = scene.camera.near,
+                         .far = finite_far(scene)}});
+}
+
+} // namespace
+
+Technique zfail_clamp_technique() {
+    return {.name = "zfail_clamp",
+            .summary = "counts volume faces behind the surface, depths clamped to near and far",
+            .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
+            .needs = "closed volumes, and GL_DEPTH_CLAMP",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,31 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Counts volume faces behind the visible surface; the far plane lies at infinity, where the dark
+/// cap is just not clipped.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    ShadowVolume volume = extrude(scene);
+    if (!plan.dark_cap) volume.dark_cap.clear();
+    return draw_stencil_shadows(gpu, scene, volume,
+                                {.counting = {.test = Counting::Test::depth_fail},
+                                 .steps = {.front = -1, .back = +1},
+                                 .depth_model = {.projection = DepthModel::Projection::infinite,
+                                                 .near = scene.camera.near}});
+}
+
+} // namespace
+
+Technique zfail_infinite_technique() {
+    return {.name = "zfail_infinite",
+            .summary = "counts volume faces behind the surface, under an infinite projection",
+            .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
+            .needs = "closed volumes",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

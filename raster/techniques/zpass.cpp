@@ -1,0 +1,33 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Counts volume faces in front of the visible surface: s(surface) - s(near plane), which is wrong
+/// where the near plane lies inside a volume. The dark cap is never in front of anything; the light
+/// cap is only where its own surface is culled, seen from behind.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    return draw_stencil_shadows(
+        gpu, scene, extrude(scene),
+        {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
+         .steps = {.front = +1, .back = -1},
+         .depth_model = {.projection = DepthModel::Projection::finite,
+                         .near = scene.camera.near,
+                         .far = finite_far(scene)}});
+}
+
+} // namespace
+
+Technique zpass_technique() {
+    return {.name = "zpass",
+            .summary = "counts volume faces in front of the surface",
+            .source = "Heidmann 1991; Kilgard 2001, stencilled shadow volumes; VGP353 week 5",
+            .needs = "a near plane outside every shadow volume",
+            .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
+                         Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,114 @@
+#include "tests/raster/faulty_techniques.h"
+
+#include "raster/stencil.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace shadowproof::tests {
+
+namespace {
+
+StencilRecipe clamp_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
+            .steps = {.front = -1, .back = +1},
+            .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
+}
+
+StencilRecipe reversed_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_fail},
+            .steps = {.front = -1, .back = +1},
+            .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
+                            .near = scene.camera.near,
+                            .floating = true,
+                            .eye_relative = true}};
+}
+
+StencilRecipe zpass_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
+            .steps = {.front = +1, .back = -1},
+            .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
+}
+
+/// Index of the first of the two triangles (b, a, a'), (b, a', b') beside the longest edge.
+std::ptrdiff_t longest_side(const Scene& scene, const std::vector<glm::uvec3>& sides) {
+    std::ptrdiff_t longest = 0;
+    float most = -1;
+    for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+        const float length =
+            glm::distance(scene.positions[sides[i].x], scene.positions[sides[i].y]);
+        if (length > most) {
+            most = length;
+            longest = static_cast<std::ptrdiff_t>(i);
+        }
+    }
+    return longest;
+}
+
+} // namespace
+
+Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    ShadowVolume volume = extrude(scene);
+    volume.dark_cap.clear();
+    return draw_stencil_shadows(gpu, scene, volume, reversed_recipe(scene));
+}
+
+Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = clamp_recipe(scene);
+    std::swap(recipe.steps.front, recipe.steps.back);
+    return draw_stencil_shadows(gpu, scene, extrude(scene), recipe);
+}
+
+Frame without_one_side(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    ShadowVolume volume = extrude(scene);
+    if (!volume.sides.empty()) {
+        const auto first = volume.sides.begin() + longest_side(scene, volume.sides);
+        volume.sides.erase(first, first + 2);
+    }
+    return draw_stencil_shadows(gpu, scene, volume, clamp_recipe(scene));
+}
+
+Frame with_wrong_near_plane(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    Scene drawn = scene;
+    drawn.camera.near *= 2;
+    recipe.depth_model.near *= 2;
+    Frame frame = draw_stencil_shadows(gpu, drawn, extrude(drawn), recipe);
+    frame.depth_model.near = scene.camera.near;
+    return frame;
+}
+
+Frame with_mirrored_light(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    Scene mirrored = scene;
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (const glm::vec3& position : scene.positions) {
+        low = std::min(low, position.x);
+        high = std::max(high, position.x);
+    }
+    double& x = mirrored.lights[mirrored.light].position.x;
+    x = double{low} + double{high} - x;
+    return draw_stencil_shadows(gpu, mirrored, extrude(mirrored), reversed_recipe(mirrored));
+}
+
+std::span<const Technique> faulty_techniques() {
+    static const auto like = [](const char* twin, const char* name,
+                                Frame (*run)(Gpu&, const Scene&, const Plan&)) {
+        Technique technique = *find_technique(twin);
+        technique.name = name;
+        technique.run = run;
+        return technique;
+    };
+    static const std::array techniques{
+        like("zfail_reversed", "without_dark_cap", without_dark_cap),
+        like("zfail_clamp", "with_swapped_steps", with_swapped_steps),
+        like("zfail_clamp", "without_one_side", without_one_side),
+        like("zpass", "with_wrong_near_plane", with_wrong_near_plane),
+        like("zfail_reversed", "with_mirrored_light", with_mirrored_light),
+    };
+    return techniques;
+}
+
+} // namespace shadowproof::tests

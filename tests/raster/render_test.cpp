@@ -1,0 +1,179 @@
+#include "raster/render.h"
+#include "scenes/error.h"
+#include "tests/raster/small_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace shadowproof::tests {
+namespace {
+
+void expect_same(const Frame& a, const Frame& b) {
+    EXPECT_EQ(a.claim.pixels, b.claim.pixels);
+    EXPECT_EQ(a.stencil.pixels, b.stencil.pixels);
+    EXPECT_EQ(a.depth.pixels, b.depth.pixels);
+    EXPECT_EQ(a.triangle.pixels, b.triangle.pixels);
+}
+
+TEST(Render, is_bit_identical_over_runs_techniques_between_and_a_fresh_context) {
+    const Scene scene = box_over_floor();
+    Gpu gpu(GlPlatform::osmesa);
+    std::vector<Frame> frames;
+    for (const Technique& technique : all_techniques())
+        frames.push_back(render(technique, scene, Plan{}, gpu));
+    Gpu fresh(GlPlatform::osmesa);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        SCOPED_TRACE(all_techniques()[i].name);
+        expect_same(frames[i], render(all_techniques()[i], scene, Plan{}, gpu));
+        expect_same(frames[i], render(all_techniques()[i], scene, Plan{}, fresh));
+    }
+}
+
+TEST(Render, gives_the_same_pixels_through_egl) {
+    const Scene scene = box_over_floor();
+    Gpu osmesa(GlPlatform::osmesa);
+    Gpu egl(GlPlatform::egl);
+    if (egl.driver().renderer.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "EGL draws with " << egl.driver().renderer;
+    for (const Technique& technique : all_techniques()) {
+        SCOPED_TRACE(technique.name);
+        expect_same(render(technique, scene, Plan{}, osmesa),
+                    render(technique, scene, Plan{}, egl));
+    }
+}
+
+TEST(Render, works_on_another_thread_than_the_contexts_own) {
+    const Scene scene = box_over_floor();
+    const Technique& technique = *find_technique("zfail_reversed");
+    Frame here;
+    Frame there;
+    {
+        Gpu gpu(GlPlatform::osmesa);
+        here = render(technique, scene, Plan{}, gpu);
+    }
+    std::thread([&] {
+        Gpu gpu(GlPlatform::osmesa);
+        there = render(technique, scene, Plan{}, gpu);
+    }).join();
+    expect_same(here, there);
+}
+
+TEST(Render, has_its_first_row_at_the_top_and_its_first_column_on_the_left) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, {-4, 1, 0}, {-1, 1, 0}, {-1, 4, 0}, {-4, 4, 0});
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("zfail_reversed"), scene, Plan{}, gpu);
+    EXPECT_EQ(frame.claim.at(16, 16), Visibility::lit);
+    EXPECT_LT(frame.triangle.at(16, 16), 2U);
+    EXPECT_GT(frame.depth.at(16, 16), 0);
+    for (const Pixel pixel : {Pixel{48, 16}, Pixel{16, 48}, Pixel{48, 48}}) {
+        EXPECT_EQ(frame.claim.at(pixel.x, pixel.y), Visibility::background);
+        EXPECT_EQ(frame.triangle.at(pixel.x, pixel.y), no_triangle);
+        EXPECT_EQ(frame.depth.at(pixel.x, pixel.y), 0);
+    }
+}
+
+TEST(Render, says_how_it_counted_and_how_it_made_depth) {
+    Scene scene = box_over_floor();
+    Gpu gpu(GlPlatform::osmesa);
+    for (const Technique& technique : all_techniques()) {
+        const Frame frame = render(technique, scene, Plan{}, gpu);
+        const bool reversed = technique.name == "zfail_reversed";
+        EXPECT_EQ(frame.counting.test, technique.name == "zpass" ? Counting::Test::depth_pass
+                                                                 : Counting::Test::depth_fail);
+        EXPECT_EQ(frame.counting.depth_clamp, technique.name == "zfail_clamp");
+        EXPECT_EQ(frame.depth_model.floating, reversed);
+        EXPECT_EQ(frame.depth_model.eye_relative, reversed);
+        EXPECT_EQ(frame.depth_model.near, scene.camera.near);
+        EXPECT_EQ(frame.depth_model.subpixel_bits, 8);
+        EXPECT_EQ(std::isfinite(frame.depth_model.far),
+                  frame.depth_model.projection == DepthModel::Projection::finite);
+        EXPECT_GT(frame.milliseconds, 0);
+    }
+}
+
+TEST(Render, stores_the_window_depth_that_the_depth_model_says) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, {-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2}); // depth 3
+    Gpu gpu(GlPlatform::osmesa);
+    for (const Technique& technique : all_techniques()) {
+        const Frame frame = render(technique, scene, Plan{}, gpu);
+        const double n = frame.depth_model.near;
+        const double f = frame.depth_model.far;
+        const double expected = frame.depth_model.projection == DepthModel::Projection::finite
+                                    ? f * (3 - n) / (3 * (f - n))
+                                : frame.depth_model.projection == DepthModel::Projection::infinite
+                                    ? 1 - n / 3
+                                    : n / 3;
+        // 16 steps of 24 bits: what the ledger grants D24 for its rounding and that of the matrix.
+        EXPECT_NEAR(frame.depth.at(20, 40), expected, std::ldexp(16, -24)) << technique.name;
+    }
+}
+
+TEST(Render, refuses_a_directional_light_and_names_it) {
+    Scene scene = box_over_floor();
+    scene.lights[0].kind = Light::Kind::directional;
+    scene.lights[0].name = "sun";
+    Gpu gpu(GlPlatform::osmesa);
+    try {
+        render(*find_technique("zpass"), scene, Plan{}, gpu);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("'sun' is directional"), std::string::npos);
+    }
+}
+
+TEST(Render, refuses_a_picture_larger_than_the_driver_can_draw) {
+    Scene scene = box_over_floor();
+    scene.camera.width = 1 << 20;
+    Gpu gpu(GlPlatform::osmesa);
+    EXPECT_THROW(render(*find_technique("zpass"), scene, Plan{}, gpu), Error);
+}
+
+Frame broken_frame(const Scene& scene) {
+    Frame frame;
+    frame.claim = {scene.camera.width, scene.camera.height};
+    frame.stencil = {scene.camera.width, scene.camera.height};
+    frame.depth = {scene.camera.width, scene.camera.height};
+    frame.triangle = {scene.camera.width, scene.camera.height, no_triangle};
+    return frame;
+}
+Frame with_nan_depth(Gpu& /*gpu*/, const Scene& scene, const Plan& /*plan*/) {
+    Frame frame = broken_frame(scene);
+    frame.depth.at(3, 5) = std::numeric_limits<float>::quiet_NaN();
+    return frame;
+}
+Frame with_unknown_triangle(Gpu& /*gpu*/, const Scene& scene, const Plan& /*plan*/) {
+    Frame frame = broken_frame(scene);
+    frame.triangle.at(3, 5) = static_cast<std::uint32_t>(scene.triangles.size());
+    return frame;
+}
+
+TEST(Render, refuses_nan_depth_and_triangles_that_are_not_there) {
+    const Scene scene = box_over_floor();
+    Gpu gpu(GlPlatform::osmesa);
+    Technique technique{.name = "broken",
+                        .summary = "",
+                        .source = "",
+                        .needs = "",
+                        .fails_at = {},
+                        .run = with_nan_depth};
+    EXPECT_THROW(render(technique, scene, Plan{}, gpu), Error);
+    technique.run = with_unknown_triangle;
+    EXPECT_THROW(render(technique, scene, Plan{}, gpu), Error);
+}
+
+TEST(Render, a_scene_without_triangles_is_all_background) {
+    const Scene scene = empty_scene();
+    Gpu gpu(GlPlatform::osmesa);
+    for (const Technique& technique : all_techniques()) {
+        const Frame frame = render(technique, scene, Plan{}, gpu);
+        EXPECT_EQ(frame.claim.pixels, Image<Visibility>(64, 64, Visibility::background).pixels);
+    }
+}
+
+} // namespace
+} // namespace shadowproof::tests
