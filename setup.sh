@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Installs what Debian 12 has to offer for building (./setup.sh build) and for testing too
+# (./setup.sh test). Does nothing, quickly, where all of it is there.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+build_packages=(
+    g++ cmake ninja-build pkg-config
+    libembree-dev libtbb-dev libglm-dev libhwy-dev libgmp-dev
+    libopenimageio-dev libtinygltf-dev nlohmann-json3-dev
+    libosmesa6-dev libegl-dev libegl1
+    libcli11-dev libfmt-dev
+)
+test_packages=(libgtest-dev libbenchmark-dev clang-format assimp-testmodels)
+
+case ${1:-} in
+build) wanted=("${build_packages[@]}") ;;
+test)
+    wanted=("${build_packages[@]}" "${test_packages[@]}")
+    # Whoever has Node.js from elsewhere keeps it.
+    command -v node >/dev/null || wanted+=(nodejs)
+    command -v npm >/dev/null || wanted+=(npm)
+    ;;
+*) echo "usage: ./setup.sh build|test" >&2; exit 2 ;;
+esac
+
+command -v dpkg-query >/dev/null || {
+    echo "setup.sh: knows Debian's packages only; install these by other means: ${wanted[*]}" >&2
+    exit 3
+}
+missing=()
+for package in "${wanted[@]}"; do
+    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$state" = installed ] || missing+=("$package")
+done
+
+if [ ${#missing[@]} -gt 0 ]; then
+    as_root=()
+    if [ "$(id -u)" != 0 ]; then
+        command -v sudo >/dev/null || {
+            echo "setup.sh: packages are missing, and only root may install them; as root, run" >&2
+            echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+            exit 3
+        }
+        as_root=(sudo)
+    fi
+    echo "setup.sh: installing ${missing[*]}"
+    apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq)
+    "${apt[@]}" update
+    "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+# The Khronos glTF validator and a JSON Schema validator, at the versions of the lock file.
+if [ "$1" = test ] && ! cmp -s tests/package-lock.json tests/node_modules/.installed; then
+    npm ci --prefix tests --no-audit --no-fund --loglevel=error
+    cp tests/package-lock.json tests/node_modules/.installed
+fi
