@@ -111,7 +111,7 @@ bool volume_reaches_infinity(const Scene& scene) {
     const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
     std::array<glm::dvec3, 5> inward{};
     for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye
-        inward[i] = glm::normalize(glm::cross(rays[(i + 1) % 4], rays[i]));
+        inward[i] = glm::normalize(glm::cross(rays[i], rays[(i + 1) % 4]));
     inward[4] = scene.camera.forward;
     const auto is_outside = [&](const Corners& corners, const glm::dvec3& axis) {
         return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& point) {

@@ -30,7 +30,7 @@ Stage looking_along_floor() {
     stage.things = {floor(4.43)};
     stage.eye = {1.337, 5.273, 12.617};
     stage.target = {0.041, -0.241, 0.013};
-    stage.yfov = 0.5637;
+    stage.yfov = 0.6137;
     stage.znear = 0.913;
     stage.zfar = 71.3;
     stage.light = {-3.471, 8.877, -0.683};
@@ -76,7 +76,7 @@ Stage near_plane() {
          {"ring",
           torus(0.153, 0.063, 64, 24),
           coral,
-          {0.319, 5.647, 9.027},
+          {0.219, 5.687, 9.027},
           {0.9, 0.1, -0.2},
           1.3713}});
     return stage;
@@ -92,7 +92,7 @@ Stage far_plane() {
     constexpr int stones = 5;
     for (int i = 0; i < stones; ++i) {
         const double angle = 0.413 + 0.587 * i; // radians, an arc open to the eye
-        const double height = 0.971 + 0.213 * ((i * 2) % stones);
+        const double height = 0.613 + 0.171 * ((i * 2) % stones);
         add(stage, {{"stone " + std::to_string(i + 1),
                      box({0.413, height, 0.257}, 4),
                      slate,
@@ -103,7 +103,7 @@ Stage far_plane() {
     add(stage,
         {{"ball", ball(0.917, 4), coral, {-0.213, 0.949, 0.671}, {0.31, 0.83, 0.47}, 0.7331}});
     stage.zfar = 20.3;
-    stage.light = {-2.171, 7.877, 3.683};
+    stage.light = {-2.971, 5.477, 8.383};
     return stage;
 }
 
