@@ -77,6 +77,7 @@ struct Platform; // platform.h
     X(PFNGLSTENCILMASKPROC, StencilMask)                                                           \
     X(PFNGLSTENCILOPPROC, StencilOp)                                                               \
     X(PFNGLSTENCILOPSEPARATEPROC, StencilOpSeparate)                                               \
+    X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                               \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                 \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                 \

@@ -17,6 +17,9 @@ namespace {
 Texture make_picture(const GlFunctions& gl, GLenum format, int width, int height) {
     Texture texture = make_texture(gl, GL_TEXTURE_2D);
     gl.TextureStorage2D(texture.name(), 1, format, width, height);
+    // Integers under the initial, linear filter make a texture incomplete, and its texels zero.
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 

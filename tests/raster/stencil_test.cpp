@@ -10,6 +10,9 @@ namespace shadowproof::tests {
 namespace {
 
 constexpr const char* robust[]{"zfail_clamp", "zfail_infinite", "zfail_reversed"};
+/// Right wherever eye and near plane are outside all volumes. Not zfail: what lies behind a floor
+/// is in its shadow, out to the far plane.
+constexpr const char* right_outside[]{"zpass", "zfail_clamp", "zfail_infinite", "zfail_reversed"};
 
 class Stencil : public testing::Test {
 protected:
@@ -35,9 +38,9 @@ Seen at(const Frame& frame, const Pixel& pixel) {
 
 TEST_F(Stencil, a_box_over_a_floor_counts_one_in_its_shadow_and_none_beside) {
     const Scene scene = box_over_floor();
-    for (const Technique& technique : all_techniques()) {
-        SCOPED_TRACE(technique.name);
-        const Frame frame = render(technique, scene, Plan{}, gpu);
+    for (const char* technique : right_outside) {
+        SCOPED_TRACE(technique);
+        const Frame frame = draw(scene, technique);
         const auto seen = [&](const glm::dvec3& point) {
             return at(frame, pixel_of(scene, point));
         };
@@ -54,9 +57,9 @@ TEST_F(Stencil, a_box_over_a_floor_counts_one_in_its_shadow_and_none_beside) {
 TEST_F(Stencil, nested_boxes_count_two) {
     Scene scene = box_over_floor();
     add_box(scene, {-0.5, 1.2, -0.5}, {0.5, 1.8, 0.5});
-    for (const Technique& technique : all_techniques()) {
-        SCOPED_TRACE(technique.name);
-        const Frame frame = render(technique, scene, Plan{}, gpu);
+    for (const char* technique : right_outside) {
+        SCOPED_TRACE(technique);
+        const Frame frame = draw(scene, technique);
         EXPECT_EQ(at(frame, pixel_of(scene, {0, 0, 0})), (Seen{2, Visibility::shadowed}));
         EXPECT_EQ(at(frame, pixel_of(scene, {1.2, 0, 1.2})), (Seen{1, Visibility::shadowed}));
         EXPECT_EQ(at(frame, pixel_of(scene, {3, 0, 3})), (Seen{0, Visibility::lit}));
@@ -69,10 +72,9 @@ TEST_F(Stencil, a_back_side_is_shadowed_with_a_counter_of_its_own) {
     scene.materials[0].double_sided = true;
     scene.lights[0].position = {0, 0, -5};
     add_rectangle(scene, {1, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0});
-    for (const Technique& technique : all_techniques())
-        EXPECT_EQ(at(render(technique, scene, Plan{}, gpu), {32, 32}),
-                  (Seen{1, Visibility::shadowed}))
-            << technique.name;
+    for (const char* technique : robust)
+        EXPECT_EQ(at(draw(scene, technique), {32, 32}), (Seen{1, Visibility::shadowed}))
+            << technique;
 }
 
 TEST_F(Stencil, a_single_sided_wall_seen_from_behind_is_not_seen_but_casts) {
@@ -82,9 +84,9 @@ TEST_F(Stencil, a_single_sided_wall_seen_from_behind_is_not_seen_but_casts) {
     add_rectangle(scene, {1, -1, -2}, {-1, -1, -2}, {-1, 1, -2}, {1, 1, -2});
     scene.materials.push_back({.name = "two-sided", .double_sided = true});
     add_rectangle(scene, {-3, -3, -4}, {3, -3, -4}, {3, 3, -4}, {-3, 3, -4});
-    for (const Technique& technique : all_techniques()) {
-        SCOPED_TRACE(technique.name);
-        const Frame frame = render(technique, scene, Plan{}, gpu);
+    for (const char* technique : robust) {
+        SCOPED_TRACE(technique);
+        const Frame frame = draw(scene, technique);
         EXPECT_GE(frame.triangle.at(32, 32), 2U); // the second wall, through the first
         EXPECT_LT(frame.triangle.at(32, 32), 4U);
         EXPECT_EQ(at(frame, {32, 32}).claim, Visibility::shadowed);
@@ -137,9 +139,9 @@ TEST_F(Stencil, a_near_plane_inside_a_volume_miscounts_with_zpass_and_never_with
 TEST_F(Stencil, a_far_plane_inside_a_volume_miscounts_with_zfail_and_never_when_it_does_not_clip) {
     Scene scene = box_over_floor();
     look_at(scene.camera, {6, 0.5, 0}, {0, 0.5, 0});
-    scene.camera.far = 6; // at x = 0, where the ray is below the floor, inside the volume
+    scene.camera.far = 6; // at x = 0, where the ray is below floor and box, in both volumes
     const Pixel before = pixel_of(scene, {2, 0, 0});
-    EXPECT_EQ(at(draw(scene, "zfail"), before), (Seen{255, Visibility::shadowed}));
+    EXPECT_EQ(at(draw(scene, "zfail"), before), (Seen{254, Visibility::shadowed}));
     EXPECT_EQ(at(draw(scene, "zpass"), before), (Seen{0, Visibility::lit}));
     for (const char* technique : robust)
         EXPECT_EQ(at(draw(scene, technique), before), (Seen{0, Visibility::lit})) << technique;
@@ -181,7 +183,7 @@ TEST_F(Stencil, the_background_counts_at_infinity_or_at_the_far_plane) {
 TEST_F(Stencil, three_hundred_casters_wrap_the_counter) {
     Scene scene = empty_scene();
     scene.lights[0].position = {0, 0, 4};
-    look_at(scene.camera, {3, 0, 4}, {0, 0, -1});
+    look_at(scene.camera, {6, 0, 1}, {-0.9, 0, -2}); // past the edges of all casters
     for (int i = 0; i < 300; ++i) {
         const float z = static_cast<float>(i) / 300;
         add_rectangle(scene, {-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z});
@@ -199,10 +201,8 @@ TEST_F(Stencil, of_two_triangles_that_tie_only_the_seen_one_is_lit) {
     scene.materials[0].double_sided = true;
     add_rectangle(scene, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
     add_rectangle(scene, {-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0});
-    for (const Technique& technique : all_techniques()) {
-        const Frame frame = render(technique, scene, Plan{}, gpu);
-        EXPECT_EQ(at(frame, {30, 33}), (Seen{0, Visibility::lit})) << technique.name;
-    }
+    for (const char* technique : right_outside)
+        EXPECT_EQ(at(draw(scene, technique), {30, 33}), (Seen{0, Visibility::lit})) << technique;
 }
 
 TEST_F(Stencil, the_dark_cap_has_its_depth_at_infinity_exactly) {
