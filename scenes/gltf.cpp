@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 
 namespace shadowproof {
@@ -65,6 +66,12 @@ void read_provokes(const Document& document, Scene& scene) {
     }
 }
 
+/// Each note once, in the order in which they came.
+void drop_repeated(std::vector<std::string>& notes) {
+    std::set<std::string> seen;
+    std::erase_if(notes, [&](const std::string& note) { return !seen.insert(note).second; });
+}
+
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) {
@@ -81,6 +88,7 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     bake_meshes(reader, graph, scene);
     scene.camera = choose_camera(document, graph, request, scene);
     choose_light(document, graph, request, scene);
+    drop_repeated(scene.notes);
     return scene;
 }
 
