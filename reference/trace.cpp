@@ -135,22 +135,47 @@ GroundTruth trace(const Tracer& tracer) {
     return truth;
 }
 
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+    const Tracer::State& state = tracer.state();
+    std::vector<RayTruth> truths(directions.size());
+    std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
+    constexpr std::size_t piece_size = std::size_t{64} * packet_size;
+    const auto pieces = static_cast<int>((directions.size() + piece_size - 1) / piece_size);
+    parallel_for(pieces, state.threads, [&](int piece, int thread) {
+        std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
+        if (!prober) prober = std::make_unique<Prober>(state);
+        const std::size_t begin = static_cast<std::size_t>(piece) * piece_size;
+        const std::size_t end = std::min(directions.size(), begin + piece_size);
+        for (std::size_t first = begin; first < end; first += packet_size) {
+            const std::size_t count = std::min<std::size_t>(packet_size, end - first);
+            Lanes<glm::dvec3> packet{};
+            std::copy_n(directions.begin() + static_cast<std::ptrdiff_t>(first), count,
+                        packet.begin());
+            const std::uint32_t lanes = (1U << count) - 1;
+            Lanes<Seen> seen;
+            Lanes<Lighting> lighting;
+            prober->see(packet, lanes, seen);
+            prober->light(packet, lanes, seen, lighting);
+            for (std::size_t lane = 0; lane < count; ++lane)
+                truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
+                                        seen[lane].triangle, seen[lane].depth,
+                                        lighting[lane].occluder,
+                                        std::max(seen[lane].exactness, lighting[lane].exactness)};
+        }
+    });
+    return truths;
+}
+
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
-    Prober prober(tracer.state());
-    Lanes<glm::dvec3> directions{};
-    directions[0] = direction;
-    Lanes<Seen> seen;
-    Lanes<Lighting> lighting;
-    prober.see(directions, 1, seen);
-    prober.light(directions, 1, seen, lighting);
-    RayTruth truth;
-    truth.visibility = visibility_of(seen[0], lighting[0]);
-    truth.triangle = seen[0].triangle;
-    truth.depth = seen[0].depth;
-    truth.occluder = lighting[0].occluder;
-    truth.faces_light = truth.triangle != no_triangle && tracer.state().faces_light(truth.triangle);
-    truth.exactness = std::max(seen[0].exactness, lighting[0].exactness);
-    return truth;
+    return trace_rays(tracer, std::span(&direction, 1)).front();
+}
+
+TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle) {
+    const Tracer::State& state = tracer.state();
+    const std::int8_t eye = state.from_eye.side[triangle];
+    const std::int8_t light = state.from_light.side[triangle];
+    return {eye < 0, eye > 0, light < 0, light > 0,
+            eye < 0 || (eye > 0 && state.double_sided[triangle] != 0)};
 }
 
 } // namespace shadowproof

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -70,10 +72,26 @@ struct RayTruth {
     std::uint32_t triangle = no_triangle;
     double depth = 0;
     std::uint32_t occluder = no_triangle; ///< where shadowed by one: some triangle in between
-    bool faces_light = false; ///< eye and light strictly on the same side of the seen triangle
     Exactness exactness = Exactness::filtered;
 };
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
+/// Many rays at once, on all threads.
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+
+/// A triangle's sides, exactly: a sign of zero is neither.
+struct TriangleSides {
+    bool front_to_eye = false;
+    bool back_to_eye = false;
+    bool front_to_light = false;
+    bool back_to_light = false;
+    bool visible = false; ///< the eye's side is one that is drawn
+
+    /// Eye and light strictly on the same side: what the light pass may light.
+    bool faces_light() const {
+        return (front_to_eye && front_to_light) || (back_to_eye && back_to_light);
+    }
+};
+TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle);
 
 /// Version of the Embree library that runs, "3.13.5".
 std::string embree_version();

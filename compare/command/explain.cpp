@@ -45,6 +45,7 @@ struct Explanation {
     PixelPosition pixel;
     glm::dvec3 direction;
     RayTruth truth;
+    bool faces_light = false; ///< the seen side is the light's
     RayLedger ledger;
     std::int32_t at_near = 0;
     std::int32_t at_surface = 0;
@@ -147,7 +148,7 @@ std::string as_text(const Explanation& e) {
                         name_of(e.truth.exactness));
     if (e.truth.occluder != no_triangle)
         text += fmt::format("  occluder  {}\n", triangle_words(scene, e.truth.occluder));
-    if (seen && !e.truth.faces_light) text += "  the seen side faces away from the light\n";
+    if (seen && !e.faces_light) text += "  the seen side faces away from the light\n";
 
     text += "  shadow volumes along the ray, by depth\n";
     text += fmt::format("    {:>14}  {:>6}  inside\n", "depth", "change");
@@ -229,7 +230,7 @@ Json as_json(const Explanation& e) {
     if (seen) {
         json["seen"]["depth"] = e.truth.depth;
         json["seen"]["point"] = vector_json(scene.camera.eye + e.truth.depth * e.direction);
-        json["seen"]["faces_light"] = e.truth.faces_light;
+        json["seen"]["faces_light"] = e.faces_light;
     }
     for (const Crossing& crossing : e.ledger.crossings)
         json["crossings"].push_back({{"depth", crossing.depth},
@@ -253,12 +254,17 @@ int explain(const ExplainOptions& options) {
                   .pixel = options.pixel,
                   .direction = direction,
                   .truth = trace_ray(tracer, direction),
+                  .faces_light = false,
                   .ledger = ray_ledger(tracer, direction),
                   .at_near = depths.at_near.at(x, y),
                   .at_surface = depths.at_surface.at(x, y),
                   .at_far = depths.at_far.at(x, y),
                   .far = depths.far,
                   .techniques = {}};
+    if (e.truth.triangle != no_triangle)
+        e.faces_light = sides_of(tracer, e.truth.triangle).faces_light();
+    if (e.truth.triangle != no_triangle)
+        e.faces_light = sides_of(tracer, e.truth.triangle).faces_light();
     Gpu gpu(options.technique.platform);
     for (const Technique* technique : options.technique.chosen())
         e.techniques.push_back(ask(*technique, tracer, truth, depths, plan, options.pixel, gpu));

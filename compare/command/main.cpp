@@ -31,13 +31,13 @@ constexpr const char* footer =
 
 int run(int argc, char** argv) {
     CLI::App app(description, "shadowproof");
-    app.footer(footer);
     app.require_subcommand(1);
     app.set_version_flag("--version", [] {
         return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
     });
     const std::vector<Work> works{add_verify(app), add_render(app), add_explain(app),
                                   add_list(app)};
+    app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;
     for (const CLI::App* command : commands)
@@ -47,12 +47,16 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "shadowproof: {}\n", error.what());
         const std::vector<CLI::App*> chosen = app.get_subcommands();
-        if (chosen.empty())
-            fmt::print(stderr, "The commands are {}; see shadowproof --help.\n", offered);
+        const std::string_view first = argc > 1 ? argv[1] : "";
+        if (!chosen.empty())
+            fmt::print(stderr, "shadowproof: {}\nSee shadowproof {} --help.\n", error.what(),
+                       chosen.front()->get_name());
+        else if (first.empty() || first.front() == '-')
+            fmt::print(stderr, "shadowproof: {}; there are {}\n", error.what(), offered);
         else
-            fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
+            fmt::print(stderr, "shadowproof: there is no command '{}'; there are {}\n", first,
+                       offered);
         return exit_usage;
     }
     for (std::size_t i = 0; i < commands.size(); ++i)

@@ -31,6 +31,9 @@ OIIO::ImageSpec spec_of(const Scene& scene) {
     spec.channelformats.assign(9, TypeDesc::FLOAT);
     spec.channelformats.emplace_back(TypeDesc::UINT32);
     spec.attribute("compression", "zip");
+    // Else the writer puts in the time of day, and no two files are the same. Blank is how Exif
+    // 2.3 (4.6.4) writes an unknown time.
+    spec.attribute("DateTime", "    :  :     :  :  ");
     return spec;
 }
 

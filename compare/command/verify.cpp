@@ -184,27 +184,30 @@ int exit_code(const Report& report) {
     return report.passed ? exit_passed : exit_failed;
 }
 
-/// What failed, how to see it again, and where the report lies.
+/// How to see again what failed, and where the report lies.
 void conclude(Console& console, const Report& report, const VerifyOptions& options) {
     std::size_t cells = 0;
     std::size_t failing = 0;
+    std::size_t unread = 0;
+    std::size_t unprovoked = 0;
     for (const SceneResult& scene : report.scenes) {
-        if (!scene.error.empty()) ++failing;
         for (const Cell& cell : scene.cells) {
             ++cells;
             if (!fails(cell, report.gate)) continue;
             ++failing;
             console.always("reproduce: " + reproducing_command(report, scene, cell));
         }
-        if (!scene.no_longer_provoked.empty()) {
-            ++failing;
-            console.always("reproduce: shadowproof verify " + scene.name);
-        }
+        if (!scene.error.empty()) ++unread;
+        if (scene.no_longer_provoked.empty()) continue;
+        ++unprovoked;
+        console.always("reproduce: shadowproof verify " + scene.name);
     }
-    const std::string place = (std::filesystem::path(options.out) / "index.html").string();
-    console.always(
-        failing == 0 ? fmt::format("passed: {} cells, report in {}", cells, place)
-                     : fmt::format("failed: {} of {} cells, report in {}", failing, cells, place));
+    std::string outcome = report.passed ? fmt::format("passed: {} cells", cells)
+                                        : fmt::format("failed: {} of {} cells", failing, cells);
+    if (unread > 0) outcome += fmt::format(", {} scenes that could not be tried", unread);
+    if (unprovoked > 0) outcome += fmt::format(", {} scenes that stopped provoking", unprovoked);
+    console.always(fmt::format("{}; report in {}", outcome,
+                               (std::filesystem::path(options.out) / "index.html").string()));
 }
 
 int verify(const VerifyOptions& options) {

@@ -1,0 +1,283 @@
+#include "compare/band.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = 0x1p-24; ///< rounding unit of float
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
+/// point, the largest over the three. World coordinates carry the eye's distance from the origin
+/// with them; eye-relative ones do not. A point of a volume's side was extruded from the light,
+/// and that direction is rounded too.
+double transform_terms(const Scene& scene, const DepthModel& depth_model,
+                       const glm::dvec3& point) {
+    const Camera& camera = scene.camera;
+    const glm::dvec3 light = chosen_light(scene).position;
+    double largest = 0;
+    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
+        const auto terms = [&](const glm::dvec3& p) { return glm::dot(glm::abs(axis), glm::abs(p)); };
+        const double position = depth_model.eye_relative
+                                    ? 2 * terms(point - camera.eye)
+                                    : terms(point) + terms(camera.eye);
+        largest = std::max(largest, position + terms(point - light));
+    }
+    return largest;
+}
+
+/// View depth of `point`, at least the near plane's.
+double depth_of(const Camera& camera, const glm::dvec3& point) {
+    return std::max(view_depth(camera, point), camera.near);
+}
+
+} // namespace
+
+// A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes, in x and
+// in w alike, so twice, divided by w = depth, in units of half the picture. The division, the
+// viewport's product and its sum each round a coordinate of up to the picture's width: 3 v.
+double lateral_freedom(const Scene& scene, const DepthModel& depth_model,
+                       const glm::dvec3& point) {
+    const Camera& camera = scene.camera;
+    const double half_step = std::exp2(-depth_model.subpixel_bits - 1);
+    const double pixels = std::max(camera.width, camera.height);
+    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double terms = transform_terms(scene, depth_model, point);
+    return half_step + 2 * 5 * v * scale * terms / depth_of(camera, point) + 3 * v * pixels;
+}
+
+// Window depth z is rounded 8 times on its way: reciprocal of w, product, viewport product and sum,
+// the plane's two products and two sums at the pixel; the fixed-point format then rounds at most
+// as much again as those in all ulps of 1: none counts for more than v z, with z = 1 the largest
+// standard depth and z = n/t reversed. Surface and volume face each: 16 v z, carried back to view
+// depth by dt/dz. (The plane's slope is computed from its corners; its error is an error of
+// place, far below the snapping step, and is covered with that.)
+double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    const double t = depth_of(scene.camera, point);
+    const double near = depth_model.near;
+    const double far = depth_model.far;
+    double window_depth_error = t * t / near; // dt/dz times z, projection infinite
+    if (depth_model.projection == DepthModel::Projection::finite)
+        window_depth_error = t * t * (far - near) / (far * near);
+    if (depth_model.projection == DepthModel::Projection::infinite_reversed)
+        window_depth_error = t;
+    return 16 * v * (window_depth_error + transform_terms(scene, depth_model, point));
+}
+
+std::array<glm::dvec3, sample_count> sample_directions(const Camera& camera, int x, int y,
+                                                       double radius) {
+    constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
+    std::array<glm::dvec3, sample_count> directions{};
+    for (std::size_t i = 0; i < sample_count; ++i)
+        directions[i] = ray_direction(camera, x + 0.5 + radius * steps[i % 5],
+                                      y + 0.5 + radius * steps[i / 5]);
+    return directions;
+}
+
+namespace {
+
+/// A triangle's plane along rays: depth where a ray meets it, and whether inside its edges.
+struct RayHit {
+    double depth = infinity; ///< infinite, too, where the plane is behind
+    bool inside = false;
+};
+
+RayHit meet(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+    const glm::dvec3 a = corner(scene, triangle, 0) - scene.camera.eye;
+    const glm::dvec3 b = corner(scene, triangle, 1) - scene.camera.eye;
+    const glm::dvec3 c = corner(scene, triangle, 2) - scene.camera.eye;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double slope = glm::dot(direction, normal);
+    const double depth = glm::dot(a, normal) / slope;
+    RayHit hit;
+    if (!(depth > 0)) return hit;
+    hit.depth = depth;
+    const double facing = slope < 0 ? -1 : 1;
+    hit.inside = facing * glm::dot(direction, glm::cross(a, b)) >= 0 &&
+                 facing * glm::dot(direction, glm::cross(b, c)) >= 0 &&
+                 facing * glm::dot(direction, glm::cross(c, a)) >= 0;
+    return hit;
+}
+
+/// The range of view depths that the rasterizer may give to the surface it shows.
+struct DepthRange {
+    double nominal = 0; ///< on the sample's own ray
+    double lower = 0;
+    double upper = 0;
+};
+
+/// Finds the readings of one pixel, sample by sample.
+class BandFinder {
+public:
+    BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown)
+        : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown) {}
+
+    /// The depth at which the shown triangle may be seen on a sample's ray, if it may.
+    std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
+                                      bool& moved) const {
+        if (truth.triangle == shown_) return truth.depth;
+        if (shown_ == no_triangle || truth.triangle == no_triangle) return std::nullopt;
+        const RayHit hit = meet(scene_, shown_, direction);
+        const glm::dvec3 point = scene_.camera.eye + truth.depth * direction;
+        if (!hit.inside ||
+            std::abs(hit.depth - truth.depth) > depth_freedom(scene_, frame_.depth_model, point))
+            return std::nullopt;
+        moved = true;
+        return hit.depth;
+    }
+
+    /// Over all samples: the shown triangle's plane moves sideways with its corners.
+    DepthRange depth_range(const std::array<glm::dvec3, sample_count>& directions) const {
+        DepthRange range{0, infinity, 0};
+        for (const glm::dvec3& direction : directions) {
+            const double t = meet(scene_, shown_, direction).depth;
+            const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
+            const double q = depth_freedom(scene_, frame_.depth_model, point);
+            range.lower = std::min(range.lower, t - q);
+            range.upper = std::max(range.upper, t + q);
+        }
+        return range;
+    }
+
+    /// The cleared depth: the far plane, or infinity, where a standard projection's depths round
+    /// to 1 as soon as n / t is within the error of 1, 16 v.
+    DepthRange background_range() const {
+        const DepthModel& model = frame_.depth_model;
+        if (model.projection == DepthModel::Projection::infinite_reversed)
+            return {infinity, infinity, infinity};
+        if (model.projection == DepthModel::Projection::infinite)
+            return {infinity, model.near / (16 * v), infinity};
+        const glm::dvec3 point = scene_.camera.eye + far_ * scene_.camera.forward;
+        const double q = depth_freedom(scene_, model, point);
+        return {far_, far_ - q, far_ + q};
+    }
+
+    /// Appends what the counter may read with the surface anywhere in the range, on one ray.
+    void collect(const RayLedger& ledger, const DepthRange& range,
+                 std::vector<Reading>& readings) const {
+        std::int64_t ideal = ideal_before_sides(ledger, range.nominal);
+        // Where counting begins is a plane that clips, and its depth is rounded as any.
+        const std::array<std::int64_t, 3> missed{subtracted(ledger, 0), subtracted(ledger, -1),
+                                                 subtracted(ledger, 1)};
+        const auto add = [&](bool moved) {
+            for (const std::int64_t s : missed)
+                readings.push_back({ideal - s, ideal, ledger.at_eye, moved || s != missed[0]});
+        };
+        // Sides in depth order: those before the range always count, each further one may.
+        bool nominal_given = false;
+        for (const Crossing& crossing : ledger.crossings) {
+            if (crossing.kind != Crossing::Kind::side || !counts(crossing.depth)) continue;
+            if (crossing.depth > range.upper) break;
+            if (crossing.depth >= range.nominal && !nominal_given) {
+                add(false);
+                nominal_given = true;
+            }
+            if (crossing.depth >= range.lower) add(crossing.depth != range.nominal);
+            ideal += crossing.change;
+        }
+        add(nominal_given);
+    }
+
+private:
+    const Tracer& tracer_;
+    const Scene& scene_;
+    const Frame& frame_;
+    double far_;
+    std::uint32_t shown_;
+
+    bool counts(double depth) const { return depth >= scene_.camera.near; }
+
+    std::int64_t depth_at(const RayLedger& ledger, double t) const {
+        std::int64_t s = ledger.at_eye;
+        for (const Crossing& crossing : ledger.crossings)
+            if (crossing.depth < t) s += crossing.change;
+        return s;
+    }
+
+    /// A light cap has its surface's own depth, bit for bit, so it is never in front of a visible
+    /// surface by error; in front there are only caps whose surface is culled, and the visible
+    /// triangle's own where its back is seen.
+    bool cap_in_front(const Crossing& crossing, double nominal) const {
+        return crossing.triangle != shown_ && crossing.depth < nominal &&
+               !sides_of(tracer_, crossing.triangle).visible;
+    }
+
+    /// Shadow depth of the surface, sides beyond the near plane left out.
+    std::int64_t ideal_before_sides(const RayLedger& ledger, double nominal) const {
+        std::int64_t ideal = depth_at(ledger, scene_.camera.near);
+        for (const Crossing& crossing : ledger.crossings)
+            if (crossing.kind == Crossing::Kind::light_cap && counts(crossing.depth) &&
+                cap_in_front(crossing, nominal))
+                ideal += crossing.change;
+        return ideal;
+    }
+
+    /// What the technique cannot see: the shadow depth where its counting begins, that plane moved
+    /// by -1, 0 or 1 times its depth's freedom.
+    std::int64_t subtracted(const RayLedger& ledger, int move) const {
+        const Camera& camera = scene_.camera;
+        const Counting& counting = frame_.counting;
+        const auto plane = [&](double depth) {
+            const glm::dvec3 point = camera.eye + depth * camera.forward;
+            return depth + move * depth_freedom(scene_, frame_.depth_model, point);
+        };
+        const bool finite = frame_.depth_model.projection == DepthModel::Projection::finite;
+        if (counting.test == Counting::Test::depth_pass)
+            return counting.depth_clamp ? ledger.at_eye : depth_at(ledger, plane(camera.near));
+        if (finite && !counting.depth_clamp) return depth_at(ledger, plane(far_));
+        return counting.dark_cap ? 0 : ledger.at_infinity;
+    }
+};
+
+void sort_out(std::vector<Reading>& readings) {
+    const auto key = [](const Reading& r) {
+        return std::array<std::int64_t, 4>{r.count, r.ideal, r.at_eye, r.moved_in_depth};
+    };
+    std::sort(readings.begin(), readings.end(),
+              [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
+    readings.erase(std::unique(readings.begin(), readings.end(),
+                               [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
+                   readings.end());
+}
+
+} // namespace
+
+PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, int x, int y,
+                    double radius, const std::array<RayTruth, sample_count>& truth) {
+    const Camera& camera = tracer.scene().camera;
+    const std::array<glm::dvec3, sample_count> directions =
+        sample_directions(camera, x, y, radius);
+    // A pixel is 2 tan_half_height / height wide at depth 1; directions move by that a component.
+    const double reach = 2 * radius * 2 * camera.tan_half_height / camera.height;
+    const NearbyVolumes volumes = volumes_near(tracer, directions[0], reach);
+    const std::uint32_t shown = frame.triangle.at(x, y);
+    const BandFinder finder(tracer, frame, far, shown);
+
+    PixelBand band;
+    band.truth = truth;
+    band.surface_moved_in_depth = true;
+    const DepthRange background = finder.background_range();
+    DepthRange range = shown == no_triangle ? background : finder.depth_range(directions);
+    for (std::size_t i = 0; i < sample_count; ++i) {
+        bool moved = false;
+        const std::optional<double> depth = finder.shown_depth(truth[i], directions[i], moved);
+        if (!depth) continue;
+        band.surface_allowed = true;
+        band.surface_moved_in_depth = band.surface_moved_in_depth && moved;
+        range.nominal = shown == no_triangle ? background.nominal : *depth;
+        finder.collect(ray_ledger(tracer, volumes, directions[i]), range, band.readings);
+    }
+    band.surface_moved_in_depth = band.surface_allowed && band.surface_moved_in_depth;
+    sort_out(band.readings);
+    return band;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,247 @@
+#include "compare/classify.h"
+
+#include "compare/band.h"
+#include "reference/parallel.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace shadowproof {
+
+namespace {
+
+struct PixelPlace {
+    int x = 0;
+    int y = 0;
+};
+
+/// What is asked at each pixel, and how it was counted.
+struct Context {
+    const Tracer& tracer;
+    const GroundTruth& truth;
+    const ShadowDepths& depths;
+    const Frame& frame;
+
+    std::int64_t stored(std::int64_t count) const {
+        return count & ((std::int64_t{1} << frame.counting.stencil_bits) - 1);
+    }
+    std::int64_t predicted(PixelPlace p) const {
+        return predicted_count(depths, truth, p.x, p.y, frame.counting, frame.depth_model);
+    }
+    std::int64_t read_back(PixelPlace p) const { return frame.stencil.at(p.x, p.y); }
+    bool surface_as_true(PixelPlace p) const {
+        return frame.triangle.at(p.x, p.y) == truth.triangle.at(p.x, p.y);
+    }
+    bool differs(PixelPlace p) const {
+        return frame.claim.at(p.x, p.y) != truth.visibility.at(p.x, p.y);
+    }
+};
+
+/// The claim that follows from a counter and a triangle.
+Visibility claim_of(const Context& context, std::int64_t count, std::uint32_t triangle) {
+    if (triangle == no_triangle) return Visibility::background;
+    const bool lit = context.stored(count) == 0 && sides_of(context.tracer, triangle).faces_light();
+    return lit ? Visibility::lit : Visibility::shadowed;
+}
+
+/// Why a technique that counted `reading` shows another claim than the truth, where its surface is
+/// the true one. Nothing where the algorithm itself would be right.
+std::optional<Cause> algorithmic_cause(const Context& context, const Reading& reading,
+                                       Visibility true_visibility) {
+    const bool counted_lit = context.stored(reading.count) == 0;
+    const bool ideally_lit = reading.ideal == 0;
+    const bool truly_lit = true_visibility == Visibility::lit;
+    if (counted_lit == truly_lit) return std::nullopt;
+    // The counter tells what it ought to, and is still wrong: the mesh does not enclose a volume.
+    if (counted_lit == ideally_lit && reading.count == reading.ideal)
+        return truly_lit ? std::nullopt : std::optional(Cause::open_mesh);
+    if (counted_lit && reading.count != 0) return Cause::counter;
+    const Counting& counting = context.frame.counting;
+    if (counting.test == Counting::Test::depth_pass)
+        return reading.at_eye != 0 ? Cause::eye_inside : Cause::near_plane;
+    const bool finite = context.frame.depth_model.projection == DepthModel::Projection::finite;
+    if (finite && !counting.depth_clamp) return Cause::far_plane;
+    if (!counting.dark_cap) return Cause::cap;
+    return std::nullopt;
+}
+
+/// The reading at the pixel's centre, as traced.
+Reading centre_reading(const Context& context, PixelPlace p) {
+    return {context.predicted(p), context.depths.at_surface.at(p.x, p.y), context.depths.at_eye,
+            false};
+}
+
+/// Where read-back and prediction agree at the centre, the cause is the algorithm's own.
+std::optional<Cause> cause_at_centre(const Context& context, PixelPlace p) {
+    const Reading reading = centre_reading(context, p);
+    const std::uint32_t triangle = context.truth.triangle.at(p.x, p.y);
+    if (!context.surface_as_true(p) || triangle == no_triangle) return std::nullopt;
+    if (context.stored(reading.count) != context.read_back(p)) return std::nullopt;
+    if (claim_of(context, reading.count, triangle) != context.frame.claim.at(p.x, p.y))
+        return std::nullopt;
+    return algorithmic_cause(context, reading, context.truth.visibility.at(p.x, p.y));
+}
+
+/// Whether the pixel needs no look at its surroundings.
+bool settled(const Context& context, PixelPlace p, std::optional<Cause>& cause) {
+    const bool counted = context.surface_as_true(p) &&
+                         context.stored(context.predicted(p)) == context.read_back(p);
+    if (!context.differs(p)) return counted;
+    cause = cause_at_centre(context, p);
+    return counted && cause.has_value();
+}
+
+/// What was found at one pixel by looking at its band.
+struct Finding {
+    bool ledger_in_band = false;
+    Cause cause = Cause::unexplained;
+};
+
+Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band) {
+    const Visibility claim = context.frame.claim.at(p.x, p.y);
+    const Visibility truth = context.truth.visibility.at(p.x, p.y);
+    if (context.truth.exactness.at(p.x, p.y) == Exactness::degenerate) return Cause::edge;
+    if (const std::optional<Cause> cause = cause_at_centre(context, p)) return *cause;
+    if (std::any_of(band.truth.begin(), band.truth.end(),
+                    [&](const RayTruth& t) { return t.visibility == claim; }))
+        return Cause::edge;
+
+    const std::uint32_t shown = context.frame.triangle.at(p.x, p.y);
+    std::optional<Cause> algorithmic;
+    for (const Reading& reading : band.readings) {
+        if (context.stored(reading.count) != context.read_back(p)) continue;
+        if (claim_of(context, reading.count, shown) != claim) continue;
+        // The truth itself makes this claim with the surface moved, or another as near.
+        if (claim_of(context, reading.ideal, shown) == claim &&
+            (reading.moved_in_depth || band.surface_moved_in_depth))
+            return Cause::precision;
+        if (!algorithmic) algorithmic = algorithmic_cause(context, reading, truth);
+    }
+    return algorithmic.value_or(Cause::unexplained);
+}
+
+Finding look_around(const Context& context, PixelPlace p, const PixelBand& band) {
+    Finding finding;
+    const bool degenerate =
+        context.truth.exactness.at(p.x, p.y) == Exactness::degenerate;
+    finding.ledger_in_band =
+        degenerate ||
+        std::any_of(band.readings.begin(), band.readings.end(), [&](const Reading& reading) {
+            return context.stored(reading.count) == context.read_back(p);
+        });
+    if (context.differs(p)) finding.cause = cause_in_band(context, p, band);
+    return finding;
+}
+
+/// The pixel's freedom to each side: at the surface, and at the nearest face that is counted.
+double band_radius(const Context& context, PixelPlace p) {
+    const Scene& scene = context.tracer.scene();
+    const Camera& camera = scene.camera;
+    const glm::dvec3 direction = ray_direction(camera, p.x + 0.5, p.y + 0.5);
+    double nearest = std::min(context.truth.depth.at(p.x, p.y), context.depths.far);
+    if (context.frame.counting.test == Counting::Test::depth_pass)
+        for (const Crossing& crossing : ray_ledger(context.tracer, direction).crossings)
+            if (crossing.depth >= camera.near) nearest = std::min(nearest, crossing.depth);
+    return lateral_freedom(scene, context.frame.depth_model, camera.eye + nearest * direction);
+}
+
+/// Pixels looked at together: as many as keep the samples within a few megabytes.
+constexpr std::size_t batch_size = 1024;
+
+std::vector<Finding> look_around(const Context& context, const std::vector<PixelPlace>& places) {
+    const Camera& camera = context.tracer.scene().camera;
+    std::vector<Finding> findings(places.size());
+    for (std::size_t first = 0; first < places.size(); first += batch_size) {
+        const std::size_t count = std::min(batch_size, places.size() - first);
+        std::vector<double> radii(count);
+        std::vector<glm::dvec3> directions(count * sample_count);
+        parallel_for(static_cast<int>(count), context.tracer.threads(), [&](int i, int) {
+            const auto k = static_cast<std::size_t>(i);
+            const PixelPlace p = places[first + k];
+            radii[k] = band_radius(context, p);
+            const auto samples = sample_directions(camera, p.x, p.y, radii[k]);
+            std::copy(samples.begin(), samples.end(),
+                      directions.begin() + static_cast<std::ptrdiff_t>(k * sample_count));
+        });
+        const std::vector<RayTruth> truths = trace_rays(context.tracer, directions);
+        parallel_for(static_cast<int>(count), context.tracer.threads(), [&](int i, int) {
+            const auto k = static_cast<std::size_t>(i);
+            const PixelPlace p = places[first + k];
+            std::array<RayTruth, sample_count> around;
+            std::copy_n(truths.begin() + static_cast<std::ptrdiff_t>(k * sample_count),
+                        sample_count, around.begin());
+            findings[first + k] = look_around(
+                context, p,
+                find_band(context.tracer, context.frame, context.depths.far, p.x, p.y, radii[k],
+                          around));
+        });
+    }
+    return findings;
+}
+
+/// Which of two causes a person should see first: unexplained, then any failing, then edge.
+int urgency(Cause cause) {
+    if (cause == Cause::unexplained) return 2;
+    return cause == Cause::edge ? 0 : 1;
+}
+
+void count_causes(Comparison& comparison) {
+    for (int y = 0; y < comparison.cause.height; ++y)
+        for (int x = 0; x < comparison.cause.width; ++x) {
+            const std::uint8_t value = comparison.cause.at(x, y);
+            if (value == no_difference) continue;
+            const auto cause = static_cast<Cause>(value);
+            ++comparison.causes[value];
+            ++comparison.differing;
+            if (!comparison.first || urgency(cause) > urgency(comparison.first->cause))
+                comparison.first = FirstDifference{x, y, cause};
+        }
+}
+
+} // namespace
+
+Comparison classify(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
+                    const Frame& frame) {
+    const int width = truth.visibility.width;
+    const int height = truth.visibility.height;
+    assert(frame.claim.width == width && frame.claim.height == height);
+    const Context context{tracer, truth, depths, frame};
+
+    Comparison comparison;
+    comparison.cause = Image<std::uint8_t>(width, height, no_difference);
+    comparison.ledger_miss = Image<std::uint8_t>(width, height);
+    comparison.predicted = Image<std::uint8_t>(width, height);
+    std::vector<PixelPlace> open;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const PixelPlace p{x, y};
+            comparison.predicted.at(x, y) =
+                static_cast<std::uint8_t>(context.stored(context.predicted(p)));
+            std::optional<Cause> cause;
+            if (!settled(context, p, cause)) {
+                open.push_back(p);
+                continue;
+            }
+            ++comparison.ledger.equal;
+            if (cause) comparison.cause.at(x, y) = static_cast<std::uint8_t>(*cause);
+        }
+
+    const std::vector<Finding> findings = look_around(context, open);
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const PixelPlace p = open[i];
+        ++(findings[i].ledger_in_band ? comparison.ledger.in_band
+                                      : comparison.ledger.unexplained);
+        comparison.ledger_miss.at(p.x, p.y) = findings[i].ledger_in_band ? 0 : 1;
+        if (context.differs(p))
+            comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(findings[i].cause);
+    }
+    count_causes(comparison);
+    return comparison;
+}
+
+} // namespace shadowproof

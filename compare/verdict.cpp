@@ -1,0 +1,66 @@
+#include "compare/verdict.h"
+
+#include <algorithm>
+
+namespace shadowproof {
+
+namespace {
+
+bool contains(std::span<const Cause> causes, Cause cause) {
+    return std::find(causes.begin(), causes.end(), cause) != causes.end();
+}
+
+bool excused(const Scene& scene, std::span<const Cause> fails_at, Cause cause) {
+    if (!contains(fails_at, cause)) return false;
+    return cause == Cause::precision || !scene.declares_provokes ||
+           contains(scene.provokes, cause);
+}
+
+} // namespace
+
+std::string_view name_of(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::agrees:
+        return "agrees";
+    case Verdict::fails_as_predicted:
+        return "fails_as_predicted";
+    case Verdict::defect:
+        return "defect";
+    case Verdict::unexplained:
+        break;
+    }
+    return "unexplained";
+}
+
+Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Comparison& comparison) {
+    const auto found = [&](Cause cause) {
+        return comparison.causes[static_cast<std::size_t>(cause)] > 0;
+    };
+    if (found(Cause::unexplained) || comparison.ledger.unexplained > 0)
+        return Verdict::unexplained;
+    Verdict verdict = Verdict::agrees;
+    for (const CauseWords& words : all_causes) {
+        if (words.cause == Cause::edge || !found(words.cause)) continue;
+        if (!excused(scene, fails_at, words.cause)) return Verdict::defect;
+        verdict = Verdict::fails_as_predicted;
+    }
+    return verdict;
+}
+
+std::vector<Cause> no_longer_provoked(const Scene& scene,
+                                      std::span<const std::vector<Cause>> fails_at,
+                                      std::span<const Comparison> comparisons) {
+    std::vector<Cause> missing;
+    for (const Cause cause : scene.provokes) {
+        const bool known = std::any_of(fails_at.begin(), fails_at.end(),
+                                       [&](const auto& causes) { return contains(causes, cause); });
+        const bool found =
+            std::any_of(comparisons.begin(), comparisons.end(), [&](const Comparison& c) {
+                return c.causes[static_cast<std::size_t>(cause)] > 0;
+            });
+        if (known && !found) missing.push_back(cause);
+    }
+    return missing;
+}
+
+} // namespace shadowproof
