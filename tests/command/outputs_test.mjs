@@ -1,0 +1,67 @@
+// What list, render and explain print and write.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+test('list names every scene, technique and cause, alike as text and as JSON', () => {
+  const text = shadowproof(['list']).out;
+  const json = JSON.parse(shadowproof(['list', '--json']).out);
+  for (const name of ['ordinary', 'near_plane', 'far_plane', 'eye_inside'])
+    assert.ok(json.scenes.some((scene) => scene.name === name), name);
+  for (const name of ['zpass', 'zfail', 'zfail_clamp', 'zfail_infinite', 'zfail_reversed'])
+    assert.ok(json.techniques.some((technique) => technique.name === name), name);
+  assert.equal(json.causes.length, 15);
+  for (const { name } of [...json.scenes, ...json.techniques, ...json.causes])
+    assert.ok(text.includes(`  ${name} `), name);
+});
+
+test('the class map is an 8-bit gray PNG, the same at each run and for any number of threads', () => {
+  assert.equal(shadowproof(['render', 'ordinary', '--size', '64x48', '-o', 'a.png']).code, 0);
+  assert.equal(shadowproof(['render', 'ordinary', '--size', '64x48', '-o', 'b.png',
+                            '--threads', '1']).code, 0);
+  const png = readFileSync(join(scratch, 'a.png'));
+  assert.deepEqual(png, readFileSync(join(scratch, 'b.png')));
+  assert.equal(png.toString('latin1', 1, 4), 'PNG');
+  // IHDR: width, height, bit depth, colour type 0 (gray).
+  assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20), png[24], png[25]], [64, 48, 8, 0]);
+});
+
+test('the EXR names its channels, and is the same at each run', () => {
+  for (const file of ['a.exr', 'b.exr'])
+    assert.equal(shadowproof(['render', 'ordinary', '--size', '32x32', '-o', file]).code, 0);
+  const exr = readFileSync(join(scratch, 'a.exr'));
+  assert.deepEqual(exr, readFileSync(join(scratch, 'b.exr')));
+  const header = exr.toString('latin1', 0, 1000);
+  for (const channel of ['P.X', 'P.Y', 'P.Z', 'N.X', 'N.Y', 'N.Z', 'depth.Z', 'primId',
+                         'exactness', 'visibility.'])
+    assert.ok(header.includes(channel), channel);
+});
+
+test('explain says the same on the console and in JSON', () => {
+  const run = shadowproof(['explain', 'near_plane', '--pixel', '300,300', '--json', 'pixel.json']);
+  assert.equal(run.code, 0, run.err);
+  const pixel = JSON.parse(readFileSync(join(scratch, 'pixel.json'), 'utf8'));
+  assert.equal(pixel.schema, 'shadowproof/pixel/1');
+  assert.match(run.out, new RegExp(`truth +${pixel.truth}`));
+  assert.match(run.out, new RegExp(`triangle ${pixel.seen.triangle} of ${pixel.seen.mesh}`));
+  for (const technique of pixel.techniques)
+    assert.match(run.out, new RegExp(
+      `${technique.name} +${technique.predicted} +${technique.stored} +${technique.read_back} +` +
+      technique.claim));
+});
+
+test("explain's crossings lead from the count at the eye to the count at infinity", () => {
+  const at = (x, y) => {
+    const file = `pixel-${x}-${y}.json`;
+    shadowproof(['explain', 'eye_inside', '--pixel', `${x},${y}`, '--technique', 'zfail_reversed',
+                 '--json', file]);
+    return JSON.parse(readFileSync(join(scratch, file), 'utf8'));
+  };
+  for (const pixel of [at(256, 256), at(101, 300), at(400, 200)]) {
+    const changes = pixel.crossings.map((crossing) => crossing.change);
+    assert.equal(changes.reduce((sum, change) => sum + change, pixel.inside.eye),
+                 pixel.inside.infinity);
+  }
+});

@@ -1,0 +1,84 @@
+// The report folder, the lines on the console, and JUnit.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { before, test } from 'node:test';
+import { filesBelow, scratch, shadowproof } from './shadowproof.mjs';
+
+let run;
+before(() => {
+  run = shadowproof(['verify', 'ordinary', 'near_plane', '--out', 'a', '--junit', 'junit.xml']);
+});
+
+test('the same run gives the same bytes, but for the one file that holds times', () => {
+  shadowproof(['verify', 'ordinary', 'near_plane', '--out', 'b', '--threads', '1']);
+  const files = filesBelow(join(scratch, 'a'));
+  assert.deepEqual(filesBelow(join(scratch, 'b')), files);
+  for (const file of files.filter((name) => name !== 'results.json'))
+    assert.deepEqual(readFileSync(join(scratch, 'b', file)), readFileSync(join(scratch, 'a', file)),
+                     file);
+});
+
+test('a second run replaces the report whole and leaves nothing beside it', () => {
+  shadowproof(['verify', 'near_plane', '--technique', 'zpass', '--out', 'c']);
+  shadowproof(['verify', 'ordinary', '--technique', 'zfail', '--out', 'c']);
+  assert.deepEqual(filesBelow(join(scratch, 'c')), [
+    'index.html', 'ordinary/truth.png', 'ordinary/zfail/cause.png', 'ordinary/zfail/claim.png',
+    'ordinary/zfail/difference.png', 'results.json']);
+  assert.ok(filesBelow(scratch).every((file) => !/\.(writing|older)-/.test(file)));
+});
+
+test('the page needs no network, and every file it names is there', () => {
+  const page = readFileSync(join(scratch, 'a/index.html'), 'utf8');
+  assert.doesNotMatch(page, /https?:|<script|@import/);
+  const named = [...page.matchAll(/(?:src|href)="([^"#]+)"|url\(([^)]+)\)/g)];
+  assert.ok(named.length > 10);
+  const files = new Set(filesBelow(join(scratch, 'a')));
+  for (const [, attribute, url] of named) assert.ok(files.has(attribute ?? url), attribute ?? url);
+});
+
+test('every link within the page has its target', () => {
+  const page = readFileSync(join(scratch, 'a/index.html'), 'utf8');
+  const ids = new Set([...page.matchAll(/ id="([^"]+)"/g)].map((match) => match[1]));
+  for (const [, target] of page.matchAll(/href="#([^"]+)"/g)) assert.ok(ids.has(target), target);
+});
+
+test('elsewhere than on a terminal there is no colour and no progress line', () => {
+  assert.doesNotMatch(run.out, /[\x1b\r]/);
+});
+
+test('each cell has its line, in the order of the techniques', () => {
+  const line = /^(zpass|zfail\w*) +(ordinary|near_plane)  (agrees|fails_as_predicted|defect|unexplained) +[\d,]+ of 262,144( \(.+\))?(  first \(\d+,\d+\) \w+)?.*  \d+\.\d ms$/;
+  const cells = run.out.split('\n').filter((text) => line.test(text));
+  assert.equal(cells.length, 10, run.out);
+});
+
+test('quiet prints the end alone where nothing failed', () => {
+  const quiet = shadowproof(['verify', 'ordinary', '-q', '--out', 'q']);
+  assert.equal(quiet.code, 0, quiet.out);
+  assert.match(quiet.out, /^passed: \d+ cells; report in q\/index\.html\n$/);
+});
+
+test('a gate on differences fails where the gate on defects passes, and says how to see it', () => {
+  const args = ['verify', 'near_plane', '--technique', 'zpass', '--out', 'g'];
+  assert.equal(shadowproof(args).code, 0);
+  const gated = shadowproof([...args, '--gate', 'differences']);
+  assert.equal(gated.code, 1);
+  assert.match(gated.out,
+               /^reproduce: shadowproof verify near_plane --technique zpass --gate differences$/m);
+});
+
+test('the same file twice has two folders of pictures', () => {
+  const twice = shadowproof(['verify', 'ordinary', 'ordinary', '--technique', 'zfail', '--size',
+                             '32x32', '--out', 't']);
+  assert.equal(twice.code, 0, twice.out + twice.err);
+  const files = filesBelow(join(scratch, 't'));
+  assert.ok(files.includes('ordinary/truth.png') && files.includes('ordinary-2/truth.png'));
+});
+
+test('JUnit has a suite a scene and a case a cell', () => {
+  const xml = readFileSync(join(scratch, 'junit.xml'), 'utf8');
+  assert.match(xml, /^<\?xml version="1.0" encoding="UTF-8"\?>\n<testsuites name="shadowproof" tests="10"/);
+  assert.equal([...xml.matchAll(/<testsuite /g)].length, 2);
+  assert.equal([...xml.matchAll(/<testcase /g)].length, 10);
+});

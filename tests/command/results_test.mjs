@@ -1,0 +1,73 @@
+// results.json against the JSON Schema of the repository, and its sums.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import Ajv from 'ajv/dist/2020.js';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const schema = JSON.parse(readFileSync(new URL('../../docs/results.schema.json', import.meta.url)));
+const validate = new Ajv({ strict: true, allErrors: true }).compile(schema);
+
+function resultsOf(args) {
+  const run = shadowproof([...args, '--json', 'results.json']);
+  return { code: run.code, ...JSON.parse(readFileSync(join(scratch, 'results.json'), 'utf8')) };
+}
+function assertValid({ code, ...results }) {
+  assert.ok(validate(results), JSON.stringify(validate.errors, null, 1));
+}
+
+const all = resultsOf(['verify']);
+
+test('the results of all bundled scenes are valid', () => assertValid(all));
+
+test('the gate, the verdicts and the exit code say the same', () => {
+  const verdicts = all.scenes.flatMap((scene) => scene.techniques.map((cell) => cell.verdict));
+  const bad = verdicts.some((verdict) => verdict === 'defect' || verdict === 'unexplained');
+  assert.equal(all.passed, !bad);
+  assert.equal(all.code, bad ? 1 : 0);
+});
+
+test('pixels add up: classes to the picture, causes to the differing, ledger to the picture', () => {
+  const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
+  for (const scene of all.scenes) {
+    const { lit, shadowed, background } = scene.reference;
+    assert.equal(lit + shadowed + background, scene.width * scene.height);
+    for (const cell of scene.techniques) {
+      assert.equal(sum(Object.values(cell.causes)), cell.differing);
+      assert.equal(sum(Object.values(cell.ledger)), cell.pixels);
+      assert.equal('first' in cell, cell.differing > 0);
+    }
+  }
+});
+
+test('the report folder holds the same results as --json, but for nothing', () => {
+  const folder = JSON.parse(readFileSync(join(scratch, 'report/results.json'), 'utf8'));
+  const { code, ...results } = all;
+  assert.deepEqual(folder, results);
+});
+
+test('a scene that cannot be read is an error in valid results, and the others are tried', () => {
+  writeFileSync(join(scratch, 'broken.gltf'), '{');
+  const results = resultsOf(['verify', 'broken.gltf', 'ordinary', '--technique', 'zfail',
+                             '--size', '32x32']);
+  assertValid(results);
+  assert.equal(results.code, 3);
+  assert.equal(results.passed, false);
+  assert.match(results.scenes[0].error, /broken\.gltf/);
+  assert.equal(results.scenes[1].techniques.length, 1);
+});
+
+test('the schema refuses what is not so', () => {
+  const { code, ...results } = all;
+  const changed = (change) => {
+    const copy = structuredClone(results);
+    change(copy);
+    return copy;
+  };
+  assert.ok(!validate(changed((copy) => delete copy.gl)));
+  assert.ok(!validate(changed((copy) => (copy.schema = 'shadowproof/results/2'))));
+  assert.ok(!validate(changed((copy) => (copy.scenes[0].techniques[0].verdict = 'fine'))));
+  assert.ok(!validate(changed((copy) => (copy.scenes[0].techniques[0].causes.moon = 1))));
+  assert.ok(!validate(changed((copy) => (copy.scenes[0].techniques[0].images.claim = '../x.png'))));
+});

@@ -1,0 +1,86 @@
+// Exit codes and sentences: wrong usage is 2, what could not run is 3.
+import assert from 'node:assert/strict';
+import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const wrongUsage = [
+  [[], /there are verify, render, explain, list/],
+  [['check', 'ordinary', 'x.png'], /no command 'check'; there are verify, render, explain, list/],
+  [['--nonsense'], /there are verify/],
+  [['verify', '--technique', 'zmaybe'], /no technique 'zmaybe'; there are zpass, zfail/],
+  [['verify', '--technique', ''], /technique/],
+  [['verify', '--size', '512'], /WIDTHxHEIGHT/],
+  [['verify', '--size', '0x512'], /WIDTHxHEIGHT/],
+  [['verify', '--size', '512x512x'], /WIDTHxHEIGHT/],
+  [['verify', '--size', '99999999999x1'], /WIDTHxHEIGHT/],
+  [['verify', '--gl', 'vulkan'], /osmesa or egl/],
+  [['verify', '--gate', 'open'], /defects or differences/],
+  [['verify', '--time', 'noon'], /seconds/],
+  [['verify', '--time', 'nan'], /seconds/],
+  [['verify', '--threads', '-1'], /threads/],
+  [['verify', '--out', ''], /empty/],
+  [['verify', '--json'], /json/],
+  [['render', 'ordinary'], /output/],
+  [['render', 'ordinary', '-o', 'truth.jpg'], /\.png or \.exr/],
+  [['explain', 'ordinary'], /pixel/],
+  [['explain', 'ordinary', '--pixel', '3'], /X,Y/],
+  [['explain', 'ordinary', '--pixel', '-1,3'], /X,Y/],
+  [['explain', 'ordinary', '--pixel', '512,3'], /outside/],
+  [['explain', 'ordinary', '--pixel', '9,3', '--size', '8x8'], /outside/],
+];
+for (const [args, sentence] of wrongUsage)
+  test(`wrong usage ends with 2 and a remedy: ${args.join(' ')}`, () => {
+    const run = shadowproof(args);
+    assert.equal(run.code, 2, run.err);
+    assert.match(run.err, sentence);
+    assert.equal(run.out, '');
+  });
+
+test('a scene that is not there ends with 3 and names the bundled ones', () => {
+  const run = shadowproof(['verify', 'nowhere.gltf']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /nowhere\.gltf/);
+  assert.match(run.err, /ordinary/);
+});
+
+test('a file that is no glTF ends with 3 and one sentence', () => {
+  writeFileSync(join(scratch, 'broken.gltf'), '{"asset":');
+  for (const args of [['verify', 'broken.gltf'], ['render', 'broken.gltf', '-o', 'x.png'],
+                      ['explain', 'broken.gltf', '--pixel', '1,1']]) {
+    const run = shadowproof(args);
+    assert.equal(run.code, 3, args[0]);
+    assert.match(run.err, /broken\.gltf/);
+  }
+});
+
+test('an output that cannot be written ends with 3, and nothing is left', () => {
+  const before = readdirSync(scratch);
+  for (const args of [['render', 'ordinary', '--size', '8x8', '-o', 'missing/x.png'],
+                      ['render', 'ordinary', '--size', '8x8', '-o', 'missing/x.exr'],
+                      ['verify', 'ordinary', '--size', '8x8', '--out', '/proc/report']]) {
+    const run = shadowproof(args);
+    assert.equal(run.code, 3, `${args.join(' ')}: ${run.err}`);
+    assert.match(run.err, /cannot be written/);
+  }
+  assert.deepEqual(readdirSync(scratch), before);
+});
+
+test('a folder that is no report is not replaced', () => {
+  mkdirSync(join(scratch, 'holiday'));
+  writeFileSync(join(scratch, 'holiday/photo.txt'), 'dear');
+  const run = shadowproof(['verify', 'ordinary', '--size', '8x8', '--out', 'holiday']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /holiday.*not a report/);
+  assert.deepEqual(readdirSync(join(scratch, 'holiday')), ['photo.txt']);
+});
+
+test('help and version end with 0, and help tells the exit codes', () => {
+  assert.match(shadowproof(['--version']).out, /^shadowproof \d+\.\d+\.\d+\nEmbree \d/);
+  const help = shadowproof(['--help']);
+  assert.equal(help.code, 0);
+  assert.match(help.out, /Exit codes/);
+  for (const command of ['verify', 'render', 'explain', 'list'])
+    assert.equal(shadowproof([command, '--help']).code, 0);
+});
