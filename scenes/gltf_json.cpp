@@ -130,7 +130,8 @@ std::size_t reference_index(const Item& root, const char* array, const Item& ref
 }
 
 Item referenced(const Item& root, const char* array, const Item& reference) {
-    return root.at(array)[reference_index(root, array, reference)];
+    const std::size_t index = reference_index(root, array, reference); // first: it names itself
+    return root.at(array)[index];
 }
 
 } // namespace shadowproof::gltf
