@@ -1,10 +1,9 @@
 #include "compare/band.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 
@@ -19,16 +18,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// point, the largest over the three. World coordinates carry the eye's distance from the origin
 /// with them; eye-relative ones do not. A point of a volume's side was extruded from the light,
 /// and that direction is rounded too.
-double transform_terms(const Scene& scene, const DepthModel& depth_model,
-                       const glm::dvec3& point) {
+double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const Camera& camera = scene.camera;
     const glm::dvec3 light = chosen_light(scene).position;
     double largest = 0;
     for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
-        const auto terms = [&](const glm::dvec3& p) { return glm::dot(glm::abs(axis), glm::abs(p)); };
-        const double position = depth_model.eye_relative
-                                    ? 2 * terms(point - camera.eye)
-                                    : terms(point) + terms(camera.eye);
+        const auto terms = [&](const glm::dvec3& p) {
+            return glm::dot(glm::abs(axis), glm::abs(p));
+        };
+        const double position = depth_model.eye_relative ? 2 * terms(point - camera.eye)
+                                                         : terms(point) + terms(camera.eye);
         largest = std::max(largest, position + terms(point - light));
     }
     return largest;
@@ -44,8 +43,7 @@ double depth_of(const Camera& camera, const glm::dvec3& point) {
 // A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes, in x and
 // in w alike, so twice, divided by w = depth, in units of half the picture. The division, the
 // viewport's product and its sum each round a coordinate of up to the picture's width: 3 v.
-double lateral_freedom(const Scene& scene, const DepthModel& depth_model,
-                       const glm::dvec3& point) {
+double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const Camera& camera = scene.camera;
     const double half_step = std::exp2(-depth_model.subpixel_bits - 1);
     const double pixels = std::max(camera.width, camera.height);
@@ -67,8 +65,7 @@ double depth_freedom(const Scene& scene, const DepthModel& depth_model, const gl
     double window_depth_error = t * t / near; // dt/dz times z, projection infinite
     if (depth_model.projection == DepthModel::Projection::finite)
         window_depth_error = t * t * (far - near) / (far * near);
-    if (depth_model.projection == DepthModel::Projection::infinite_reversed)
-        window_depth_error = t;
+    if (depth_model.projection == DepthModel::Projection::infinite_reversed) window_depth_error = t;
     return 16 * v * (window_depth_error + transform_terms(scene, depth_model, point));
 }
 
@@ -77,8 +74,8 @@ std::array<glm::dvec3, sample_count> sample_directions(const Camera& camera, int
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
     std::array<glm::dvec3, sample_count> directions{};
     for (std::size_t i = 0; i < sample_count; ++i)
-        directions[i] = ray_direction(camera, x + 0.5 + radius * steps[i % 5],
-                                      y + 0.5 + radius * steps[i / 5]);
+        directions[i] =
+            ray_direction(camera, x + 0.5 + radius * steps[i % 5], y + 0.5 + radius * steps[i / 5]);
     return directions;
 }
 
@@ -107,44 +104,88 @@ RayHit meet(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direct
     return hit;
 }
 
-/// The range of view depths that the rasterizer may give to the surface it shows.
+/// The range of view depths that the rasterizer may give to a face.
 struct DepthRange {
     double nominal = 0; ///< on the sample's own ray
     double lower = 0;
     double upper = 0;
+
+    void include(double depth, double freedom) {
+        lower = std::min(lower, depth - freedom);
+        upper = std::max(upper, depth + freedom);
+    }
 };
 
-/// Finds the readings of one pixel, sample by sample.
+using Directions = std::array<glm::dvec3, sample_count>;
+
+/// Finds the readings of one pixel, sample by sample. Which faces cover the pixel is what a sample
+/// decides; their depths there are those of their planes, which the sideways freedom moves too: by
+/// much, where a face is steep.
 class BandFinder {
 public:
-    BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown)
-        : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown) {}
+    BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
+               const Directions& directions)
+        : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
+          directions_(directions) {
+        shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
+    }
 
-    /// The depth at which the shown triangle may be seen on a sample's ray, if it may.
+    /// Appends what the counter may read if the pixel is covered as sample i is. False where the
+    /// shown surface cannot be seen there.
+    bool collect(std::size_t i, const RayTruth& truth, const NearbyVolumes& volumes,
+                 std::vector<Reading>& readings) {
+        bool moved = false;
+        const std::optional<double> depth = shown_depth(truth, directions_[i], moved);
+        if (!depth) return false;
+        shown_range_.nominal = *depth;
+        collect(ray_ledger(tracer_, volumes, directions_[i]), directions_[i], moved, readings);
+        return true;
+    }
+
+private:
+    const Tracer& tracer_;
+    const Scene& scene_;
+    const Frame& frame_;
+    double far_;
+    std::uint32_t shown_;
+    const Directions& directions_;
+    DepthRange shown_range_;
+
+    /// A triangle's plane over all samples, with the depth format's freedom.
+    DepthRange surface_range(std::uint32_t triangle) const {
+        DepthRange range{0, infinity, 0};
+        for (const glm::dvec3& direction : directions_) {
+            const double t = meet(scene_, triangle, direction).depth;
+            const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
+            range.include(t, depth_freedom(scene_, frame_.depth_model, point));
+        }
+        return range;
+    }
+
+    /// A volume face's plane over all samples: on a ray D it is met at a depth that is inverse to
+    /// D . plane; not at all where that changes its sign.
+    DepthRange face_range(const Crossing& crossing, const glm::dvec3& direction) const {
+        DepthRange range{crossing.depth, crossing.depth, crossing.depth};
+        const double here = glm::dot(direction, crossing.plane);
+        for (const glm::dvec3& other : directions_) {
+            const double ratio = here / glm::dot(other, crossing.plane);
+            range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
+        }
+        return range;
+    }
+
+    /// The depth at which the shown triangle is met on a sample's ray, if it may be seen there:
+    /// nothing is nearer, or what is may come out behind it.
     std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
                                       bool& moved) const {
-        if (truth.triangle == shown_) return truth.depth;
+        if (truth.triangle == shown_)
+            return shown_ == no_triangle ? shown_range_.nominal : truth.depth;
         if (shown_ == no_triangle || truth.triangle == no_triangle) return std::nullopt;
         const RayHit hit = meet(scene_, shown_, direction);
-        const glm::dvec3 point = scene_.camera.eye + truth.depth * direction;
-        if (!hit.inside ||
-            std::abs(hit.depth - truth.depth) > depth_freedom(scene_, frame_.depth_model, point))
+        if (!hit.inside || surface_range(truth.triangle).upper < shown_range_.lower)
             return std::nullopt;
         moved = true;
         return hit.depth;
-    }
-
-    /// Over all samples: the shown triangle's plane moves sideways with its corners.
-    DepthRange depth_range(const std::array<glm::dvec3, sample_count>& directions) const {
-        DepthRange range{0, infinity, 0};
-        for (const glm::dvec3& direction : directions) {
-            const double t = meet(scene_, shown_, direction).depth;
-            const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
-            const double q = depth_freedom(scene_, frame_.depth_model, point);
-            range.lower = std::min(range.lower, t - q);
-            range.upper = std::max(range.upper, t + q);
-        }
-        return range;
     }
 
     /// The cleared depth: the far plane, or infinity, where a standard projection's depths round
@@ -160,64 +201,47 @@ public:
         return {far_, far_ - q, far_ + q};
     }
 
-    /// Appends what the counter may read with the surface anywhere in the range, on one ray.
-    void collect(const RayLedger& ledger, const DepthRange& range,
+    void collect(const RayLedger& ledger, const glm::dvec3& direction, bool moved,
                  std::vector<Reading>& readings) const {
-        std::int64_t ideal = ideal_before_sides(ledger, range.nominal);
+        std::int64_t nominal = depth_at(ledger, scene_.camera.near);
+        std::int64_t certain = nominal; // what is in front wherever depths come out
+        std::int64_t least = 0;         // what further faces, in front or not, may add
+        std::int64_t most = 0;
+        for (const Crossing& crossing : ledger.crossings) {
+            if (!counts(crossing)) continue;
+            if (crossing.depth < shown_range_.nominal) nominal += crossing.change;
+            const DepthRange range = face_range(crossing, direction);
+            if (range.lower > shown_range_.upper) continue;
+            if (range.upper < shown_range_.lower)
+                certain += crossing.change;
+            else
+                (crossing.change < 0 ? least : most) += crossing.change;
+        }
         // Where counting begins is a plane that clips, and its depth is rounded as any.
         const std::array<std::int64_t, 3> missed{subtracted(ledger, 0), subtracted(ledger, -1),
                                                  subtracted(ledger, 1)};
-        const auto add = [&](bool moved) {
-            for (const std::int64_t s : missed)
-                readings.push_back({ideal - s, ideal, ledger.at_eye, moved || s != missed[0]});
-        };
-        // Sides in depth order: those before the range always count, each further one may.
-        bool nominal_given = false;
-        for (const Crossing& crossing : ledger.crossings) {
-            if (crossing.kind != Crossing::Kind::side || !counts(crossing.depth)) continue;
-            if (crossing.depth > range.upper) break;
-            if (crossing.depth >= range.nominal && !nominal_given) {
-                add(false);
-                nominal_given = true;
-            }
-            if (crossing.depth >= range.lower) add(crossing.depth != range.nominal);
-            ideal += crossing.change;
+        for (const std::int64_t s : missed) {
+            const bool clipped_otherwise = s != missed[0];
+            readings.push_back({nominal - s, nominal, ledger.at_eye, moved || clipped_otherwise});
+            for (std::int64_t ideal = certain + least; ideal <= certain + most; ++ideal)
+                if (ideal != nominal) readings.push_back({ideal - s, ideal, ledger.at_eye, true});
         }
-        add(nominal_given);
     }
 
-private:
-    const Tracer& tracer_;
-    const Scene& scene_;
-    const Frame& frame_;
-    double far_;
-    std::uint32_t shown_;
-
-    bool counts(double depth) const { return depth >= scene_.camera.near; }
+    /// Whether a face beyond the near plane can be in front of the visible surface. A light cap
+    /// covers what its own surface covers, at the same depth bit for bit: it is in front only where
+    /// that surface is culled.
+    bool counts(const Crossing& crossing) const {
+        if (crossing.depth < scene_.camera.near) return false;
+        return crossing.kind == Crossing::Kind::side ||
+               (crossing.triangle != shown_ && !sides_of(tracer_, crossing.triangle).visible);
+    }
 
     std::int64_t depth_at(const RayLedger& ledger, double t) const {
         std::int64_t s = ledger.at_eye;
         for (const Crossing& crossing : ledger.crossings)
             if (crossing.depth < t) s += crossing.change;
         return s;
-    }
-
-    /// A light cap has its surface's own depth, bit for bit, so it is never in front of a visible
-    /// surface by error; in front there are only caps whose surface is culled, and the visible
-    /// triangle's own where its back is seen.
-    bool cap_in_front(const Crossing& crossing, double nominal) const {
-        return crossing.triangle != shown_ && crossing.depth < nominal &&
-               !sides_of(tracer_, crossing.triangle).visible;
-    }
-
-    /// Shadow depth of the surface, sides beyond the near plane left out.
-    std::int64_t ideal_before_sides(const RayLedger& ledger, double nominal) const {
-        std::int64_t ideal = depth_at(ledger, scene_.camera.near);
-        for (const Crossing& crossing : ledger.crossings)
-            if (crossing.kind == Crossing::Kind::light_cap && counts(crossing.depth) &&
-                cap_in_front(crossing, nominal))
-                ideal += crossing.change;
-        return ideal;
     }
 
     /// What the technique cannot see: the shadow depth where its counting begins, that plane moved
@@ -243,9 +267,10 @@ void sort_out(std::vector<Reading>& readings) {
     };
     std::sort(readings.begin(), readings.end(),
               [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
-    readings.erase(std::unique(readings.begin(), readings.end(),
-                               [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
-                   readings.end());
+    readings.erase(
+        std::unique(readings.begin(), readings.end(),
+                    [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
+        readings.end());
 }
 
 } // namespace
@@ -253,29 +278,16 @@ void sort_out(std::vector<Reading>& readings) {
 PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, int x, int y,
                     double radius, const std::array<RayTruth, sample_count>& truth) {
     const Camera& camera = tracer.scene().camera;
-    const std::array<glm::dvec3, sample_count> directions =
-        sample_directions(camera, x, y, radius);
+    const std::array<glm::dvec3, sample_count> directions = sample_directions(camera, x, y, radius);
     // A pixel is 2 tan_half_height / height wide at depth 1; directions move by that a component.
     const double reach = 2 * radius * 2 * camera.tan_half_height / camera.height;
     const NearbyVolumes volumes = volumes_near(tracer, directions[0], reach);
-    const std::uint32_t shown = frame.triangle.at(x, y);
-    const BandFinder finder(tracer, frame, far, shown);
+    BandFinder finder(tracer, frame, far, frame.triangle.at(x, y), directions);
 
     PixelBand band;
     band.truth = truth;
-    band.surface_moved_in_depth = true;
-    const DepthRange background = finder.background_range();
-    DepthRange range = shown == no_triangle ? background : finder.depth_range(directions);
-    for (std::size_t i = 0; i < sample_count; ++i) {
-        bool moved = false;
-        const std::optional<double> depth = finder.shown_depth(truth[i], directions[i], moved);
-        if (!depth) continue;
-        band.surface_allowed = true;
-        band.surface_moved_in_depth = band.surface_moved_in_depth && moved;
-        range.nominal = shown == no_triangle ? background.nominal : *depth;
-        finder.collect(ray_ledger(tracer, volumes, directions[i]), range, band.readings);
-    }
-    band.surface_moved_in_depth = band.surface_allowed && band.surface_moved_in_depth;
+    for (std::size_t i = 0; i < sample_count; ++i)
+        band.surface_allowed |= finder.collect(i, truth[i], volumes, band.readings);
     sort_out(band.readings);
     return band;
 }

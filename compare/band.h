@@ -34,14 +34,13 @@ struct Reading {
     std::int64_t count = 0;  ///< before wrapping
     std::int64_t ideal = 0;  ///< the surface's shadow depth: what the count ought to tell
     std::int32_t at_eye = 0; ///< shadow depth of the eye
-    bool moved_in_depth = false; ///< only with the surface moved by its depth's freedom
+    bool moved_in_depth = false; ///< only with faces moved by their depths' freedom
 };
 
 /// What a pixel shows in the picture under judgement, and the truth around it.
 struct PixelBand {
     std::array<RayTruth, sample_count> truth{}; ///< at the sample points
     bool surface_allowed = false; ///< the triangle read back is one that may be seen here
-    bool surface_moved_in_depth = false; ///< only because another is as near, within the freedom
     std::vector<Reading> readings; ///< without repetition, for that triangle
 };
 

@@ -3,11 +3,10 @@
 #include "compare/band.h"
 #include "reference/parallel.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <vector>
 
@@ -89,8 +88,8 @@ std::optional<Cause> cause_at_centre(const Context& context, PixelPlace p) {
 
 /// Whether the pixel needs no look at its surroundings.
 bool settled(const Context& context, PixelPlace p, std::optional<Cause>& cause) {
-    const bool counted = context.surface_as_true(p) &&
-                         context.stored(context.predicted(p)) == context.read_back(p);
+    const bool counted =
+        context.surface_as_true(p) && context.stored(context.predicted(p)) == context.read_back(p);
     if (!context.differs(p)) return counted;
     cause = cause_at_centre(context, p);
     return counted && cause.has_value();
@@ -116,9 +115,8 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band)
     for (const Reading& reading : band.readings) {
         if (context.stored(reading.count) != context.read_back(p)) continue;
         if (claim_of(context, reading.count, shown) != claim) continue;
-        // The truth itself makes this claim with the surface moved, or another as near.
-        if (claim_of(context, reading.ideal, shown) == claim &&
-            (reading.moved_in_depth || band.surface_moved_in_depth))
+        // What ought to be counted makes this claim, too, with faces moved in depth.
+        if (reading.moved_in_depth && claim_of(context, reading.ideal, shown) == claim)
             return Cause::precision;
         if (!algorithmic) algorithmic = algorithmic_cause(context, reading, truth);
     }
@@ -127,8 +125,7 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band)
 
 Finding look_around(const Context& context, PixelPlace p, const PixelBand& band) {
     Finding finding;
-    const bool degenerate =
-        context.truth.exactness.at(p.x, p.y) == Exactness::degenerate;
+    const bool degenerate = context.truth.exactness.at(p.x, p.y) == Exactness::degenerate;
     finding.ledger_in_band =
         degenerate ||
         std::any_of(band.readings.begin(), band.readings.end(), [&](const Reading& reading) {
@@ -175,10 +172,10 @@ std::vector<Finding> look_around(const Context& context, const std::vector<Pixel
             std::array<RayTruth, sample_count> around;
             std::copy_n(truths.begin() + static_cast<std::ptrdiff_t>(k * sample_count),
                         sample_count, around.begin());
-            findings[first + k] = look_around(
-                context, p,
-                find_band(context.tracer, context.frame, context.depths.far, p.x, p.y, radii[k],
-                          around));
+            findings[first + k] =
+                look_around(context, p,
+                            find_band(context.tracer, context.frame, context.depths.far, p.x, p.y,
+                                      radii[k], around));
         });
     }
     return findings;
@@ -234,8 +231,7 @@ Comparison classify(const Tracer& tracer, const GroundTruth& truth, const Shadow
     const std::vector<Finding> findings = look_around(context, open);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
-        ++(findings[i].ledger_in_band ? comparison.ledger.in_band
-                                      : comparison.ledger.unexplained);
+        ++(findings[i].ledger_in_band ? comparison.ledger.in_band : comparison.ledger.unexplained);
         comparison.ledger_miss.at(p.x, p.y) = findings[i].ledger_in_band ? 0 : 1;
         if (context.differs(p))
             comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(findings[i].cause);

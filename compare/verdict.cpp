@@ -12,8 +12,7 @@ bool contains(std::span<const Cause> causes, Cause cause) {
 
 bool excused(const Scene& scene, std::span<const Cause> fails_at, Cause cause) {
     if (!contains(fails_at, cause)) return false;
-    return cause == Cause::precision || !scene.declares_provokes ||
-           contains(scene.provokes, cause);
+    return cause == Cause::precision || !scene.declares_provokes || contains(scene.provokes, cause);
 }
 
 } // namespace
@@ -36,8 +35,7 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Compari
     const auto found = [&](Cause cause) {
         return comparison.causes[static_cast<std::size_t>(cause)] > 0;
     };
-    if (found(Cause::unexplained) || comparison.ledger.unexplained > 0)
-        return Verdict::unexplained;
+    if (found(Cause::unexplained) || comparison.ledger.unexplained > 0) return Verdict::unexplained;
     Verdict verdict = Verdict::agrees;
     for (const CauseWords& words : all_causes) {
         if (words.cause == Cause::edge || !found(words.cause)) continue;

@@ -35,6 +35,7 @@ struct Crossing {
     int change = 0;   ///< +1: entering a volume, -1: leaving it
     Kind kind = Kind::side;
     std::uint32_t triangle = no_triangle; ///< whose volume (one of them, where sides cancel)
+    glm::dvec3 plane{0, 0, 0};            ///< normal of the face that is crossed, of any length
 };
 
 /// The ledger along one ray: crossings by increasing depth from the eye on, the count at the eye,

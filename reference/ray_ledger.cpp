@@ -58,15 +58,21 @@ bool may_meet(const Entry& entry, const glm::dvec3& light, const std::array<Slab
     });
 }
 
+/// A face of one triangle's shadow volume.
+struct Face {
+    glm::dvec3 plane{0, 0, 0};
+    Crossing::Kind kind = Crossing::Kind::side;
+};
+
 /// The stretch of an eye ray that lies in one triangle's shadow volume, which is convex.
 struct Stretch {
     double begin = -std::numeric_limits<double>::infinity();
     double end = std::numeric_limits<double>::infinity();
-    bool begins_at_cap = false;
-    bool ends_at_cap = false;
+    Face first; ///< where it begins
+    Face last;  ///< where it ends
 
     /// Keeps what has constant + t slope >= 0.
-    void cut(double constant, double slope, bool cap) {
+    void cut(double constant, double slope, const Face& face) {
         if (slope == 0) {
             if (constant < 0) end = begin;
             return;
@@ -74,10 +80,10 @@ struct Stretch {
         const double t = -constant / slope;
         if (slope > 0 && t > begin) {
             begin = t;
-            begins_at_cap = cap;
+            first = face;
         } else if (slope < 0 && t < end) {
             end = t;
-            ends_at_cap = cap;
+            last = face;
         }
     }
 };
@@ -100,10 +106,12 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t,
         {{&t.a, &t.c}, {&t.c, &t.b}, {&t.b, &t.a}}};
     for (const auto& [from, to] : edges) {
         const glm::dvec3 plane = side_plane(state.light, *from, *to);
-        stretch.cut(glm::dot(state.eye - state.light, plane), glm::dot(direction, plane), false);
+        stretch.cut(glm::dot(state.eye - state.light, plane), glm::dot(direction, plane),
+                    {plane, Crossing::Kind::side});
     }
     const glm::dvec3 away = glm::cross(t.c - t.a, t.b - t.a);
-    stretch.cut(glm::dot(state.eye - t.a, away), glm::dot(direction, away), true);
+    stretch.cut(glm::dot(state.eye - t.a, away), glm::dot(direction, away),
+                {away, Crossing::Kind::light_cap});
     return stretch;
 }
 
@@ -168,18 +176,17 @@ RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
         const Stretch stretch =
             stretch_in_volume(state, corners(*state.scene, triangle), direction);
         if (!(stretch.begin < stretch.end) || stretch.end <= 0) continue;
-        const auto event = [&](double depth, int change, bool cap) {
-            events.push_back(
-                {depth, change, cap ? Crossing::Kind::light_cap : Crossing::Kind::side, triangle});
+        const auto event = [&](double depth, int change, const Face& face) {
+            events.push_back({depth, change, face.kind, triangle, face.plane});
         };
         if (stretch.begin < 0)
             ++ledger.at_eye;
         else
-            event(stretch.begin, 1, stretch.begins_at_cap);
+            event(stretch.begin, 1, stretch.first);
         if (std::isinf(stretch.end))
             ++ledger.at_infinity;
         else
-            event(stretch.end, -1, stretch.ends_at_cap);
+            event(stretch.end, -1, stretch.last);
     }
     ledger.crossings = cancel_shared_sides(std::move(events));
     return ledger;

@@ -174,7 +174,7 @@ TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle) {
     const Tracer::State& state = tracer.state();
     const std::int8_t eye = state.from_eye.side[triangle];
     const std::int8_t light = state.from_light.side[triangle];
-    return {eye < 0, eye > 0, light < 0, light > 0,
+    return {eye<0, eye> 0, light<0, light> 0,
             eye < 0 || (eye > 0 && state.double_sided[triangle] != 0)};
 }
 
