@@ -66,7 +66,7 @@ TEST(ReportPictures, a_png_reads_back_as_it_was) {
     ASSERT_TRUE(input) << OIIO::geterror();
     EXPECT_EQ(input->spec().nchannels, 1);
     std::vector<std::uint8_t> bytes(12);
-    ASSERT_TRUE(input->read_image(OIIO::TypeDesc::UINT8, bytes.data()));
+    ASSERT_TRUE(input->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT8, bytes.data()));
     for (std::size_t i = 0; i < bytes.size(); ++i)
         EXPECT_EQ(bytes[i], static_cast<std::uint8_t>(scene.truth.visibility.pixels[i]));
     std::filesystem::remove(file);
