@@ -117,7 +117,8 @@ void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, C
     console.progress(fmt::format("{}: reading", result.name));
     const Scene scene = load_scene(result.argument, options.scene.request());
     result.name = scene.name;
-    result.file = scene.file.string();
+    // A bundled scene is the same wherever it is installed, and so is its report.
+    result.file = (is_bundled(result.argument) ? scene.file.filename() : scene.file).string();
     result.width = scene.camera.width;
     result.height = scene.camera.height;
     result.triangles = scene.triangles.size();
