@@ -69,13 +69,17 @@ double depth_freedom(const Scene& scene, const DepthModel& depth_model, const gl
     return 16 * v * (window_depth_error + transform_terms(scene, depth_model, point));
 }
 
-std::array<glm::dvec3, sample_count> sample_directions(const Camera& camera, int x, int y,
-                                                       double radius) {
+std::vector<glm::dvec3> sample_directions(const Camera& camera, int x, int y,
+                                          const BandRadius& radius) {
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
-    std::array<glm::dvec3, sample_count> directions{};
-    for (std::size_t i = 0; i < sample_count; ++i)
-        directions[i] =
-            ray_direction(camera, x + 0.5 + radius * steps[i % 5], y + 0.5 + radius * steps[i / 5]);
+    std::vector<glm::dvec3> directions;
+    const auto add = [&](double reach, std::size_t first) {
+        for (std::size_t i = first; i < steps.size() * steps.size(); ++i)
+            directions.push_back(ray_direction(camera, x + 0.5 + reach * steps[i % steps.size()],
+                                               y + 0.5 + reach * steps[i / steps.size()]));
+    };
+    add(radius.surface, 0);
+    if (radius.nearest > radius.surface) add(radius.nearest, 1);
     return directions;
 }
 
@@ -116,15 +120,13 @@ struct DepthRange {
     }
 };
 
-using Directions = std::array<glm::dvec3, sample_count>;
-
 /// Finds the readings of one pixel, sample by sample. Which faces cover the pixel is what a sample
 /// decides; their depths there are those of their planes, which the sideways freedom moves too: by
 /// much, where a face is steep.
 class BandFinder {
 public:
     BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-               const Directions& directions)
+               std::span<const glm::dvec3> directions)
         : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
           directions_(directions) {
         shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
@@ -148,7 +150,7 @@ private:
     const Frame& frame_;
     double far_;
     std::uint32_t shown_;
-    const Directions& directions_;
+    std::span<const glm::dvec3> directions_;
     DepthRange shown_range_;
 
     /// A triangle's plane over all samples, with the depth format's freedom.
@@ -273,20 +275,24 @@ void sort_out(std::vector<Reading>& readings) {
         readings.end());
 }
 
+/// Largest difference of a component from the first direction.
+double spread(std::span<const glm::dvec3> directions) {
+    double largest = 0;
+    for (const glm::dvec3& direction : directions) {
+        const glm::dvec3 apart = glm::abs(direction - directions.front());
+        largest = std::max({largest, apart.x, apart.y, apart.z});
+    }
+    return largest;
+}
+
 } // namespace
 
-PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, int x, int y,
-                    double radius, const std::array<RayTruth, sample_count>& truth) {
-    const Camera& camera = tracer.scene().camera;
-    const std::array<glm::dvec3, sample_count> directions = sample_directions(camera, x, y, radius);
-    // A pixel is 2 tan_half_height / height wide at depth 1; directions move by that a component.
-    const double reach = 2 * radius * 2 * camera.tan_half_height / camera.height;
-    const NearbyVolumes volumes = volumes_near(tracer, directions[0], reach);
-    BandFinder finder(tracer, frame, far, frame.triangle.at(x, y), directions);
-
+PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
+                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth) {
+    const NearbyVolumes volumes = volumes_near(tracer, directions.front(), spread(directions));
+    BandFinder finder(tracer, frame, far, shown, directions);
     PixelBand band;
-    band.truth = truth;
-    for (std::size_t i = 0; i < sample_count; ++i)
+    for (std::size_t i = 0; i < directions.size(); ++i)
         band.surface_allowed |= finder.collect(i, truth[i], volumes, band.readings);
     sort_out(band.readings);
     return band;

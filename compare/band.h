@@ -6,11 +6,9 @@
 #include "reference/trace.h"
 #include "scenes/frame.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -23,29 +21,33 @@ double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const 
 /// order: the quantum of the depth format and the float transform's error.
 double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
 
-/// Picture points at which a pixel's neighbourhood is looked at: its centre first, then a grid
-/// that reaches `radius` pixels to each side.
-inline constexpr std::size_t sample_count = 25;
-std::array<glm::dvec3, sample_count> sample_directions(const Camera& camera, int x, int y,
-                                                       double radius);
+/// How far a pixel's neighbourhood reaches to each side, in pixels.
+struct BandRadius {
+    double surface = 0; ///< for what is seen
+    double nearest = 0; ///< for the nearest face that is counted, which may move further
+};
+
+/// Rays through the points at which a pixel's neighbourhood is looked at: its centre first, then a
+/// grid that reaches to each radius.
+std::vector<glm::dvec3> sample_directions(const Camera& camera, int x, int y,
+                                          const BandRadius& radius);
 
 /// One value that the counter may have at a pixel, and how it comes about.
 struct Reading {
-    std::int64_t count = 0;  ///< before wrapping
-    std::int64_t ideal = 0;  ///< the surface's shadow depth: what the count ought to tell
-    std::int32_t at_eye = 0; ///< shadow depth of the eye
+    std::int64_t count = 0;      ///< before wrapping
+    std::int64_t ideal = 0;      ///< the surface's shadow depth: what the count ought to tell
+    std::int32_t at_eye = 0;     ///< shadow depth of the eye
     bool moved_in_depth = false; ///< only with faces moved by their depths' freedom
 };
 
-/// What a pixel shows in the picture under judgement, and the truth around it.
+/// What the rasterizer may make of a pixel that shows the triangle read back.
 struct PixelBand {
-    std::array<RayTruth, sample_count> truth{}; ///< at the sample points
-    bool surface_allowed = false; ///< the triangle read back is one that may be seen here
+    bool surface_allowed = false;  ///< the triangle read back is one that may be seen here
     std::vector<Reading> readings; ///< without repetition, for that triangle
 };
 
-/// `truth`: what trace_rays found along sample_directions(camera, x, y, radius).
-PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, int x, int y,
-                    double radius, const std::array<RayTruth, sample_count>& truth);
+/// `directions` as sample_directions gives them, `truth` what trace_rays finds along them.
+PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
+                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth);
 
 } // namespace shadowproof

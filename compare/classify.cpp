@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -101,12 +102,13 @@ struct Finding {
     Cause cause = Cause::unexplained;
 };
 
-Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band) {
+Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
+                    std::span<const RayTruth> around) {
     const Visibility claim = context.frame.claim.at(p.x, p.y);
     const Visibility truth = context.truth.visibility.at(p.x, p.y);
     if (context.truth.exactness.at(p.x, p.y) == Exactness::degenerate) return Cause::edge;
     if (const std::optional<Cause> cause = cause_at_centre(context, p)) return *cause;
-    if (std::any_of(band.truth.begin(), band.truth.end(),
+    if (std::any_of(around.begin(), around.end(),
                     [&](const RayTruth& t) { return t.visibility == claim; }))
         return Cause::edge;
 
@@ -123,7 +125,8 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band)
     return algorithmic.value_or(Cause::unexplained);
 }
 
-Finding look_around(const Context& context, PixelPlace p, const PixelBand& band) {
+Finding look_around(const Context& context, PixelPlace p, const PixelBand& band,
+                    std::span<const RayTruth> around) {
     Finding finding;
     const bool degenerate = context.truth.exactness.at(p.x, p.y) == Exactness::degenerate;
     finding.ledger_in_band =
@@ -131,54 +134,89 @@ Finding look_around(const Context& context, PixelPlace p, const PixelBand& band)
         std::any_of(band.readings.begin(), band.readings.end(), [&](const Reading& reading) {
             return context.stored(reading.count) == context.read_back(p);
         });
-    if (context.differs(p)) finding.cause = cause_in_band(context, p, band);
+    if (context.differs(p)) finding.cause = cause_in_band(context, p, band, around);
     return finding;
 }
 
-/// The pixel's freedom to each side: at the surface, and at the nearest face that is counted.
-double band_radius(const Context& context, PixelPlace p) {
+/// The pixel's freedom to each side.
+BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& direction) {
     const Scene& scene = context.tracer.scene();
-    const Camera& camera = scene.camera;
-    const glm::dvec3 direction = ray_direction(camera, p.x + 0.5, p.y + 0.5);
-    double nearest = std::min(context.truth.depth.at(p.x, p.y), context.depths.far);
+    const auto at = [&](double depth) {
+        return lateral_freedom(scene, context.frame.depth_model,
+                               scene.camera.eye + depth * direction);
+    };
+    const double surface = std::min(context.truth.depth.at(p.x, p.y), context.depths.far);
+    double nearest = surface;
     if (context.frame.counting.test == Counting::Test::depth_pass)
         for (const Crossing& crossing : ray_ledger(context.tracer, direction).crossings)
-            if (crossing.depth >= camera.near) nearest = std::min(nearest, crossing.depth);
-    return lateral_freedom(scene, context.frame.depth_model, camera.eye + nearest * direction);
+            if (crossing.depth >= scene.camera.near) nearest = std::min(nearest, crossing.depth);
+    return {at(surface), at(nearest)};
+}
+
+/// The samples of many pixels, one after the other.
+struct Samples {
+    std::vector<std::size_t> first; ///< of each pixel; one more at the end
+    std::vector<glm::dvec3> directions;
+};
+
+Samples gather_samples(const Context& context, std::span<const PixelPlace> places) {
+    const Camera& camera = context.tracer.scene().camera;
+    std::vector<std::vector<glm::dvec3>> each(places.size());
+    parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
+        const PixelPlace p = places[static_cast<std::size_t>(i)];
+        const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
+        each[static_cast<std::size_t>(i)] =
+            sample_directions(camera, p.x, p.y, band_radius(context, p, centre));
+    });
+    Samples samples{{0}, {}};
+    for (const std::vector<glm::dvec3>& directions : each) {
+        samples.directions.insert(samples.directions.end(), directions.begin(), directions.end());
+        samples.first.push_back(samples.directions.size());
+    }
+    return samples;
 }
 
 /// Pixels looked at together: as many as keep the samples within a few megabytes.
 constexpr std::size_t batch_size = 1024;
 
+void look_around_batch(const Context& context, std::span<const PixelPlace> places,
+                       std::span<Finding> findings) {
+    const Samples samples = gather_samples(context, places);
+    const std::vector<RayTruth> truths = trace_rays(context.tracer, samples.directions);
+    parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
+        const auto k = static_cast<std::size_t>(i);
+        const std::size_t first = samples.first[k];
+        const std::size_t count = samples.first[k + 1] - first;
+        const std::span around = std::span(truths).subspan(first, count);
+        const std::uint32_t shown = context.frame.triangle.at(places[k].x, places[k].y);
+        const PixelBand band =
+            find_band(context.tracer, context.frame, context.depths.far, shown,
+                      std::span(samples.directions).subspan(first, count), around);
+        findings[k] = look_around(context, places[k], band, around);
+    });
+}
+
 std::vector<Finding> look_around(const Context& context, const std::vector<PixelPlace>& places) {
-    const Camera& camera = context.tracer.scene().camera;
     std::vector<Finding> findings(places.size());
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
-        std::vector<double> radii(count);
-        std::vector<glm::dvec3> directions(count * sample_count);
-        parallel_for(static_cast<int>(count), context.tracer.threads(), [&](int i, int) {
-            const auto k = static_cast<std::size_t>(i);
-            const PixelPlace p = places[first + k];
-            radii[k] = band_radius(context, p);
-            const auto samples = sample_directions(camera, p.x, p.y, radii[k]);
-            std::copy(samples.begin(), samples.end(),
-                      directions.begin() + static_cast<std::ptrdiff_t>(k * sample_count));
-        });
-        const std::vector<RayTruth> truths = trace_rays(context.tracer, directions);
-        parallel_for(static_cast<int>(count), context.tracer.threads(), [&](int i, int) {
-            const auto k = static_cast<std::size_t>(i);
-            const PixelPlace p = places[first + k];
-            std::array<RayTruth, sample_count> around;
-            std::copy_n(truths.begin() + static_cast<std::ptrdiff_t>(k * sample_count),
-                        sample_count, around.begin());
-            findings[first + k] =
-                look_around(context, p,
-                            find_band(context.tracer, context.frame, context.depths.far, p.x, p.y,
-                                      radii[k], around));
-        });
+        look_around_batch(context, std::span(places).subspan(first, count),
+                          std::span(findings).subspan(first, count));
     }
     return findings;
+}
+
+void record(Comparison& comparison, PixelPlace p, bool in_band) {
+    LedgerCheck& ledger = comparison.ledger;
+    if (in_band) {
+        ++ledger.in_band;
+        return;
+    }
+    if (ledger.unexplained++ == 0) {
+        ledger.first_x = p.x;
+        ledger.first_y = p.y;
+    }
+    comparison.ledger_miss.at(p.x, p.y) = 1;
 }
 
 /// Which of two causes a person should see first: unexplained, then any failing, then edge.
@@ -231,8 +269,7 @@ Comparison classify(const Tracer& tracer, const GroundTruth& truth, const Shadow
     const std::vector<Finding> findings = look_around(context, open);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
-        ++(findings[i].ledger_in_band ? comparison.ledger.in_band : comparison.ledger.unexplained);
-        comparison.ledger_miss.at(p.x, p.y) = findings[i].ledger_in_band ? 0 : 1;
+        record(comparison, p, findings[i].ledger_in_band);
         if (context.differs(p))
             comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(findings[i].cause);
     }

@@ -26,6 +26,8 @@ struct LedgerCheck {
     std::uint64_t equal = 0;       ///< at the pixel's centre
     std::uint64_t in_band = 0;     ///< equal to a value inside the pixel's band
     std::uint64_t unexplained = 0; ///< neither; always a failure
+    int first_x = 0;               ///< the first unexplained, in rows from the top
+    int first_y = 0;
 };
 
 struct Comparison {
