@@ -186,8 +186,9 @@ std::string cell_body(const SceneResult& scene, const Cell& cell) {
     const Comparison& comparison = cell.comparison;
     if (comparison.ledger.unexplained > 0)
         body += fmt::format("<p class=\"alert\">The counter read back is not the one predicted, "
-                            "nor any in the band, at {} pixels.</p>\n",
-                            grouped(comparison.ledger.unexplained));
+                            "nor any in the band, at {} pixels; the first is ({}, {}).</p>\n",
+                            grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
+                            comparison.ledger.first_y);
     body += pictures(scene, cell);
     if (comparison.first)
         body += "<div class=\"below\">\n" + lenses(scene, cell) + "<div>\n" +
@@ -294,7 +295,17 @@ std::string matrix_rows(const Report& report, const std::vector<std::string>& te
     return rows;
 }
 
-/// "20 cells: 12 agree, 8 fail as predicted."
+std::string headline_of(const Report& report) {
+    if (report.passed) return "Everything is as predicted";
+    for (const SceneResult& scene : report.scenes) {
+        if (!scene.error.empty()) return "Something could not run";
+        for (const Cell& cell : scene.cells)
+            if (!cell.error.empty()) return "Something could not run";
+    }
+    return "Something is wrong";
+}
+
+/// "20 cells of 4 scenes: 1 failing, 7 failing as predicted, ..."
 std::string sentence_of(const Report& report) {
     std::size_t agree = 0;
     std::size_t predicted = 0;
@@ -328,14 +339,12 @@ std::string to_html(const Report& report) {
     std::string scenes;
     for (const SceneResult* scene : scenes_in_order(report))
         scenes += scene_section(report, *scene);
-    const char* headline =
-        report.passed ? "Nothing that was not predicted" : "Something is wrong, or did not run";
     return fill(viewer_file("page.html"),
                 {{"title", report.passed ? "shadowproof: passed" : "shadowproof: failed"},
                  {"style", std::string(viewer_file("style.css"))},
                  {"outcome", report.passed ? "passed" : "failed"},
                  {"version", escaped(report.version)},
-                 {"headline", headline},
+                 {"headline", headline_of(report)},
                  {"sentence", sentence_of(report)},
                  {"techniques", heads},
                  {"rows", matrix_rows(report, techniques)},

@@ -46,7 +46,7 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     mark(1, 2, Cause::edge);
     mark(3, 2, corner_cause);
     comparison.first = FirstDifference{2, 1, Cause::near_plane};
-    comparison.ledger = {.equal = 9, .in_band = 1, .unexplained = 2};
+    comparison.ledger = {.equal = 9, .in_band = 1, .unexplained = 2, .first_x = 3, .first_y = 0};
     return scene;
 }
 

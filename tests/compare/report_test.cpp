@@ -41,7 +41,7 @@ TEST(ReportText, a_cells_line_reads_as_the_contract_has_it) {
     SceneResult scene = handmade_scene("near_plane", Cause::edge, Verdict::fails_as_predicted);
     EXPECT_EQ(cell_line(scene, scene.cells[0]),
               "zpass  near_plane  fails_as_predicted  3 of 12 (edge 2, near_plane 1)  first (2,1) "
-              "near_plane  counter unexplained at 2  3.1 ms");
+              "near_plane  counter unexplained at 2, first (3,0)  3.1 ms");
     scene.cells[0].comparison.ledger.unexplained = 0;
     EXPECT_EQ(cell_line(scene, scene.cells[0], {.technique = 7, .scene = 12, .verdict = 20}),
               "zpass    near_plane    fails_as_predicted     3 of 12 (edge 2, near_plane 1)  first "
