@@ -85,27 +85,41 @@ std::vector<glm::dvec3> sample_directions(const Camera& camera, int x, int y,
 
 namespace {
 
-/// A triangle's plane along rays: depth where a ray meets it, and whether inside its edges.
-struct RayHit {
-    double depth = infinity; ///< infinite, too, where the plane is behind
-    bool inside = false;
-};
+/// Depth at which a ray meets a triangle's plane; infinite where that is behind the eye.
+double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 normal =
+        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
+    const double depth = glm::dot(a - scene.camera.eye, normal) / glm::dot(direction, normal);
+    return depth > 0 ? depth : infinity;
+}
 
-RayHit meet(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+/// Whether the triangle may cover the picture point of `direction` with corners moved by up to
+/// `freedom` a component of a direction. An edge seen from the eye spans a plane; the point lies on
+/// its inner side, or no further out than its ends can move: |plane|_1 freedom. Corners behind the
+/// eye need no care, as nothing is divided.
+bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction,
+               double freedom) {
     const glm::dvec3 a = corner(scene, triangle, 0) - scene.camera.eye;
     const glm::dvec3 b = corner(scene, triangle, 1) - scene.camera.eye;
     const glm::dvec3 c = corner(scene, triangle, 2) - scene.camera.eye;
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double slope = glm::dot(direction, normal);
-    const double depth = glm::dot(a, normal) / slope;
-    RayHit hit;
-    if (!(depth > 0)) return hit;
-    hit.depth = depth;
-    const double facing = slope < 0 ? -1 : 1;
-    hit.inside = facing * glm::dot(direction, glm::cross(a, b)) >= 0 &&
-                 facing * glm::dot(direction, glm::cross(b, c)) >= 0 &&
-                 facing * glm::dot(direction, glm::cross(c, a)) >= 0;
-    return hit;
+    const double facing = glm::dot(a, glm::cross(b, c)) < 0 ? -1 : 1;
+    const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        const glm::dvec3 plane = facing * glm::cross(from, to);
+        const glm::dvec3 size = glm::abs(plane);
+        return glm::dot(direction, plane) >= -freedom * (size.x + size.y + size.z);
+    };
+    return inside(a, b) && inside(b, c) && inside(c, a);
+}
+
+/// Largest difference of a component from the first direction.
+double spread(std::span<const glm::dvec3> directions) {
+    double largest = 0;
+    for (const glm::dvec3& direction : directions) {
+        const glm::dvec3 apart = glm::abs(direction - directions.front());
+        largest = std::max({largest, apart.x, apart.y, apart.z});
+    }
+    return largest;
 }
 
 /// The range of view depths that the rasterizer may give to a face.
@@ -130,6 +144,8 @@ public:
         : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
           directions_(directions) {
         shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
+        may_cover_ = shown != no_triangle &&
+                     may_cover(scene_, shown, directions.front(), spread(directions));
     }
 
     /// Appends what the counter may read if the pixel is covered as sample i is. False where the
@@ -152,12 +168,13 @@ private:
     std::uint32_t shown_;
     std::span<const glm::dvec3> directions_;
     DepthRange shown_range_;
+    bool may_cover_ = false; ///< the shown triangle may cover the pixel's centre
 
     /// A triangle's plane over all samples, with the depth format's freedom.
     DepthRange surface_range(std::uint32_t triangle) const {
         DepthRange range{0, infinity, 0};
         for (const glm::dvec3& direction : directions_) {
-            const double t = meet(scene_, triangle, direction).depth;
+            const double t = plane_depth(scene_, triangle, direction);
             const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
             range.include(t, depth_freedom(scene_, frame_.depth_model, point));
         }
@@ -176,18 +193,19 @@ private:
         return range;
     }
 
-    /// The depth at which the shown triangle is met on a sample's ray, if it may be seen there:
-    /// nothing is nearer, or what is may come out behind it.
+    /// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen
+    /// there: it is what the sample sees, or it may cover the pixel and what the sample sees may
+    /// come out behind it.
     std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
                                       bool& moved) const {
         if (truth.triangle == shown_)
             return shown_ == no_triangle ? shown_range_.nominal : truth.depth;
-        if (shown_ == no_triangle || truth.triangle == no_triangle) return std::nullopt;
-        const RayHit hit = meet(scene_, shown_, direction);
-        if (!hit.inside || surface_range(truth.triangle).upper < shown_range_.lower)
-            return std::nullopt;
-        moved = true;
-        return hit.depth;
+        if (!may_cover_) return std::nullopt;
+        const double depth = plane_depth(scene_, shown_, direction);
+        if (truth.triangle == no_triangle) return depth;
+        if (surface_range(truth.triangle).upper < shown_range_.lower) return std::nullopt;
+        moved = truth.depth < depth;
+        return depth;
     }
 
     /// The cleared depth: the far plane, or infinity, where a standard projection's depths round
@@ -273,16 +291,6 @@ void sort_out(std::vector<Reading>& readings) {
         std::unique(readings.begin(), readings.end(),
                     [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
         readings.end());
-}
-
-/// Largest difference of a component from the first direction.
-double spread(std::span<const glm::dvec3> directions) {
-    double largest = 0;
-    for (const glm::dvec3& direction : directions) {
-        const glm::dvec3 apart = glm::abs(direction - directions.front());
-        largest = std::max({largest, apart.x, apart.y, apart.z});
-    }
-    return largest;
 }
 
 } // namespace

@@ -105,7 +105,6 @@ struct Finding {
 Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
                     std::span<const RayTruth> around) {
     const Visibility claim = context.frame.claim.at(p.x, p.y);
-    const Visibility truth = context.truth.visibility.at(p.x, p.y);
     if (context.truth.exactness.at(p.x, p.y) == Exactness::degenerate) return Cause::edge;
     if (const std::optional<Cause> cause = cause_at_centre(context, p)) return *cause;
     if (std::any_of(around.begin(), around.end(),
@@ -113,6 +112,11 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
         return Cause::edge;
 
     const std::uint32_t shown = context.frame.triangle.at(p.x, p.y);
+    // What is true of the surface shown, where it is seen next to the centre.
+    const auto seen = std::find_if(around.begin(), around.end(),
+                                   [&](const RayTruth& t) { return t.triangle == shown; });
+    const Visibility truth_of_shown =
+        seen != around.end() ? seen->visibility : context.truth.visibility.at(p.x, p.y);
     std::optional<Cause> algorithmic;
     for (const Reading& reading : band.readings) {
         if (context.stored(reading.count) != context.read_back(p)) continue;
@@ -120,7 +124,7 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
         // What ought to be counted makes this claim, too, with faces moved in depth.
         if (reading.moved_in_depth && claim_of(context, reading.ideal, shown) == claim)
             return Cause::precision;
-        if (!algorithmic) algorithmic = algorithmic_cause(context, reading, truth);
+        if (!algorithmic) algorithmic = algorithmic_cause(context, reading, truth_of_shown);
     }
     return algorithmic.value_or(Cause::unexplained);
 }
