@@ -53,7 +53,9 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
         line += fmt::format("  first ({},{}) {}", comparison.first->x, comparison.first->y,
                             name_of(comparison.first->cause));
     if (comparison.ledger.unexplained > 0)
-        line += fmt::format("  counter unexplained at {}", grouped(comparison.ledger.unexplained));
+        line += fmt::format("  counter unexplained at {}, first ({},{})",
+                            grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
+                            comparison.ledger.first_y);
     return line + fmt::format("  {:.1f} ms", cell.milliseconds);
 }
 
