@@ -3,7 +3,7 @@
 #include "scenes/error.h"
 
 #include <cassert>
-#include <regex>
+#include <sstream>
 #include <string>
 
 namespace shadowproof {
@@ -17,13 +17,22 @@ GLenum stage_of(std::string_view file) {
     return GL_FRAGMENT_SHADER;
 }
 
-/// Mesa writes "0:12(5): error"; NVIDIA "0(12) : error". Both become "file:12".
+/// Mesa leads a line with "0:12(5)", NVIDIA with "0(12)": the 0 stands for the only source string.
+/// Both become "file:12(5)" and "file:12".
 std::string name_lines(const std::string& log, std::string_view file) {
-    static const std::regex mesa(R"((^|\n)0:(\d+)\((\d+)\))");
-    static const std::regex nvidia(R"((^|\n)0\((\d+)\))");
-    const std::string name(file);
-    const std::string named = std::regex_replace(log, mesa, "$1" + name + ":$2:$3");
-    return std::regex_replace(named, nvidia, "$1" + name + ":$2");
+    std::string named;
+    std::istringstream lines(log);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t close = line.find(')');
+        if (!named.empty()) named += '\n';
+        if (line.starts_with("0:"))
+            named += std::string(file) + line.substr(1);
+        else if (line.starts_with("0(") && close != std::string::npos)
+            named += std::string(file) + ':' + line.substr(2, close - 2) + line.substr(close + 1);
+        else
+            named += line;
+    }
+    return named;
 }
 
 std::string without_last_newline(std::string text) {

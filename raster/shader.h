@@ -15,7 +15,7 @@ struct ShaderText {
     std::string_view text;
 };
 
-/// Throws Error with the driver's log, each line of it led by "file:line:column".
+/// Throws Error with the driver's log, each line of it led by "file:line".
 Program link(const GlFunctions& gl, const ShaderText& vertex, const ShaderText& fragment);
 
 /// The same from two files of raster/glsl/.
