@@ -25,7 +25,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
 Technique zfail_reversed_technique() {
     return {.name = "zfail_reversed",
             .summary = "zfail_infinite with reversed floating depth and eye-relative vertices",
-            .source = "Everitt & Kilgard 2002; reversed depth after Lapidous & Jiao 1999",
+            .source = "Everitt & Kilgard 2002, with the depth range reversed",
             .needs = "closed volumes, glClipControl and a D32F depth buffer",
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
