@@ -122,6 +122,34 @@ double spread(std::span<const glm::dvec3> directions) {
     return largest;
 }
 
+/// Triangles with two corners in common meet without a gap wherever those are moved to.
+bool share_an_edge(const Scene& scene, std::uint32_t one, std::uint32_t other) {
+    int shared = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            shared += corner(scene, one, i) == corner(scene, other, k) ? 1 : 0;
+    return shared >= 2;
+}
+
+/// Whether some of the triangles hang together with none of the others by shared edges. Their
+/// corners then move apart, and a gap may open between them (a T-junction's crack).
+bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles) {
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    if (triangles.empty()) return false;
+    std::vector<std::uint32_t> connected{triangles.back()};
+    triangles.pop_back();
+    for (std::size_t i = 0; i < connected.size(); ++i) {
+        const auto apart =
+            std::partition(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
+                return !share_an_edge(scene, connected[i], triangle);
+            });
+        connected.insert(connected.end(), apart, triangles.end());
+        triangles.erase(apart, triangles.end());
+    }
+    return !triangles.empty();
+}
+
 /// The range of view depths that the rasterizer may give to a face.
 struct DepthRange {
     double nominal = 0; ///< on the sample's own ray
@@ -140,12 +168,17 @@ struct DepthRange {
 class BandFinder {
 public:
     BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-               std::span<const glm::dvec3> directions)
+               std::span<const glm::dvec3> directions, std::span<const RayTruth> truth)
         : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
           directions_(directions) {
         shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
         may_cover_ = shown != no_triangle &&
                      may_cover(scene_, shown, directions.front(), spread(directions));
+        std::vector<std::uint32_t> in_front;
+        for (const RayTruth& t : truth)
+            if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
+                in_front.push_back(t.triangle);
+        may_gape_ = may_gape(scene_, in_front);
     }
 
     /// Appends what the counter may read if the pixel is covered as sample i is. False where the
@@ -169,6 +202,11 @@ private:
     std::span<const glm::dvec3> directions_;
     DepthRange shown_range_;
     bool may_cover_ = false; ///< the shown triangle may cover the pixel's centre
+    bool may_gape_ = false;  ///< what is in front of it may let it be seen through a gap
+
+    bool certainly_in_front(std::uint32_t triangle) const {
+        return surface_range(triangle).upper < shown_range_.lower;
+    }
 
     /// A triangle's plane over all samples, with the depth format's freedom.
     DepthRange surface_range(std::uint32_t triangle) const {
@@ -195,7 +233,7 @@ private:
 
     /// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen
     /// there: it is what the sample sees, or it may cover the pixel and what the sample sees may
-    /// come out behind it.
+    /// come out behind it or leave a gap.
     std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
                                       bool& moved) const {
         if (truth.triangle == shown_)
@@ -203,7 +241,7 @@ private:
         if (!may_cover_) return std::nullopt;
         const double depth = plane_depth(scene_, shown_, direction);
         if (truth.triangle == no_triangle) return depth;
-        if (surface_range(truth.triangle).upper < shown_range_.lower) return std::nullopt;
+        if (!may_gape_ && certainly_in_front(truth.triangle)) return std::nullopt;
         moved = truth.depth < depth;
         return depth;
     }
@@ -296,12 +334,15 @@ void sort_out(std::vector<Reading>& readings) {
 } // namespace
 
 PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth) {
+                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth,
+                    const std::function<bool(const Reading&)>& matches) {
     const NearbyVolumes volumes = volumes_near(tracer, directions.front(), spread(directions));
-    BandFinder finder(tracer, frame, far, shown, directions);
+    BandFinder finder(tracer, frame, far, shown, directions, truth);
     PixelBand band;
-    for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t i = 0; i < directions.size(); ++i) {
         band.surface_allowed |= finder.collect(i, truth[i], volumes, band.readings);
+        if (std::any_of(band.readings.begin(), band.readings.end(), matches)) break;
+    }
     sort_out(band.readings);
     return band;
 }

@@ -7,6 +7,7 @@
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -46,8 +47,10 @@ struct PixelBand {
     std::vector<Reading> readings; ///< without repetition, for that triangle
 };
 
-/// `directions` as sample_directions gives them, `truth` what trace_rays finds along them.
+/// `directions` as sample_directions gives them, `truth` what trace_rays finds along them. Looks no
+/// further than to the first sample that has a reading for which `matches` holds.
 PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth);
+                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth,
+                    const std::function<bool(const Reading&)>& matches);
 
 } // namespace shadowproof

@@ -96,6 +96,13 @@ bool settled(const Context& context, PixelPlace p, std::optional<Cause>& cause) 
     return counted && cause.has_value();
 }
 
+/// Whether a reading is what was read back, and leads to the claim that was made.
+bool explains(const Context& context, PixelPlace p, const Reading& reading) {
+    return context.stored(reading.count) == context.read_back(p) &&
+           claim_of(context, reading.count, context.frame.triangle.at(p.x, p.y)) ==
+               context.frame.claim.at(p.x, p.y);
+}
+
 /// What was found at one pixel by looking at its band.
 struct Finding {
     bool ledger_in_band = false;
@@ -119,8 +126,7 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
         seen != around.end() ? seen->visibility : context.truth.visibility.at(p.x, p.y);
     std::optional<Cause> algorithmic;
     for (const Reading& reading : band.readings) {
-        if (context.stored(reading.count) != context.read_back(p)) continue;
-        if (claim_of(context, reading.count, shown) != claim) continue;
+        if (!explains(context, p, reading)) continue;
         // What ought to be counted makes this claim, too, with faces moved in depth.
         if (reading.moved_in_depth && claim_of(context, reading.ideal, shown) == claim)
             return Cause::precision;
@@ -193,9 +199,10 @@ void look_around_batch(const Context& context, std::span<const PixelPlace> place
         const std::size_t count = samples.first[k + 1] - first;
         const std::span around = std::span(truths).subspan(first, count);
         const std::uint32_t shown = context.frame.triangle.at(places[k].x, places[k].y);
-        const PixelBand band =
-            find_band(context.tracer, context.frame, context.depths.far, shown,
-                      std::span(samples.directions).subspan(first, count), around);
+        const PixelBand band = find_band(
+            context.tracer, context.frame, context.depths.far, shown,
+            std::span(samples.directions).subspan(first, count), around,
+            [&](const Reading& reading) { return explains(context, places[k], reading); });
         findings[k] = look_around(context, places[k], band, around);
     });
 }
