@@ -1,0 +1,64 @@
+#include "tests/bench/dense_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A ball of 2 * rings * rings triangles or so, waves on it so that it shadows itself.
+void add_ball(Scene& scene, const glm::dvec3& centre, double radius, int rings) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    const int sectors = rings;
+    for (int i = 0; i <= rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            const double theta = pi * (i + 0.01) / (rings + 0.02);
+            const double phi = 2 * pi * j / sectors;
+            const double r = radius * (1 + 0.08 * std::sin(9 * theta) * std::cos(7 * phi));
+            scene.positions.emplace_back(centre.x + r * std::sin(theta) * std::cos(phi),
+                                         centre.y + r * std::cos(theta),
+                                         centre.z + r * std::sin(theta) * std::sin(phi));
+        }
+    const auto at = [&](int i, int j) {
+        return first + static_cast<glm::uint>(i * sectors + j % sectors);
+    };
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            scene.triangles.emplace_back(at(i, j), at(i, j + 1), at(i + 1, j + 1));
+            scene.triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i + 1, j));
+        }
+}
+
+void add_floor(Scene& scene) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    for (const auto& [x, z] : {std::pair{-8.F, -14.F}, {-8.F, 2.F}, {8.F, 2.F}, {8.F, -14.F}})
+        scene.positions.emplace_back(x, -1.3F, z);
+    scene.triangles.emplace_back(first, first + 1, first + 2);
+    scene.triangles.emplace_back(first, first + 2, first + 3);
+}
+
+} // namespace
+
+Scene dense_scene(int triangles, int width, int height) {
+    Scene scene;
+    scene.name = "dense";
+    constexpr int balls = 5;
+    const int rings = static_cast<int>(std::lround(std::sqrt(triangles / (2.0 * balls))));
+    for (int i = 0; i < balls; ++i)
+        add_ball(scene, {1.9 * (i - 2), 0.35 * (i % 3) - 0.2, -6 - 0.9 * (i % 2)}, 0.9, rings);
+    add_floor(scene);
+    scene.materials.emplace_back();
+    scene.meshes = {{"balls", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
+    scene.camera.eye = {0.137, 1.271, 1.093};
+    scene.camera.tan_half_height = 0.6;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    scene.lights.emplace_back();
+    scene.lights[0].position = {3.1, 5.3, -2.7};
+    return scene;
+}
+
+} // namespace shadowproof

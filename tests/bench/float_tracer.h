@@ -1,0 +1,28 @@
+// The yardstick: the same eye and shadow rays, answered by Embree in float, in its fastest way for
+// them (packets of 16, robust). Its answers are not exact; its speed is what one would have.
+#pragma once
+
+#include "reference/trace.h"
+#include "scenes/scene.h"
+
+#include <memory>
+
+namespace shadowproof {
+
+class FloatTracer {
+public:
+    explicit FloatTracer(const Scene& scene, int threads);
+    ~FloatTracer();
+    FloatTracer(const FloatTracer&) = delete;
+    FloatTracer& operator=(const FloatTracer&) = delete;
+
+    /// Eye rays of the whole picture, and a shadow ray where the reference traces one: from each
+    /// seen point whose side faces the light.
+    Image<Visibility> trace() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace shadowproof

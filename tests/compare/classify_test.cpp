@@ -1,0 +1,157 @@
+#include "compare/classify.h"
+#include "compare/verdict.h"
+#include "raster/render.h"
+#include "raster/technique.h"
+#include "scenes/catalog.h"
+#include "scenes/plan.h"
+#include "tests/raster/faulty_techniques.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+
+namespace shadowproof {
+namespace {
+
+/// A scene with its truth, traced once for all tests that ask for it.
+struct TracedScene {
+    Scene scene;
+    Plan plan;
+    Tracer tracer;
+    GroundTruth truth;
+    ShadowDepths depths;
+
+    explicit TracedScene(const std::string& name)
+        : scene(load_scene(name, {})), plan(make_plan(scene)), tracer(scene), truth(trace(tracer)),
+          depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
+};
+
+class Classify : public testing::Test {
+protected:
+    static TracedScene& traced(const std::string& name) {
+        static std::map<std::string, std::unique_ptr<TracedScene>> scenes;
+        std::unique_ptr<TracedScene>& scene = scenes[name];
+        if (!scene) scene = std::make_unique<TracedScene>(name);
+        return *scene;
+    }
+
+    Comparison compare(const std::string& name, const Technique& technique) {
+        TracedScene& t = traced(name);
+        return classify(t.tracer, t.truth, t.depths, render(technique, t.scene, t.plan, gpu_));
+    }
+    Comparison compare(const std::string& name, const std::string& technique) {
+        return compare(name, *find_technique(technique));
+    }
+
+private:
+    Gpu gpu_{GlPlatform::osmesa};
+};
+
+std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
+    return comparison.causes[static_cast<std::size_t>(cause)];
+}
+
+/// Differing pixels whose cause is none of these.
+std::uint64_t pixels_beyond(const Comparison& comparison, std::initializer_list<Cause> causes) {
+    std::uint64_t beyond = comparison.differing;
+    for (const Cause cause : causes) beyond -= pixels_of(comparison, cause);
+    return beyond;
+}
+
+TEST_F(Classify, the_predicted_counter_is_read_back_at_every_pixel_outside_the_band) {
+    for (const BundledScene& scene : bundled_scenes())
+        for (const Technique& technique : all_techniques()) {
+            SCOPED_TRACE(std::string(technique.name) + " on " + std::string(scene.name));
+            const Comparison comparison = compare(std::string(scene.name), technique);
+            EXPECT_EQ(comparison.ledger.unexplained, 0U)
+                << "first at " << comparison.ledger.first_x << "," << comparison.ledger.first_y;
+            EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
+            EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
+                      comparison.cause.pixels.size());
+            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need.
+            EXPECT_LT(comparison.ledger.in_band, comparison.cause.pixels.size() * 3 / 1000);
+        }
+}
+
+TEST_F(Classify, zpass_miscounts_where_the_near_plane_is_inside_a_volume_and_zfail_does_not) {
+    EXPECT_GT(pixels_of(compare("near_plane", "zpass"), Cause::near_plane), 1000U);
+    EXPECT_EQ(pixels_beyond(compare("near_plane", "zfail"), {Cause::edge, Cause::precision}), 0U);
+}
+
+TEST_F(Classify, zpass_miscounts_where_the_eye_is_inside_a_volume_and_zfail_does_not) {
+    const Comparison zpass = compare("eye_inside", "zpass");
+    EXPECT_GT(pixels_of(zpass, Cause::eye_inside), 1000U);
+    EXPECT_EQ(pixels_of(zpass, Cause::near_plane), 0U);
+    EXPECT_EQ(pixels_beyond(compare("eye_inside", "zfail"), {Cause::edge, Cause::precision}), 0U);
+}
+
+TEST_F(Classify, zfail_miscounts_where_the_far_plane_cuts_a_volume_and_zpass_does_not) {
+    EXPECT_GT(pixels_of(compare("far_plane", "zfail"), Cause::far_plane), 1000U);
+    EXPECT_EQ(pixels_beyond(compare("far_plane", "zpass"), {Cause::edge, Cause::precision}), 0U);
+}
+
+TEST_F(Classify, the_robust_techniques_differ_by_nothing_but_edge_and_precision) {
+    std::uint64_t reversed_precision = 0;
+    for (const BundledScene& scene : bundled_scenes())
+        for (const char* technique : {"zfail_clamp", "zfail_infinite", "zfail_reversed"}) {
+            SCOPED_TRACE(std::string(technique) + " on " + std::string(scene.name));
+            const Comparison comparison = compare(std::string(scene.name), technique);
+            EXPECT_EQ(pixels_beyond(comparison, {Cause::edge, Cause::precision}), 0U);
+            if (technique == std::string("zfail_reversed"))
+                reversed_precision += pixels_of(comparison, Cause::precision);
+        }
+    EXPECT_LE(reversed_precision, 10U);
+}
+
+TEST_F(Classify, every_pixel_counted_by_cause_is_marked_in_the_cause_map) {
+    const Comparison comparison = compare("near_plane", "zpass");
+    std::array<std::uint64_t, all_causes.size()> marked{};
+    for (const std::uint8_t cause : comparison.cause.pixels)
+        if (cause != no_difference) ++marked[cause];
+    EXPECT_EQ(marked, comparison.causes);
+    EXPECT_EQ(std::accumulate(marked.begin(), marked.end(), std::uint64_t{0}),
+              comparison.differing);
+    ASSERT_TRUE(comparison.first);
+    EXPECT_EQ(comparison.cause.at(comparison.first->x, comparison.first->y),
+              static_cast<std::uint8_t>(comparison.first->cause));
+}
+
+/// Each fault on a scene that shows it (the headers of the faults say which).
+struct Injection {
+    std::string fault;
+    std::string scene;
+};
+
+class ClassifyFault : public Classify, public testing::WithParamInterface<Injection> {};
+
+TEST_P(ClassifyFault, is_caught_and_its_right_twin_is_not) {
+    const Technique* faulty = nullptr;
+    for (const Technique& technique : tests::faulty_techniques())
+        if (technique.name == GetParam().fault) faulty = &technique;
+    ASSERT_NE(faulty, nullptr);
+    const Scene& scene = traced(GetParam().scene).scene;
+    const Verdict verdict = judge(scene, faulty->fails_at, compare(GetParam().scene, *faulty));
+    EXPECT_TRUE(verdict == Verdict::defect || verdict == Verdict::unexplained) << name_of(verdict);
+    for (const Technique& right : all_techniques()) {
+        const Verdict unharmed = judge(scene, right.fails_at, compare(GetParam().scene, right));
+        EXPECT_TRUE(unharmed == Verdict::agrees || unharmed == Verdict::fails_as_predicted)
+            << right.name << " " << name_of(unharmed);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Injected, ClassifyFault,
+                         testing::Values(Injection{"without_dark_cap", "far_plane"},
+                                         Injection{"with_swapped_steps", "ordinary"},
+                                         Injection{"without_one_side", "ordinary"},
+                                         Injection{"with_wrong_near_plane", "near_plane"},
+                                         Injection{"with_wrong_near_plane", "eye_inside"},
+                                         Injection{"with_mirrored_light", "ordinary"}),
+                         [](const testing::TestParamInfo<Injection>& injection) {
+                             return injection.param.fault + "_on_" + injection.param.scene;
+                         });
+
+} // namespace
+} // namespace shadowproof
