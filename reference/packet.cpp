@@ -1,6 +1,7 @@
 #include "reference/packet.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
@@ -39,6 +40,50 @@ Vector load(const Lanes<float>& values, int i) {
     return hn::Load(floats, values.data() + i);
 }
 
+// The float ray must meet every box, enlarged by pad, that the exact ray meets. A hit lies within
+// the scene, so s |w| <= 1 there (scaled coordinates, |w| the exact ray's). Each component of w is
+// off by a relative 2^-24, which meets_box allows for, and by `error`: s error <= error / |w| <=
+// error of pad, as |w| >= 1; twice that, because |w| is itself off. Components below 2^-31 |w| are
+// made +0: another 2^-31 of pad, which leaves 2^-31 of the 2^-30 given, so that a box really met
+// reaches that far to either side of the plane through the origin, and 2^100 for 1/w then lies
+// beyond every s. Where nothing is known of the direction, any will do: a pad of 4 lets all boxes
+// (at most 1 away) hold the ray's start, and every triangle is decided exactly.
+void prepare(RayPacket& packet) {
+    const Vector one = hn::Set(floats, 1);
+    const Vector infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
+    Vector pad = hn::Set(floats, 0x1p-30F);
+    for (int i = 0; i < packet_size; i += step()) {
+        Vector x = load(packet.x, i);
+        Vector y = load(packet.y, i);
+        Vector z = load(packet.z, i);
+        const Vector size = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+        const Vector still = hn::Mul(size, hn::Set(floats, 0x1p-31F));
+        const auto set_axis = [&](Vector w, Lanes<float>& component, Lanes<float>& reciprocal) {
+            const Mask moves = hn::Ge(hn::Abs(w), still);
+            hn::Store(hn::IfThenElseZero(moves, w), floats, component.data() + i);
+            hn::Store(hn::IfThenElse(moves, hn::Div(one, w), hn::Set(floats, 0x1p100F)), floats,
+                      reciprocal.data() + i);
+        };
+        set_axis(x, packet.x, packet.rx);
+        set_axis(y, packet.y, packet.ry);
+        set_axis(z, packet.z, packet.rz);
+        const Vector error = load(packet.error, i);
+        pad = hn::Max(pad, hn::MulAdd(error, hn::Set(floats, 2), hn::Set(floats, 0x1p-30F)));
+        hn::Store(hn::IfThenElse(hn::Gt(error, hn::Set(floats, 0x1p-25F)), infinite, size), floats,
+                  packet.magnitude.data() + i);
+        const Vector unit = load(packet.unit, i);
+        for (Lanes<float>* limit :
+             {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
+            hn::Store(hn::Mul(load(*limit, i), unit), floats, limit->data() + i);
+        const Vector awake = load(packet.farthest, i);
+        const Vector farthest =
+            hn::Mul(hn::Div(one, load(packet.lower_lo, i)), hn::Set(floats, 1 + 0x1p-20F));
+        hn::Store(hn::IfThenElse(hn::Lt(awake, hn::Zero(floats)), awake, farthest), floats,
+                  packet.farthest.data() + i);
+    }
+    packet.pad = std::min(4.0F, hn::GetLane(hn::MaxOfLanes(floats, pad)));
+}
+
 // Does any lane's ray meet the box? The plane x = p is reached at s = p / w_x. In float that is
 // p' r with p' = p - pad, r = 1/w_x and w_x each rounded, and the product rounded: 4 roundings, so
 // entry and exit are right to within a factor 1 +- 4.01 2^-24, and signs are right. 1 + 2^-20
@@ -73,19 +118,21 @@ struct Answer {
     Vector hi;
 };
 
-Vector dot(const RayPacket& packet, int i, const std::array<float, 3>& n) {
-    return hn::Add(hn::Add(hn::Mul(load(packet.x, i), hn::Set(floats, n[0])),
-                           hn::Mul(load(packet.y, i), hn::Set(floats, n[1]))),
-                   hn::Mul(load(packet.z, i), hn::Set(floats, n[2])));
+/// w . n for one triangle's n of a cluster.
+Vector dot(const RayPacket& packet, int i, const std::array<PerTriangle<float>, 3>& n,
+           std::size_t triangle) {
+    return hn::Add(hn::Add(hn::Mul(load(packet.x, i), hn::Set(floats, n[0][triangle])),
+                           hn::Mul(load(packet.y, i), hn::Set(floats, n[1][triangle]))),
+                   hn::Mul(load(packet.z, i), hn::Set(floats, n[2][triangle])));
 }
 
 /// Comparisons with NaN are false, so whatever overflows is undecided.
-Answer test(const RayPacket& packet, int i, const TriangleRecord& triangle) {
+Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::size_t t) {
     const Vector magnitude = load(packet.magnitude, i);
-    const Vector edge_tolerance = hn::Mul(magnitude, hn::Set(floats, triangle.edge_tolerance));
+    const Vector edge_tolerance = hn::Mul(magnitude, hn::Set(floats, cluster.edge_tolerance[t]));
     const Vector inner =
-        hn::Min(hn::Min(dot(packet, i, triangle.edge[0]), dot(packet, i, triangle.edge[1])),
-                dot(packet, i, triangle.edge[2]));
+        hn::Min(hn::Min(dot(packet, i, cluster.edge[0], t), dot(packet, i, cluster.edge[1], t)),
+                dot(packet, i, cluster.edge[2], t));
     Answer answer;
     const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(edge_tolerance)));
     if (hn::AllFalse(floats, maybe_inside)) {
@@ -93,13 +140,13 @@ Answer test(const RayPacket& packet, int i, const TriangleRecord& triangle) {
         answer.lo = answer.hi = inner;
         return answer;
     }
-    const Vector tolerance = hn::Mul(magnitude, hn::Set(floats, triangle.inverse_tolerance));
-    const Vector inverse = dot(packet, i, triangle.inverse);
+    const Vector tolerance = hn::Mul(magnitude, hn::Set(floats, cluster.inverse_tolerance[t]));
+    const Vector inverse = dot(packet, i, cluster.inverse, t);
     answer.lo = hn::Sub(inverse, tolerance);
     answer.hi = hn::Add(inverse, tolerance);
     const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
     const Mask skipped = hn::RebindMask(
-        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, triangle.triangle)));
+        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, cluster.triangle[t])));
     const Mask out = hn::Or(hn::Lt(answer.hi, load(packet.lower_lo, i)),
                             hn::Gt(answer.lo, load(packet.upper_hi, i)));
     const Mask candidate = hn::And(hn::AndNot(out, maybe_inside), hn::AndNot(skipped, awake));
@@ -123,12 +170,14 @@ void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t 
 }
 
 template <Query query>
-void meet_triangle(RayPacket& packet, const TriangleRecord& triangle, Arbiter& arbiter) {
+void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t t,
+                   Arbiter& arbiter) {
+    const std::uint32_t triangle = cluster.triangle[t];
     for (int i = 0; i < packet_size; i += step()) {
-        const Answer answer = test(packet, i, triangle);
+        const Answer answer = test(packet, i, cluster, t);
         if (!hn::AllFalse(floats, answer.met)) {
             if constexpr (query == Query::nearest) {
-                keep_nearest(packet, i, answer, triangle.triangle);
+                keep_nearest(packet, i, answer, triangle);
             } else {
                 for (std::uint32_t left = bits_of(answer.met, i); left != 0; left &= left - 1) {
                     const int lane = __builtin_ctz(left);
@@ -136,7 +185,7 @@ void meet_triangle(RayPacket& packet, const TriangleRecord& triangle, Arbiter& a
                     if constexpr (query == Query::count) {
                         ++packet.crossed[l];
                     } else {
-                        packet.hit[l] = triangle.triangle;
+                        packet.hit[l] = triangle;
                         finish_lane(packet, lane);
                     }
                 }
@@ -144,16 +193,16 @@ void meet_triangle(RayPacket& packet, const TriangleRecord& triangle, Arbiter& a
         }
         if (hn::AllFalse(floats, answer.undecided)) continue;
         for (std::uint32_t left = bits_of(answer.undecided, i); left != 0; left &= left - 1)
-            arbiter.decide(packet, __builtin_ctz(left), triangle.triangle);
+            arbiter.decide(packet, __builtin_ctz(left), triangle);
     }
 }
 
-/// A node has at most 4 children and the tree at most 64 levels, and coinciding triangles make
-/// leaves of at most 4 clusters.
-constexpr std::size_t stack_size = 4 * 66;
+/// At most 64 levels of two children, and coinciding triangles make leaves of up to 4 clusters.
+constexpr std::size_t stack_size = 2 * 64 + 4;
 
 template <Query query>
 void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    prepare(packet);
     const std::vector<Entry>& entries = records.view().entries;
     std::array<std::uint32_t, stack_size> stack; // NOLINT: filled as it is used
     stack[0] = 0;
@@ -165,7 +214,7 @@ void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
         if (entry.count > 0) continue;
         const ClusterRecord& cluster = records.of(entry.first);
         for (std::uint32_t i = 0; i < cluster.count; ++i)
-            meet_triangle<query>(packet, cluster.triangles[i], arbiter);
+            meet_triangle<query>(packet, cluster, i, arbiter);
     }
 }
 
@@ -205,9 +254,6 @@ void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
 RayPacket empty_packet() {
     RayPacket packet;
     packet.farthest.fill(-1);
-    packet.rx.fill(1);
-    packet.ry.fill(1);
-    packet.rz.fill(1);
     packet.hit.fill(no_triangle);
     packet.skip.fill(no_triangle);
     return packet;
@@ -215,63 +261,35 @@ RayPacket empty_packet() {
 
 namespace {
 
-/// Slower than any distance in scaled coordinates is long; see set_lane.
-constexpr float nearly_still = 0x1p-31F;
-constexpr float reciprocal_of_still = 0x1p100F;
-
-float reciprocal(float w) {
-    return w == 0 ? reciprocal_of_still : 1 / w;
-}
-
-/// Beyond this 1/s no box needs to be looked into.
-float farthest_at(float lower_lo) {
-    return lower_lo > 0 ? 1 / lower_lo * (1 + 0x1p-20F) : std::numeric_limits<float>::infinity();
+/// 2^-e for a normal size in [2^e, 2^(e + 1)).
+double power_that_normalises(double size) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52U;
+    return std::bit_cast<double>((2046 - exponent) << 52U);
 }
 
 } // namespace
 
-// The float ray must meet every box, enlarged by pad, that the exact ray meets. A hit lies within
-// the scene, so s |w| <= 1 there (scaled coordinates). Each component of w is off by a relative
-// 2^-24, which meets_box allows for, and by w.error: s w.error <= w.error / |w| of pad. Components
-// below 2^-31 |w| are made +0: another 2^-31 of pad, which leaves 2^-31 of the 2^-30 given so that
-// a box that is really met holds the plane through the origin with room to spare, and
-// 2^100 * 2^-31 is beyond every s. A second w.error covers |w| itself being off.
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
     const double size =
         std::max({std::abs(w.direction.x), std::abs(w.direction.y), std::abs(w.direction.z)});
-    // Where nothing is known of the direction, any will do: all boxes are met (they are at most 1
-    // away, so a pad of 4 holds the ray's start) and every triangle is decided exactly.
-    const bool unknown = !(size > 0x1p-100) || !(w.error < size);
-    const glm::dvec3 direction = unknown ? glm::dvec3(1, 1, 1) : w.direction;
+    const bool known = size > 0x1p-100 && size < 0x1p100 && w.error < size;
     // Powers of two only: 1 <= |w| < 2 afterwards.
-    const double shrink = unknown ? 1 : std::exp2(-std::ilogb(size));
-    const auto component = [&](double value) {
-        return std::abs(value) < nearly_still * size ? 0.0F : static_cast<float>(value * shrink);
-    };
-    packet.x[l] = component(direction.x);
-    packet.y[l] = component(direction.y);
-    packet.z[l] = component(direction.z);
-    packet.rx[l] = reciprocal(packet.x[l]);
-    packet.ry[l] = reciprocal(packet.y[l]);
-    packet.rz[l] = reciprocal(packet.z[l]);
-    packet.magnitude[l] =
-        unknown || w.error > 0x1p-25 * size
-            ? std::numeric_limits<float>::infinity()
-            : std::max({std::abs(packet.x[l]), std::abs(packet.y[l]), std::abs(packet.z[l])});
-    const double pad = unknown ? 4 : 0x1p-30 + 2 * w.error / size;
-    packet.pad = std::max(packet.pad, static_cast<float>(pad));
-    // 1/s shrinks as w does.
+    const double shrink = known ? power_that_normalises(size) : 1;
+    packet.x[l] = known ? static_cast<float>(w.direction.x * shrink) : 1.0F;
+    packet.y[l] = known ? static_cast<float>(w.direction.y * shrink) : 1.0F;
+    packet.z[l] = known ? static_cast<float>(w.direction.z * shrink) : 1.0F;
+    // Rounded to float, and a little up.
+    packet.error[l] = known ? static_cast<float>(w.error * shrink * (1 + 0x1p-20))
+                            : std::numeric_limits<float>::infinity();
     packet.unit[l] = static_cast<float>(shrink);
-    packet.lower_lo[l] = limits.lower_lo * packet.unit[l];
-    packet.lower_hi[l] = limits.lower_hi * packet.unit[l];
-    packet.upper_lo[l] = limits.upper_lo * packet.unit[l];
-    packet.upper_hi[l] = limits.upper_hi * packet.unit[l];
-    packet.farthest[l] = farthest_at(packet.lower_lo[l]);
+    packet.lower_lo[l] = limits.lower_lo;
+    packet.lower_hi[l] = limits.lower_hi;
+    packet.upper_lo[l] = limits.upper_lo;
+    packet.upper_hi[l] = limits.upper_hi;
+    packet.farthest[l] = 0;
     packet.skip[l] = skip;
-    packet.hit[l] = no_triangle;
-    packet.crossed[l] = 0;
     packet.active |= 1U << static_cast<unsigned>(lane);
 }
 
@@ -284,7 +302,7 @@ void raise_lower_limit(RayPacket& packet, int lane, float lo, float hi) {
     const auto l = static_cast<std::size_t>(lane);
     packet.lower_lo[l] = lo * packet.unit[l];
     packet.lower_hi[l] = hi * packet.unit[l];
-    packet.farthest[l] = farthest_at(packet.lower_lo[l]);
+    packet.farthest[l] = 1 / packet.lower_lo[l] * (1 + 0x1p-20F);
 }
 
 } // namespace shadowproof

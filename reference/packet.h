@@ -23,12 +23,14 @@ struct ApproximateDirection {
 };
 
 /// Rays are O + s w, O the view's origin, coordinates scaled as the view's. A hit must have
-/// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi].
+/// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi]. What is made
+/// from what set_lane stores, and its bounds, are explained in packet.cpp.
 struct RayPacket {
-    alignas(64) Lanes<float> x{}, y{}, z{};    ///< w
-    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w
-    alignas(64) Lanes<float> magnitude{};      ///< |w|, at least 0.5; infinite: decide nothing
+    alignas(64) Lanes<float> x{}, y{}, z{};    ///< w, 1 <= |w| <= 2, |w| the largest component
+    alignas(64) Lanes<float> error{};          ///< of a component of w; infinite: w is unknown
     alignas(64) Lanes<float> unit{};           ///< w over the direction given: a power of two
+    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w
+    alignas(64) Lanes<float> magnitude{};      ///< |w|; infinite: floats decide nothing
     alignas(64) Lanes<float> lower_lo{}, lower_hi{};
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
     alignas(64) Lanes<float> farthest{};        ///< boxes beyond are passed by; -1: lane is done

@@ -1,94 +1,163 @@
 #include "reference/records.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
+// Highway compiles what follows once for each instruction set, then chooses when it runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reference/records.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+#ifndef SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
+#define SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
 namespace shadowproof {
 
+/// World-space corners of a cluster's triangles, oriented so that det > 0; zeros where none is.
+struct ClusterCorners {
+    alignas(64) std::array<std::array<PerTriangle<double>, 3>, 3> corner{}; ///< a, b, c; axis
+};
+
+} // namespace shadowproof
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace shadowproof::HWY_NAMESPACE {
 namespace {
 
-/// Measured with tests/bench: half as many cost a twentieth more at 1M triangles, twice as many
-/// leave the second-level cache.
-constexpr std::size_t slot_count = 256;
+namespace hn = hwy::HWY_NAMESPACE;
+using Doubles = hn::CappedTag<double, cluster_capacity>;
+using Floats = hn::Rebind<float, Doubles>;
+using Number = hn::Vec<Doubles>;
 
+constexpr Doubles doubles;
+constexpr Floats floats;
 constexpr double u = 0x1p-53; ///< rounding unit of double
 constexpr double v = 0x1p-24; ///< rounding unit of float
 
-double largest(const glm::dvec3& w) {
-    return std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
+Number number(double x) {
+    return hn::Set(doubles, x);
 }
 
-double sum_of(const glm::dvec3& w) {
-    return std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
+struct Vector {
+    Number x, y, z;
+};
+
+Vector minus(const Vector& p, const Vector& q) {
+    return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+}
+Vector times(const Vector& p, Number s) {
+    return {hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
+}
+Vector cross(const Vector& p, const Vector& q) {
+    return {hn::Sub(hn::Mul(p.y, q.z), hn::Mul(p.z, q.y)),
+            hn::Sub(hn::Mul(p.z, q.x), hn::Mul(p.x, q.z)),
+            hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x))};
+}
+Number dot(const Vector& p, const Vector& q) {
+    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
+}
+Number largest(const Vector& p) {
+    return hn::Max(hn::Max(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+}
+Number largest(const Vector& p, const Vector& q, const Vector& r) {
+    return hn::Max(hn::Max(largest(p), largest(q)), largest(r));
+}
+Number sum_of(const Vector& p) {
+    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
 }
 
-std::array<float, 3> rounded(const glm::dvec3& w) {
-    return {static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};
+void store(Number value, PerTriangle<float>& to, std::size_t i) {
+    hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
 }
-
-/// The next float above.
-float rounded_up(double x) {
-    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+void store(const Vector& value, std::array<PerTriangle<float>, 3>& to, std::size_t i) {
+    store(value.x, to[0], i);
+    store(value.y, to[1], i);
+    store(value.z, to[2], i);
 }
 
 // The bound of a float dot product w . N, N known in double to within e a component.
 //   w: its float differs from the true direction by v |w_i| of rounding, and by at most v |w| / 2
-//      of error in the surface point it leads to (Lane::magnitude, packet.h, sees to that);
+//      of error in the surface point it leads to (otherwise prepare(), packet.cpp, makes |w|
+//      infinite);
 //   N: its float by v |N_i| + e;
 //   the products and two sums: 3 roundings.
 // To first order |w| ((3 + 1 + 1.5) v |N|_1 + 3 e). 7 v covers second order, and that threshold and
 // |w| are floats themselves. A float that underflows is off by less than 2^-126, which 2^-100
-// covers, as 0.5 <= |w|.
-float tolerance(const glm::dvec3& n, double component_error) {
-    return rounded_up(7 * v * sum_of(n) + 3.1 * component_error + 0x1p-100);
+// covers, as 1 <= |w|. What is returned is grown by more than its conversion to float can take.
+Number tolerance(Number size, Number component_error) {
+    const Number bound =
+        hn::Add(hn::Add(hn::Mul(number(7 * v), size), hn::Mul(number(3.1), component_error)),
+                number(0x1p-100));
+    return hn::Mul(bound, number(1 + 0x1p-22));
 }
 
-TriangleRecord make_record(const OriginView& view, std::uint32_t triangle) {
-    Corners t = corners(*view.scene, triangle);
-    if (view.side[triangle] < 0) std::swap(t.b, t.c);
-    const glm::dvec3 a = (t.a - view.origin) * view.scale;
-    const glm::dvec3 b = (t.b - view.origin) * view.scale;
-    const glm::dvec3 c = (t.c - view.origin) * view.scale;
-    const glm::dvec3 ab = (t.b - t.a) * view.scale;
-    const glm::dvec3 bc = (t.c - t.b) * view.scale;
-    const glm::dvec3 ca = (t.a - t.c) * view.scale;
-    const double m = std::max({largest(a), largest(b), largest(c)});
-    const double l = std::max({largest(ab), largest(bc), largest(ca)});
+void make_records(const OriginView& view, const ClusterCorners& corners, ClusterRecord& record) {
+    const Vector origin{number(view.origin.x), number(view.origin.y), number(view.origin.z)};
+    const Number scale = number(view.scale);
+    for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
+        const auto world = [&](std::size_t k) {
+            return Vector{hn::Load(doubles, corners.corner[k][0].data() + i),
+                          hn::Load(doubles, corners.corner[k][1].data() + i),
+                          hn::Load(doubles, corners.corner[k][2].data() + i)};
+        };
+        const Vector a = times(minus(world(0), origin), scale);
+        const Vector b = times(minus(world(1), origin), scale);
+        const Vector c = times(minus(world(2), origin), scale);
+        const Vector ab = times(minus(world(1), world(0)), scale);
+        const Vector bc = times(minus(world(2), world(1)), scale);
+        const Vector ca = times(minus(world(0), world(2)), scale);
+        const Number m = largest(a, b, c);
+        const Number l = largest(ab, bc, ca);
+        const Number ll = hn::Mul(l, l);
 
-    // Differences are off by u, so each component of a x (b - a), two products and a difference,
-    // by 4 u (m l + m l).
-    const std::array<glm::dvec3, 3> edges{glm::cross(a, ab), glm::cross(b, bc), glm::cross(c, ca)};
-    const double edge_error = 8.1 * u * m * l;
+        // Differences are off by u, so each component of a x (b - a), two products and a
+        // difference, by 4 u (m l + m l).
+        const Vector edges[3] = {cross(a, ab), cross(b, bc), cross(c, ca)};
+        const Number edge_error = hn::Mul(number(8.1 * u), hn::Mul(m, l));
+        Number size = number(0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            store(edges[k], record.edge[k], i);
+            size = hn::Max(size, sum_of(edges[k]));
+        }
+        store(tolerance(size, edge_error), record.edge_tolerance, i);
 
-    // As in view.cpp: the normal is off by 8 u l^2 a component, det by 48 u m l^2.
-    const glm::dvec3 normal = glm::cross(ab, -ca);
-    const double det = glm::dot(a, normal);
-    const double det_error = 50 * u * m * l * l;
-
-    TriangleRecord record;
-    record.triangle = triangle;
-    double edge_tolerance = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        record.edge[k] = rounded(edges[k]);
-        edge_tolerance = std::max<double>(edge_tolerance, tolerance(edges[k], edge_error));
-    }
-    record.edge_tolerance = static_cast<float>(edge_tolerance);
-    if (det > 4 * det_error) {
+        // As in view.cpp: the normal, (b - a) x (c - b), is off by 8 u l^2 a component, det by
+        // 48 u m l^2.
+        const Vector normal = cross(ab, bc);
+        const Number det = dot(a, normal);
+        const Number det_error = hn::Mul(number(50 * u), hn::Mul(m, ll));
         // normal / det: the normal's error over det, and its own size times det's relative error,
-        // at most 4/3 det_error / det since det may be that much smaller.
-        const glm::dvec3 inverse = normal / det;
-        const double inverse_error =
-            (8.2 * u * l * l + 1.4 * largest(inverse) * det_error) / det + u * largest(inverse);
-        record.inverse = rounded(inverse);
-        record.inverse_tolerance = tolerance(inverse, inverse_error);
-    } else {
-        record.inverse_tolerance = std::numeric_limits<float>::infinity();
+        // at most 4/3 det_error / det since det may be that much smaller; two roundings.
+        const Number reciprocal = hn::Div(number(1), det);
+        const Vector inverse = times(normal, reciprocal);
+        const Number extent = largest(inverse);
+        const Number inverse_error =
+            hn::Add(hn::Mul(hn::Add(hn::Mul(number(8.2 * u), ll),
+                                    hn::Mul(number(1.4), hn::Mul(extent, det_error))),
+                            reciprocal),
+                    hn::Mul(number(2.1 * u), extent));
+        store(inverse, record.inverse, i);
+        const auto certain = hn::Gt(det, hn::Mul(number(4), det_error));
+        store(hn::IfThenElse(certain, tolerance(sum_of(inverse), inverse_error),
+                             number(std::numeric_limits<double>::infinity())),
+              record.inverse_tolerance, i);
     }
-    return record;
 }
+
+} // namespace
+} // namespace shadowproof::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shadowproof {
+
+namespace {
+
+HWY_EXPORT(make_records);
+
+/// Enough for a row of tiles, and little enough for the second-level cache.
+constexpr std::size_t slot_count = 256;
 
 } // namespace
 
@@ -113,11 +182,23 @@ void RecordCache::fill(Slot& slot, std::uint32_t cluster) const {
     slot.cluster = cluster;
     slot.record.count = 0;
     const Cluster& members = view_->hierarchy->clusters[cluster];
+    ClusterCorners gathered;
     for (std::uint32_t i = 0; i < members.count; ++i) {
         const std::uint32_t triangle = members.triangles[i];
-        if (takes_part(triangle))
-            slot.record.triangles[slot.record.count++] = make_record(*view_, triangle);
+        if (!takes_part(triangle)) continue;
+        Corners t = corners(*view_->scene, triangle);
+        if (view_->side[triangle] < 0) std::swap(t.b, t.c);
+        const std::uint32_t place = slot.record.count++;
+        slot.record.triangle[place] = triangle;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            gathered.corner[0][k][place] = t.a[axis];
+            gathered.corner[1][k][place] = t.b[axis];
+            gathered.corner[2][k][place] = t.c[axis];
+        }
     }
+    if (slot.record.count > 0) HWY_DYNAMIC_DISPATCH(make_records)(*view_, gathered, slot.record);
 }
 
 } // namespace shadowproof
+#endif

@@ -17,24 +17,23 @@ enum class Part : std::uint8_t {
     light_facing, ///< those whose front the light sees
 };
 
+template <class T>
+using PerTriangle = std::array<T, cluster_capacity>;
+
+/// The triangles of a cluster that take part, side by side so that vectors make all at once.
 /// For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
 /// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then
 /// 1/s = w . inverse.
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
 /// In float, |w . edge - exact| <= |w| edge_tolerance and |w . inverse - exact| <=
 /// |w| inverse_tolerance, |w| the largest component. Derived in records.cpp.
-struct alignas(64) TriangleRecord {
-    std::array<std::array<float, 3>, 3> edge{};
-    std::array<float, 3> inverse{};
-    float edge_tolerance = 0;
-    float inverse_tolerance = 0; ///< infinite where det is too small for doubles to tell
-    std::uint32_t triangle = 0;
-    std::uint32_t unused = 0;
-};
-
 struct ClusterRecord {
-    std::array<TriangleRecord, cluster_capacity> triangles{};
-    std::uint32_t count = 0; ///< those that take part
+    alignas(64) std::array<std::array<PerTriangle<float>, 3>, 3> edge{}; ///< by k, then axis
+    std::array<PerTriangle<float>, 3> inverse{};                         ///< by axis
+    PerTriangle<float> edge_tolerance{};
+    PerTriangle<float> inverse_tolerance{}; ///< infinite where doubles cannot tell det from 0
+    PerTriangle<std::uint32_t> triangle{};
+    std::uint32_t count = 0;
 };
 
 /// Records are made when first asked for and kept in a small table, one for each thread and part:

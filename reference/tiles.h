@@ -5,6 +5,7 @@
 #include "reference/visibility.h"
 #include "scenes/camera.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -20,31 +21,49 @@ struct Tile {
 
 inline constexpr int tile_side = 4;
 
-inline Tile make_tile(const Camera& camera, int left, int top) {
-    Tile tile;
-    for (int lane = 0; lane < packet_size; ++lane) {
-        const auto l = static_cast<std::size_t>(lane);
-        tile.x[l] = left + lane % tile_side;
-        tile.y[l] = top + lane / tile_side;
-        tile.directions[l] = ray_direction(camera, tile.x[l] + 0.5, tile.y[l] + 0.5);
-        if (tile.x[l] < camera.width && tile.y[l] < camera.height)
-            tile.lanes |= 1U << static_cast<unsigned>(lane);
+/// The rays of a picture's pixels, as ray_direction gives them, from one vector a column and one a
+/// row.
+class PixelRays {
+public:
+    explicit PixelRays(const Camera& camera) {
+        for (int x = 0; x < camera.width; ++x) columns_.push_back(ray_column(camera, x + 0.5));
+        for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
     }
-    return tile;
-}
+
+    Tile tile(int left, int top) const {
+        Tile tile;
+        const int right = std::min(left + tile_side, static_cast<int>(columns_.size()));
+        const int bottom = std::min(top + tile_side, static_cast<int>(rows_.size()));
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) {
+                const auto lane = static_cast<std::size_t>((y - top) * tile_side + x - left);
+                tile.x[lane] = x;
+                tile.y[lane] = y;
+                tile.directions[lane] =
+                    columns_[static_cast<std::size_t>(x)] + rows_[static_cast<std::size_t>(y)];
+                tile.lanes |= 1U << lane;
+            }
+        return tile;
+    }
+
+private:
+    std::vector<glm::dvec3> columns_;
+    std::vector<glm::dvec3> rows_;
+};
 
 /// Calls work(prober, tile) for every tile of the picture; returns the probers, one a thread that
 /// worked, for their counts.
 template <class Work>
 std::vector<std::unique_ptr<Prober>> for_tiles(const Tracer::State& state, const Work& work) {
     const Camera& camera = state.scene->camera;
+    const PixelRays rays(camera);
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
     const int rows = (camera.height + tile_side - 1) / tile_side;
     parallel_for(rows, state.threads, [&](int row, int thread) {
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
         if (!prober) prober = std::make_unique<Prober>(state);
         for (int left = 0; left < camera.width; left += tile_side)
-            work(*prober, make_tile(camera, left, row * tile_side));
+            work(*prober, rays.tile(left, row * tile_side));
     });
     std::erase(probers, nullptr);
     return probers;

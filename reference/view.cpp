@@ -10,10 +10,6 @@
 
 namespace shadowproof {
 
-Corners corners(const Scene& scene, std::uint32_t triangle) {
-    return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
-}
-
 namespace {
 
 double largest(const glm::dvec3& v) {

@@ -13,7 +13,9 @@
 
 namespace shadowproof {
 
-Corners corners(const Scene& scene, std::uint32_t triangle);
+inline Corners corners(const Scene& scene, std::uint32_t triangle) {
+    return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
+}
 
 struct OriginView {
     const Scene* scene = nullptr;

@@ -136,13 +136,15 @@ private:
 
 class AnyArbiter final : public Arbiter {
 public:
-    AnyArbiter(Question& question, const Lanes<RayPoint>& points, Lanes<Lighting>& lighting)
-        : question_(question), points_(points), lighting_(lighting) {}
+    AnyArbiter(Question& question, const Lanes<Seen>& seen, Lanes<Lighting>& lighting)
+        : question_(question), seen_(seen), lighting_(lighting) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
         const auto l = static_cast<std::size_t>(lane);
         Signs signs;
-        const bool blocked = is_between(question_.ray(lane), points_[l], triangle, signs);
+        const RayPoint point{.kind = RayPoint::Kind::surface,
+                             .surface = question_.triangle(seen_[l].triangle)};
+        const bool blocked = is_between(question_.ray(lane), point, triangle, signs);
         question_.exact_decisions += signs.exact_decisions();
         lighting_[l].exactness =
             std::max(lighting_[l].exactness,
@@ -154,7 +156,7 @@ public:
 
 private:
     Question& question_;
-    const Lanes<RayPoint>& points_;
+    const Lanes<Seen>& seen_;
     Lanes<Lighting>& lighting_;
     bool touched_ = false; ///< no sign spoke strictly against it
 
@@ -173,13 +175,13 @@ private:
 
 class CountArbiter final : public Arbiter {
 public:
-    CountArbiter(Question& question, const Lanes<RayPoint>& points)
+    CountArbiter(Question& question, const Lanes<Prober::Point>& points)
         : question_(question), points_(points) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
         const auto l = static_cast<std::size_t>(lane);
         const EyeRay ray = question_.ray(lane);
-        const RayPoint& q = points_[l];
+        const RayPoint q = exact_point(points_[l]);
         const Predicates& predicates = question_.state->predicates;
         const Corners t = question_.triangle(triangle);
         const int orientation = question_.state->from_light.side[triangle];
@@ -195,7 +197,13 @@ public:
 
 private:
     Question& question_;
-    const Lanes<RayPoint>& points_;
+    const Lanes<Prober::Point>& points_;
+
+    RayPoint exact_point(const Prober::Point& point) const {
+        if (point.kind != RayPoint::Kind::surface)
+            return {.kind = point.kind, .depth = point.depth};
+        return {.kind = point.kind, .surface = question_.triangle(point.skip)};
+    }
 };
 
 /// Direction from the light to the point at depth t of an eye ray, in the light view's scale:
@@ -234,18 +242,19 @@ void Prober::measure_depth(const glm::dvec3& direction, Seen& seen) {
         plane_.normal = glm::cross(ab, ac);
         plane_.normal_error = 8.1 * u * l * l;
         plane_.numerator = glm::dot(to_plane, plane_.normal);
-        plane_.numerator_error = 50 * u * largest(to_plane) * l * l;
+        plane_.numerator_error = 50 * u * largest(to_plane) * l * l / std::abs(plane_.numerator);
     }
     const double denominator = glm::dot(direction, plane_.normal);
     // The normal's error, and 3 roundings of 3 terms.
     const double size = largest(direction);
     const double denominator_error =
         size * (3.1 * plane_.normal_error + 9.1 * u * largest(plane_.normal));
-    seen.depth = plane_.numerator / denominator;
-    const double relative = plane_.numerator_error / std::abs(plane_.numerator) +
-                            denominator_error / std::abs(denominator);
+    const double reciprocal = 1 / denominator;
+    seen.depth = plane_.numerator * reciprocal;
+    const double relative =
+        plane_.numerator_error + denominator_error * std::abs(reciprocal) + 2 * u;
     // First order; doubled for the rest as long as it is small. Otherwise nothing is known.
-    seen.depth_error = relative < 0.125 ? std::abs(seen.depth) * (2 * relative + 2 * u)
+    seen.depth_error = relative < 0.125 ? std::abs(seen.depth) * 2 * relative
                                         : std::numeric_limits<double>::infinity();
 }
 
@@ -281,7 +290,6 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
 void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Seen>& seen, Lanes<Lighting>& lighting) {
     RayPacket packet = empty_packet();
-    Lanes<RayPoint> points;
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         const std::uint32_t triangle = seen[l].triangle;
@@ -289,8 +297,6 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         if (triangle == no_triangle) return;
         if (state_->from_light.side[triangle] == 0) lighting[l].exactness = Exactness::degenerate;
         if (!state_->faces_light(triangle)) return;
-        points[l].kind = RayPoint::Kind::surface;
-        points[l].surface = corners(*state_->scene, triangle);
         // Between light and surface: s < 1.
         set_lane(packet, lane,
                  from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error),
@@ -299,7 +305,7 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
     });
     const std::uint32_t asked = packet.active;
     Question question{state_, &directions, 0};
-    AnyArbiter arbiter(question, points, lighting);
+    AnyArbiter arbiter(question, seen, lighting);
     find_any(packet, occluding_, arbiter);
     exact_decisions_ += question.exact_decisions;
     for_lanes(asked, [&](int lane) {
@@ -312,17 +318,11 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
 void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Point>& points, Lanes<std::int32_t>& counts) {
     RayPacket packet = empty_packet();
-    Lanes<RayPoint> exact_points;
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         const Point& point = points[l];
-        exact_points[l].kind = point.kind;
-        exact_points[l].depth = point.depth;
         Seen at{.triangle = point.skip, .depth = point.depth};
-        if (point.kind == RayPoint::Kind::surface) {
-            exact_points[l].surface = corners(*state_->scene, point.skip);
-            measure_depth(directions[l], at);
-        }
+        if (point.kind == RayPoint::Kind::surface) measure_depth(directions[l], at);
         const bool infinite = point.kind == RayPoint::Kind::infinity;
         const ApproximateDirection w =
             infinite ? ApproximateDirection{directions[l], 0}
@@ -331,7 +331,7 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         set_lane(packet, lane, w, {.lower_lo = limit, .lower_hi = limit}, point.skip);
     });
     Question question{state_, &directions, 0};
-    CountArbiter arbiter(question, exact_points);
+    CountArbiter arbiter(question, points);
     count_all(packet, light_facing_, arbiter);
     exact_decisions_ += question.exact_decisions;
     for_lanes(lanes, [&](int lane) {

@@ -29,9 +29,9 @@ struct Lighting {
 struct SeenPlane {
     std::uint32_t triangle = no_triangle;
     glm::dvec3 normal{0, 0, 0};
-    double normal_error = 0; ///< of a component
-    double numerator = 0;    ///< (a - E) . normal
-    double numerator_error = 0;
+    double normal_error = 0;    ///< of a component
+    double numerator = 0;       ///< (a - E) . normal
+    double numerator_error = 0; ///< relative
 };
 
 /// One thread's means of asking. Lanes whose bit in `lanes` is not set are left alone.

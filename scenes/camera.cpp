@@ -8,11 +8,16 @@ glm::dvec2 half_extent(const Camera& camera) {
     return {camera.tan_half_height * camera.width / camera.height, camera.tan_half_height};
 }
 
+glm::dvec3 ray_column(const Camera& camera, double x) {
+    return camera.forward + half_extent(camera).x * (2 * x / camera.width - 1) * camera.right;
+}
+
+glm::dvec3 ray_row(const Camera& camera, double y) {
+    return half_extent(camera).y * (1 - 2 * y / camera.height) * camera.up;
+}
+
 glm::dvec3 ray_direction(const Camera& camera, double x, double y) {
-    const glm::dvec2 half = half_extent(camera);
-    const double right = half.x * (2 * x / camera.width - 1);
-    const double up = half.y * (1 - 2 * y / camera.height);
-    return camera.forward + right * camera.right + up * camera.up;
+    return ray_column(camera, x) + ray_row(camera, y);
 }
 
 double view_depth(const Camera& camera, const glm::dvec3& point) {

@@ -30,6 +30,10 @@ glm::dvec2 half_extent(const Camera& camera);
 /// takes them as exact.
 glm::dvec3 ray_direction(const Camera& camera, double x, double y);
 
+/// Its two parts: ray_direction(x, y) is ray_column(x) + ray_row(y), bit for bit.
+glm::dvec3 ray_column(const Camera& camera, double x);
+glm::dvec3 ray_row(const Camera& camera, double y);
+
 /// View depth of a world point: dot(point - eye, forward).
 double view_depth(const Camera& camera, const glm::dvec3& point);
 
