@@ -90,12 +90,16 @@ public:
     Flattener(const Scene& scene, Hierarchy& hierarchy) : scene_(scene), hierarchy_(hierarchy) {}
 
     /// The entry of a node; children are placed side by side behind all entries so far.
-    Entry flatten(const BuildNode& node) {
+    Entry flatten(const BuildNode& node, int level) {
+        // Embree promises 64 levels; a leaf of several clusters adds one.
+        if (level >= deepest_level)
+            throw Error("Embree", "the hierarchy is deeper than was asked for",
+                        "report this with the scene");
         if (node.child_count == 0)
             return leaf(std::span(node.triangles).first(node.triangle_count));
         const std::size_t first = allocate(node.child_count);
         for (std::size_t i = 0; i < node.child_count; ++i)
-            hierarchy_.entries[first + i] = flatten(*node.children[i]);
+            hierarchy_.entries[first + i] = flatten(*node.children[i], level + 1);
         return around(first, node.child_count);
     }
 
@@ -192,7 +196,7 @@ Hierarchy build_hierarchy(const Scene& scene, int threads) {
     hierarchy.clusters.reserve(scene.triangles.size() / 4 + 1);
     hierarchy.entries.emplace_back();
     Flattener flattener(scene, hierarchy);
-    const Entry top = flattener.flatten(*root);
+    const Entry top = flattener.flatten(*root, 0);
     hierarchy.entries[0] = top;
     return hierarchy;
 }

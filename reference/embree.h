@@ -15,6 +15,9 @@ namespace shadowproof {
 /// The unit of work at the leaves: triangles near to each other.
 inline constexpr int cluster_capacity = 8;
 
+/// Levels of entries below the root, at most.
+inline constexpr int deepest_level = 66;
+
 /// A box and what is in it. Children of an entry lie side by side in Hierarchy::entries.
 struct Entry {
     std::array<float, 3> lower{};

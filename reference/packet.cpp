@@ -197,8 +197,9 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
     }
 }
 
-/// At most 64 levels of two children, and coinciding triangles make leaves of up to 4 clusters.
-constexpr std::size_t stack_size = 2 * 64 + 4;
+/// Each level leaves one of two children behind; a leaf of coinciding triangles has up to 4
+/// clusters.
+constexpr std::size_t stack_size = deepest_level + 4;
 
 template <Query query>
 void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
