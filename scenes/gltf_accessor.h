@@ -6,8 +6,6 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
-#include <initializer_list>
-#include <string_view>
 #include <vector>
 
 namespace shadowproof::gltf {
@@ -38,21 +36,17 @@ class AccessorReader {
 public:
     explicit AccessorReader(const Document& document) : document_(document) {}
 
-    /// The accessor that `reference` (an index) names; `type` is one of those listed, "VEC3".
-    /// Refused at the reference: wrong type or component kind, NaN, infinity.
-    Elements read(const Item& reference, std::initializer_list<std::string_view> types,
-                  unsigned component_kinds);
+    /// The accessor of that index, which stands at `reference`; `type` is TINYGLTF_TYPE_VEC3 or the
+    /// like. Refused at the reference: another type, a component kind not listed, NaN, infinity.
+    Elements read(const Place& reference, int accessor, int type, unsigned component_kinds);
 
     /// A scalar accessor of unsigned integers, each below `end`.
-    std::vector<std::uint32_t> read_indices(const Item& reference, std::size_t end);
-
-    /// Elements an accessor has, without reading them.
-    std::size_t count(const Item& reference) const;
+    std::vector<std::uint32_t> read_indices(const Place& reference, int accessor, std::size_t end);
 
     const Document& document() const { return document_; }
 
 private:
-    void charge(const Item& reference, std::size_t elements);
+    void charge(const Place& reference, std::size_t elements);
 
     const Document& document_;
     std::uint64_t elements_read_ = 0;

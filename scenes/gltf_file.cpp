@@ -1,56 +1,26 @@
 #include "scenes/gltf_file.h"
 
-#include "scenes/error.h"
+#include "scenes/gltf_bytes.h"
+#include "scenes/gltf_check.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
-#include <fstream>
-#include <span>
 
 namespace shadowproof::gltf {
 
-static_assert(std::endian::native == std::endian::little, "glTF's buffers are little-endian");
-
-std::vector<std::byte> read_bytes(const std::filesystem::path& file, const std::string& where,
-                                  std::optional<std::uint64_t> first) {
-    std::error_code failure;
-    const auto status = std::filesystem::status(file, failure);
-    if (!std::filesystem::exists(status))
-        throw Error(where, fmt::format("\"{}\" does not exist", file.string()), "check the path");
-    if (!std::filesystem::is_regular_file(status))
-        throw Error(where, fmt::format("\"{}\" is not a regular file", file.string()),
-                    "name a file");
-    const std::uint64_t size = std::filesystem::file_size(file, failure);
-    if (failure || first.value_or(size) > limits.bytes)
-        throw Error(where,
-                    fmt::format("\"{}\" has more than {} bytes", file.string(), limits.bytes),
-                    "split the asset");
-    std::vector<std::byte> bytes(std::min(size, first.value_or(size)));
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()),
-                     static_cast<std::streamsize>(bytes.size())))
-        throw Error(where, fmt::format("\"{}\" cannot be read", file.string()),
-                    "check its permissions");
-    return bytes;
-}
-
 namespace {
 
-std::string_view as_text(std::span<const std::byte> bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+using nlohmann::json;
 
 /// Nesting and number of values, counted on the raw text before any of it becomes memory. Inside
 /// malformed JSON the counts mean nothing, but the parser then stops there.
-void scan_json(const std::string& file, std::string_view json) {
+void scan_json(const Place& root, std::string_view text) {
     std::uint64_t depth = 0;
     std::uint64_t values = 1;
     bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
         if (in_string) {
             if (c == '\\') ++i;
             in_string = c != '"';
@@ -64,140 +34,171 @@ void scan_json(const std::string& file, std::string_view json) {
         if ((c == '}' || c == ']') && depth > 0) --depth;
         if (c == ',') ++values;
         if (depth > limits.json_depth)
-            throw Error(file,
-                        fmt::format("nests deeper than {} levels at byte {}", limits.json_depth, i),
+            root.refuse(fmt::format("nests deeper than {} levels at byte {}", limits.json_depth, i),
                         "flatten the JSON");
         if (values > limits.json_values)
-            throw Error(file, fmt::format("holds more than {} JSON values", limits.json_values),
+            root.refuse(fmt::format("holds more than {} JSON values", limits.json_values),
                         "move the bulk into buffers");
     }
 }
 
-nlohmann::json parse_json(const std::string& file, std::string_view text) {
+json parse_json(const Place& root, std::string_view text) {
     if (text.size() > limits.json_bytes)
-        throw Error(
-            file, fmt::format("has {} bytes of JSON, more than {}", text.size(), limits.json_bytes),
+        root.refuse(
+            fmt::format("has {} bytes of JSON, more than {}", text.size(), limits.json_bytes),
             "move the bulk into .bin buffers");
-    scan_json(file, text);
+    scan_json(root, text);
     try {
-        return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& error) {
-        throw Error(file, fmt::format("is not JSON ({})", error.what()), "export the asset again");
+        return json::parse(text);
+    } catch (const json::exception& error) {
+        root.refuse(fmt::format("is not JSON ({})", error.what()), "export the asset again");
     }
 }
 
-std::uint32_t word_at(std::span<const std::byte> bytes, std::size_t offset) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, bytes.data() + offset, sizeof word);
-    return word;
-}
-
-/// The two chunks of a GLB that matter (glTF 2.0, section 4.4).
-struct Chunks {
-    std::span<const std::byte> json;
-    std::optional<std::span<const std::byte>> binary;
+/// The buffers that are no data URIs, as tinygltf's callbacks reach them: by their index.
+struct BufferFiles {
+    struct Buffer {
+        std::string uri; ///< empty: the GLB chunk
+        std::uint64_t length = 0;
+        Place place;
+    };
+    std::filesystem::path folder;
+    std::optional<std::span<const unsigned char>> binary;
+    std::vector<Buffer> buffers;
 };
 
-constexpr std::uint32_t glb_magic = 0x46546C67;    // "glTF"
-constexpr std::uint32_t json_chunk = 0x4E4F534A;   // "JSON"
-constexpr std::uint32_t binary_chunk = 0x004E4942; // "BIN\0"
-
-bool is_glb(std::span<const std::byte> bytes) {
-    return bytes.size() >= 4 && word_at(bytes, 0) == glb_magic;
+void require_length(std::uint64_t available, const BufferFiles::Buffer& buffer) {
+    if (available < buffer.length)
+        (buffer.place / "byteLength")
+            .refuse(fmt::format("is {} but the buffer has {} bytes", buffer.length, available),
+                    "restore the missing bytes");
 }
 
-Chunks split_glb(const std::string& file, std::span<const std::byte> bytes) {
-    const auto refuse = [&](const std::string& what) {
-        throw Error(file, "GLB " + what, "export the asset again");
-    };
-    if (bytes.size() < 12) refuse("ends inside its header");
-    if (word_at(bytes, 4) != 2) refuse(fmt::format("has version {}, not 2", word_at(bytes, 4)));
-    if (word_at(bytes, 8) != bytes.size())
-        refuse(fmt::format("says it has {} bytes but has {}", word_at(bytes, 8), bytes.size()));
-    Chunks chunks;
-    std::size_t offset = 12;
-    for (std::size_t number = 0; offset < bytes.size(); ++number) {
-        if (bytes.size() - offset < 8)
-            refuse(fmt::format("ends inside the header of chunk {}", number));
-        const std::size_t length = word_at(bytes, offset);
-        const std::uint32_t type = word_at(bytes, offset + 4);
-        offset += 8;
-        if (length > bytes.size() - offset)
-            refuse(fmt::format("chunk {} has {} bytes but {} are left", number, length,
-                               bytes.size() - offset));
-        if ((number == 0) != (type == json_chunk))
-            refuse("must have one JSON chunk, and it must be the first");
-        if (number == 0) chunks.json = bytes.subspan(offset, length);
-        if (number == 1 && type == binary_chunk) chunks.binary = bytes.subspan(offset, length);
-        offset += length;
-    }
-    if (chunks.json.empty()) refuse("has no JSON chunk");
-    return chunks;
-}
-
-std::vector<std::byte> read_data_uri(const Item& uri, std::string_view text) {
-    constexpr std::string_view marker = ";base64,";
-    const std::size_t comma = text.find(',');
-    if (comma == std::string_view::npos || comma + 1 < marker.size() ||
-        text.substr(comma + 1 - marker.size(), marker.size()) != marker)
-        uri.refuse("is a data URI that is not base64", "encode it as base64");
-    auto bytes = decode_base64(text.substr(comma + 1));
-    if (!bytes) uri.refuse("is not well-formed base64", "export the asset again");
-    return std::move(*bytes);
-}
-
-/// The first `length` bytes, or as many as there are.
-std::vector<std::byte> read_buffer(const Item& buffer, std::uint64_t length,
-                                   const std::filesystem::path& folder,
-                                   std::optional<std::span<const std::byte>> binary) {
-    const auto uri = buffer.find("uri");
-    if (!uri) {
-        if (!binary) buffer.refuse("has no uri and there is no GLB chunk for it", "add the uri");
-        const auto first = binary->first(std::min<std::size_t>(length, binary->size()));
+/// Exactly byteLength bytes, for tinygltf takes no more and no less.
+Bytes read_buffer(const BufferFiles& files, const BufferFiles::Buffer& buffer) {
+    if (buffer.uri.empty()) {
+        require_length(files.binary->size(), buffer);
+        const auto first = files.binary->first(buffer.length);
         return {first.begin(), first.end()};
     }
-    const std::string text = uri->text();
-    if (text.starts_with("data:")) return read_data_uri(*uri, text);
-    return read_bytes(resolve_uri(folder, *uri), uri->where(), length);
+    const Place place = buffer.place / "uri";
+    Bytes bytes = read_bytes(resolve_uri(files.folder, buffer.uri, place), place, buffer.length);
+    require_length(bytes.size(), buffer);
+    return bytes;
 }
 
-void read_buffers(Document& document, const std::filesystem::path& folder,
-                  std::optional<std::span<const std::byte>> binary) {
-    const Item root = document.root();
-    const std::size_t count = count_of(root, "buffers");
+/// A data URI with one of the media types that tinygltf knows, and no more than the bytes it wants.
+std::string trimmed_data_uri(const std::string& uri, const BufferFiles::Buffer& buffer) {
+    constexpr std::string_view marker = ";base64,";
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const Place place = buffer.place / "uri";
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || !uri.substr(0, comma + 1).ends_with(marker))
+        place.refuse("is a data URI that is not base64", "encode it as base64");
+    const std::string_view text = std::string_view(uri).substr(comma + 1);
+    const std::size_t end = std::min(text.find_first_not_of(digits), text.size());
+    // tinygltf stops at the first character that is no digit, as if the text ended there.
+    if (text.size() % 4 != 0 || text.size() - end > 2 ||
+        text.find_first_not_of('=', end) != std::string_view::npos)
+        place.refuse("is not well-formed base64", "export the asset again");
+    require_length(end * 3 / 4, buffer);
+    return fmt::format("data:application/octet-stream;base64,{}",
+                       text.substr(0, (buffer.length * 4 + 2) / 3));
+}
+
+/// Takes the buffers' URIs out of the JSON: tinygltf reads whatever they name, and turns each + of
+/// a file's name into a space. It asks read_buffer for "0", "1" and so on in their place.
+void take_buffers(const Place& root, json& document, BufferFiles& files) {
+    const std::size_t count = document.contains("buffers") ? document["buffers"].size() : 0;
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const Item buffer = root.at("buffers")[i];
-        const std::uint64_t length = buffer.at("byteLength").whole(1, 1ULL << 53);
-        total += length;
-        if (length > limits.bytes || total > limits.bytes)
-            buffer.at("byteLength")
+        json& item = document["buffers"][i];
+        BufferFiles::Buffer buffer{item.value("uri", ""), item["byteLength"], root / "buffers" / i};
+        total += buffer.length;
+        if (buffer.length > limits.bytes || total > limits.bytes)
+            (buffer.place / "byteLength")
                 .refuse(fmt::format("brings the buffers above {} bytes", limits.bytes),
                         "split the asset");
-        document.buffers.push_back(
-            read_buffer(buffer, length, folder, i == 0 ? binary : std::nullopt));
-        if (document.buffers.back().size() < length)
-            buffer.at("byteLength")
-                .refuse(fmt::format("is {} but the buffer has {} bytes", length,
-                                    document.buffers.back().size()),
-                        "restore the missing bytes");
-        document.buffers.back().resize(length);
+        if (!item.contains("uri") && (i > 0 || !files.binary))
+            buffer.place.refuse("has no uri and there is no GLB chunk for it", "add the uri");
+        if (item.contains("uri") && buffer.uri.empty())
+            (buffer.place / "uri").refuse("is empty", "name a file");
+        const bool embedded = buffer.uri.starts_with("data:");
+        item["uri"] = embedded ? trimmed_data_uri(buffer.uri, buffer) : std::to_string(i);
+        if (embedded) buffer.uri.clear();
+        files.buffers.push_back(std::move(buffer));
     }
+}
+
+/// Takes out what tinygltf would refuse or drop although glTF allows it, or we never look at it.
+void make_digestible(json& document) {
+    // Images that cannot be read fail the load, and are not wanted at all.
+    for (const char* key : {"images", "textures", "samplers"}) document.erase(key);
+    if (document.contains("cameras"))
+        for (json& camera : document["cameras"])
+            if (camera["type"] == "orthographic") // not evaluated
+                camera["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"zfar", 1}, {"znear", 0}};
+    if (document.contains("animations"))
+        for (json& animation : document["animations"])
+            for (json& channel : animation["channels"])
+                if (!channel["target"].contains("node")) channel["target"]["node"] = -1;
+}
+
+tinygltf::FsCallbacks callbacks(BufferFiles& files) {
+    return {[](const std::string&, void*) { return true; },
+            [](const std::string& name, void*) { return name; },
+            [](Bytes* bytes, std::string*, const std::string& name, void* user) {
+                const auto& all = *static_cast<const BufferFiles*>(user);
+                *bytes = read_buffer(all, all.buffers.at(std::stoul(name)));
+                return true;
+            },
+            nullptr, &files};
+}
+
+/// Where tinygltf gave up: it appends element after element to one array after the other.
+Place stopped_at(const Place& root, const json& document, const tinygltf::Model& model) {
+    const std::pair<const char*, std::size_t> read[] = {
+        {"buffers", model.buffers.size()},     {"bufferViews", model.bufferViews.size()},
+        {"accessors", model.accessors.size()}, {"meshes", model.meshes.size()},
+        {"nodes", model.nodes.size()},         {"scenes", model.scenes.size()},
+        {"materials", model.materials.size()}, {"animations", model.animations.size()},
+        {"skins", model.skins.size()},         {"cameras", model.cameras.size()}};
+    for (const auto& [array, count] : read)
+        if (document.contains(array) && count < document[array].size()) return root / array / count;
+    return root / "extensions" / "KHR_lights_punctual" / "lights" / model.lights.size();
+}
+
+tinygltf::Model parse_model(const Place& root, const json& document, BufferFiles& files) {
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks(files));
+    tinygltf::Model model;
+    std::string errors;
+    std::string warnings;
+    const std::string text = document.dump();
+    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                    static_cast<unsigned>(text.size()), ""))
+        stopped_at(root, document, model)
+            .refuse("is refused by tinygltf: " +
+                        errors.substr(0, errors.find_last_not_of('\n') + 1),
+                    "export the asset again");
+    return model;
 }
 
 } // namespace
 
 Document read_document(const std::filesystem::path& file) {
     Document document{file.string(), {}, {}};
-    const std::vector<std::byte> bytes = read_bytes(file, document.file);
-    Chunks chunks{bytes, std::nullopt};
-    if (is_glb(bytes)) chunks = split_glb(document.file, bytes);
-    document.json = parse_json(document.file, as_text(chunks.json));
-    const std::string version = document.root().at("asset").at("version").text();
-    if (!version.starts_with("2."))
-        document.root().at("asset").at("version").refuse(
-            fmt::format("\"{}\" is not glTF 2", version), "convert the asset to glTF 2.0");
-    read_buffers(document, file.parent_path(), chunks.binary);
+    const Place root = document.root();
+    const Bytes bytes = read_bytes(file, root);
+    const Chunks chunks = split_chunks(root, bytes);
+    json parsed = parse_json(root, chunks.json);
+    check_json(root, parsed);
+    BufferFiles files{file.parent_path(), chunks.binary, {}};
+    take_buffers(root, parsed, files);
+    make_digestible(parsed);
+    document.model = parse_model(root, parsed, files);
+    document.extras = parsed.value("extras", json());
     return document;
 }
 

@@ -1,10 +1,15 @@
-// Bytes of a .gltf or .glb file and of its buffers. Sizes, nesting and chunks are checked before
-// memory is taken; URIs stay inside the asset's folder; images are never read.
+// A .gltf or .glb file as tinygltf's model. Sizes, nesting and every value are checked before
+// tinygltf sees them; buffers are read through callbacks that stay inside the asset's folder;
+// images are never read.
 #pragma once
 
-#include "scenes/gltf_json.h"
+#include "scenes/gltf_place.h"
 
+#include <tiny_gltf.h>
+
+#include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,25 +29,26 @@ inline constexpr Limits limits;
 
 struct Document {
     std::string file; ///< as given, for messages
-    nlohmann::json json;
-    std::vector<std::vector<std::byte>> buffers; ///< one each of /buffers, at least byteLength
+    /// As the file has it: every index is in range or -1 for none, every type and length as glTF
+    /// says; each buffer holds at least its byteLength. Ranges within buffers are not checked yet.
+    tinygltf::Model model;
+    /// The root's; tinygltf's own copy lacks empty arrays, and "provokes": [] means something.
+    nlohmann::json extras;
 
-    Item root() const { return {file, json}; }
+    Place root() const { return Place(file); }
 };
 
 /// Throws Error.
 Document read_document(const std::filesystem::path& file);
 
+/// A checked index of tinygltf's; it must not be -1.
+inline std::size_t as_index(int index) {
+    return static_cast<std::size_t>(index);
+}
+
 /// The place in the asset's folder that a relative URI names, percent-encoding undone. Refuses
-/// (at `uri`) absolute paths, schemes, and whatever leaves the folder, through links as well.
-std::filesystem::path resolve_uri(const std::filesystem::path& folder, const Item& uri);
-
-/// All bytes of a file, or the first ones (as many as there are). Throws Error naming `where`: not
-/// a regular file, unreadable, beyond limits.bytes.
-std::vector<std::byte> read_bytes(const std::filesystem::path& file, const std::string& where,
-                                  std::optional<std::uint64_t> first = std::nullopt);
-
-/// The bytes of base64 text (RFC 4648, section 4); nothing where it is malformed.
-std::optional<std::vector<std::byte>> decode_base64(std::string_view text);
+/// (at `place`) absolute paths, schemes, and whatever leaves the folder, through links as well.
+std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri,
+                                  const Place& place);
 
 } // namespace shadowproof::gltf

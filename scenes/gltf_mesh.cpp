@@ -1,6 +1,5 @@
 #include "scenes/gltf_mesh.h"
 
-#include "scenes/error.h"
 #include "scenes/gltf_skin.h"
 
 #include <fmt/format.h>
@@ -33,28 +32,37 @@ std::vector<glm::uvec3> assemble(Mode mode, const std::vector<std::uint32_t>& in
 }
 
 unsigned position_kinds(const Document& document) {
-    const auto used = document.root().find("extensionsUsed");
-    for (std::size_t i = 0; used && i < used->size(); ++i)
-        if ((*used)[i].text() == "KHR_mesh_quantization")
-            return floats | normalized_integers | plain_integers;
-    return floats;
+    const std::vector<std::string>& used = document.model.extensionsUsed;
+    const bool quantized =
+        std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
+    return quantized ? floats | normalized_integers | plain_integers : unsigned{floats};
+}
+
+/// A primitive and where it stands.
+struct Part {
+    Place place;
+    const tinygltf::Primitive& primitive;
+};
+
+Elements read_positions(AccessorReader& reader, const Place& reference, int accessor) {
+    return reader.read(reference, accessor, TINYGLTF_TYPE_VEC3, position_kinds(reader.document()));
 }
 
 /// Adds weight times displacement for every morph target (section 3.7.2.2).
-void apply_morphs(AccessorReader& reader, const Item& primitive, const std::vector<double>& weights,
+void apply_morphs(AccessorReader& reader, const Part& part, const std::vector<double>& weights,
                   Elements& positions) {
-    const auto targets = primitive.find("targets");
-    const std::size_t count = targets ? targets->size() : 0;
-    if (!weights.empty() && weights.size() != count)
-        primitive.refuse(fmt::format("has {} morph targets for {} weights", count, weights.size()),
-                         "give each target one weight");
+    const auto& targets = part.primitive.targets;
+    if (!weights.empty() && weights.size() != targets.size())
+        part.place.refuse(
+            fmt::format("has {} morph targets for {} weights", targets.size(), weights.size()),
+            "give each target one weight");
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const auto reference = (*targets)[i].find("POSITION");
-        if (!reference || weights[i] == 0) continue;
-        const Elements offsets =
-            reader.read(*reference, {"VEC3"}, position_kinds(reader.document()));
+        const auto attribute = targets[i].find("POSITION");
+        if (attribute == targets[i].end() || weights[i] == 0) continue;
+        const Place reference = part.place / "targets" / i / "POSITION";
+        const Elements offsets = read_positions(reader, reference, attribute->second);
         if (offsets.count != positions.count)
-            reference->refuse(
+            reference.refuse(
                 fmt::format("has {} elements for {} vertices", offsets.count, positions.count),
                 "give each vertex one displacement");
         for (std::size_t k = 0; k < positions.values.size(); ++k)
@@ -65,7 +73,8 @@ void apply_morphs(AccessorReader& reader, const Item& primitive, const std::vect
 /// What the primitives of one node share.
 struct Placement {
     const Node& node;
-    Item mesh;
+    const tinygltf::Mesh& mesh;
+    Place place; ///< of the mesh
     std::string name;
     std::vector<double> weights;
     std::optional<Skin> skin;
@@ -73,27 +82,32 @@ struct Placement {
 
 Placement find_placement(AccessorReader& reader, const NodeGraph& graph, std::size_t index) {
     const Document& document = reader.document();
+    const tinygltf::Node& source = document.model.nodes[index];
     const Node& node = graph.nodes[index];
-    const Item item = node_item(document, index);
-    const Item mesh = referenced(document.root(), "meshes", item.at("mesh"));
-    Placement placement{node, mesh, node.name, node.weights, std::nullopt};
-    if (placement.name.empty()) placement.name = mesh.text_or("name", "");
-    if (placement.name.empty()) placement.name = node.pointer;
-    if (const auto weights = mesh.find("weights"); weights && node.weights.empty())
-        placement.weights = weights->numbers(weights->size());
-    if (const auto skin = item.find("skin"))
-        placement.skin = read_skin(reader, graph, referenced(document.root(), "skins", *skin));
+    const std::size_t mesh_index = as_index(source.mesh);
+    const tinygltf::Mesh& mesh = document.model.meshes[mesh_index];
+    Placement placement{node,
+                        mesh,
+                        document.root() / "meshes" / mesh_index,
+                        node.name,
+                        node.weights.empty() ? mesh.weights : node.weights,
+                        std::nullopt};
+    if (placement.name.empty()) placement.name = mesh.name;
+    if (placement.name.empty()) placement.name = node.place.pointer();
+    if (source.skin >= 0) placement.skin = read_skin(reader, graph, as_index(source.skin));
     return placement;
 }
 
 /// World positions of a primitive's vertices, rounded to float.
 std::vector<glm::vec3> world_positions(AccessorReader& reader, const Placement& placement,
-                                       const Item& primitive, const Item& reference) {
-    Elements local = reader.read(reference, {"VEC3"}, position_kinds(reader.document()));
-    apply_morphs(reader, primitive, placement.weights, local);
+                                       const Part& part, int accessor) {
+    const Place reference = part.place / "attributes" / "POSITION";
+    Elements local = read_positions(reader, reference, accessor);
+    apply_morphs(reader, part, placement.weights, local);
     std::optional<Influences> influences;
     if (placement.skin)
-        influences = read_influences(reader, primitive, *placement.skin, local.count);
+        influences =
+            read_influences(reader, part.place, part.primitive, *placement.skin, local.count);
     std::vector<glm::vec3> world(local.count);
     for (std::size_t i = 0; i < local.count; ++i) {
         const glm::dvec4 point(local.vec3(i), 1);
@@ -102,14 +116,14 @@ std::vector<glm::vec3> world_positions(AccessorReader& reader, const Placement& 
         world[i] = glm::vec3(placed);
         if (!std::isfinite(world[i].x) || !std::isfinite(world[i].y) || !std::isfinite(world[i].z))
             reference.refuse(fmt::format("vertex {} is not finite in world space as placed by {}",
-                                         i, placement.node.pointer),
+                                         i, placement.node.place.pointer()),
                              "scale the vertex or the node's transform down");
     }
     return world;
 }
 
 /// Appends `triangles` over `positions` with the vertices that are used, in order of index.
-void append(Scene& scene, const Item& primitive, const std::vector<glm::vec3>& positions,
+void append(Scene& scene, const Place& primitive, const std::vector<glm::vec3>& positions,
             std::vector<glm::uvec3> triangles) {
     std::vector<std::uint32_t> baked(positions.size(), 0);
     for (const glm::uvec3& triangle : triangles)
@@ -132,61 +146,62 @@ bool is_mirrored(const Placement& placement) {
     return !placement.skin && glm::determinant(glm::dmat3(placement.node.world_from_node)) < 0;
 }
 
-void note_leftover(Scene& scene, const Item& primitive, std::size_t vertices, std::size_t triangles,
-                   Mode mode) {
+void note_leftover(Scene& scene, const Place& primitive, std::size_t vertices,
+                   std::size_t triangles, Mode mode) {
     if (mode == Mode::triangles && vertices != 3 * triangles)
         scene.notes.push_back(fmt::format("{}: {} vertices at the end make no triangle",
                                           primitive.pointer(), vertices - 3 * triangles));
 }
 
-void bake_primitive(AccessorReader& reader, const Placement& placement, const Item& primitive,
+std::vector<std::uint32_t> vertex_order(AccessorReader& reader, const Part& part,
+                                        std::size_t vertices) {
+    if (part.primitive.indices >= 0)
+        return reader.read_indices(part.place / "indices", part.primitive.indices, vertices);
+    std::vector<std::uint32_t> order(vertices);
+    std::iota(order.begin(), order.end(), 0U);
+    return order;
+}
+
+void bake_primitive(AccessorReader& reader, const Placement& placement, const Part& part,
                     Scene& scene) {
-    const auto mode = static_cast<Mode>(primitive.whole_or("mode", 0, 6, 4));
+    const auto mode = static_cast<Mode>(part.primitive.mode);
     if (mode < Mode::triangles) {
-        scene.notes.push_back(primitive.pointer() + ": points and lines are left out");
+        scene.notes.push_back(part.place.pointer() + ": points and lines are left out");
         return;
     }
-    const auto reference = primitive.at("attributes").find("POSITION");
-    if (!reference) {
-        scene.notes.push_back(primitive.pointer() + ": left out, it has no positions");
+    const auto attribute = part.primitive.attributes.find("POSITION");
+    if (attribute == part.primitive.attributes.end()) {
+        scene.notes.push_back(part.place.pointer() + ": left out, it has no positions");
         return;
     }
     const std::vector<glm::vec3> positions =
-        world_positions(reader, placement, primitive, *reference);
-    std::vector<std::uint32_t> indices(positions.size());
-    std::iota(indices.begin(), indices.end(), 0U);
-    if (const auto given = primitive.find("indices"))
-        indices = reader.read_indices(*given, positions.size());
+        world_positions(reader, placement, part, attribute->second);
+    const std::vector<std::uint32_t> indices = vertex_order(reader, part, positions.size());
     std::vector<glm::uvec3> triangles = assemble(mode, indices);
-    note_leftover(scene, primitive, indices.size(), triangles.size(), mode);
+    note_leftover(scene, part.place, indices.size(), triangles.size(), mode);
     if (is_mirrored(placement))
         for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
-    const std::uint32_t material =
-        primitive.has("material")
-            ? static_cast<std::uint32_t>(
-                  reference_index(reader.document().root(), "materials", primitive.at("material")))
-            : static_cast<std::uint32_t>(scene.materials.size() - 1);
+    const auto material =
+        static_cast<std::uint32_t>(part.primitive.material >= 0 ? as_index(part.primitive.material)
+                                                                : scene.materials.size() - 1);
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
-    append(scene, primitive, positions, std::move(triangles));
+    append(scene, part.place, positions, std::move(triangles));
     if (count > 0) scene.meshes.push_back({placement.name, first, count, material});
 }
 
 /// The file's materials, and behind them the default one (section 3.7.2.1).
 void read_materials(const Document& document, Scene& scene) {
-    const Item root = document.root();
-    const std::size_t count = count_of(root, "materials");
-    for (std::size_t i = 0; i < count; ++i) {
-        const Item item = root.at("materials")[i];
-        const auto double_sided = item.find("doubleSided");
-        scene.materials.push_back(
-            {item.text_or("name", item.pointer()), double_sided && double_sided->truth()});
-        if (const std::string mode = item.text_or("alphaMode", "OPAQUE"); mode != "OPAQUE")
+    for (const tinygltf::Material& source : document.model.materials) {
+        const Place place = document.root() / "materials" / scene.materials.size();
+        const std::string name = source.name.empty() ? place.pointer() : source.name;
+        scene.materials.push_back({name, source.doubleSided});
+        if (source.alphaMode != "OPAQUE")
             scene.notes.push_back(fmt::format("{} \"{}\": alphaMode {} is drawn as opaque",
-                                              item.pointer(), scene.materials.back().name, mode));
-        if (item.has("normalTexture"))
+                                              place.pointer(), name, source.alphaMode));
+        if (source.normalTexture.index >= 0)
             scene.notes.push_back(
-                fmt::format("{}: normal maps are not evaluated: visibility only", item.pointer()));
+                fmt::format("{}: normal maps are not evaluated: visibility only", place.pointer()));
     }
     scene.materials.push_back({"default", false});
 }
@@ -196,15 +211,16 @@ void read_materials(const Document& document, Scene& scene) {
 void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
     read_materials(reader.document(), scene);
     for (const std::size_t node : graph.in_scene) {
-        if (!node_item(reader.document(), node).has("mesh")) continue;
+        if (reader.document().model.nodes[node].mesh < 0) continue;
         const Placement placement = find_placement(reader, graph, node);
-        const Item primitives = placement.mesh.at("primitives");
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            bake_primitive(reader, placement, primitives[i], scene);
+        for (std::size_t i = 0; i < placement.mesh.primitives.size(); ++i)
+            bake_primitive(reader, placement,
+                           {placement.place / "primitives" / i, placement.mesh.primitives[i]},
+                           scene);
     }
     if (scene.triangles.empty())
-        throw Error(reader.document().file, "holds no triangle in its scene",
-                    "export meshes, or set \"scene\" to one that has some");
+        reader.document().root().refuse("holds no triangle in its scene",
+                                        "export meshes, or set \"scene\" to one that has some");
 }
 
 } // namespace shadowproof::gltf

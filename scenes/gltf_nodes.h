@@ -1,5 +1,5 @@
 // The node graph: a forest whose local transforms become world transforms in double precision.
-// Cycles, second parents and references out of range are refused.
+// Cycles and second parents are refused.
 #pragma once
 
 #include "scenes/gltf_file.h"
@@ -13,14 +13,14 @@
 namespace shadowproof::gltf {
 
 struct Node {
-    std::string name;    ///< may be empty
-    std::string pointer; ///< "/nodes/3"
-    std::vector<std::size_t> children;
-    std::optional<glm::dmat4> matrix; ///< in place of translation, rotation, scale
+    std::string name; ///< may be empty
+    Place place;
+    std::vector<std::size_t> children{};
+    std::optional<glm::dmat4> matrix{}; ///< in place of translation, rotation, scale
     glm::dvec3 translation{0, 0, 0};
     glm::dquat rotation{1, 0, 0, 0};
     glm::dvec3 scale{1, 1, 1};
-    std::vector<double> weights;     ///< of morph targets; empty: the mesh's own
+    std::vector<double> weights{};   ///< of morph targets; empty: the mesh's own
     glm::dmat4 world_from_node{1.0}; ///< set by place_nodes
 };
 
@@ -34,11 +34,6 @@ struct NodeGraph {
 NodeGraph read_nodes(const Document& document);
 
 /// Multiplies local transforms down the forest. Throws Error where a matrix is no longer finite.
-void place_nodes(const Document& document, NodeGraph& graph);
-
-/// The node's own JSON.
-inline Item node_item(const Document& document, std::size_t node) {
-    return document.root().at("nodes")[node];
-}
+void place_nodes(NodeGraph& graph);
 
 } // namespace shadowproof::gltf

@@ -30,24 +30,22 @@ Moment find_moment(const std::vector<double>& times, double time) {
 }
 
 /// Key times, strictly increasing.
-std::vector<double> read_times(AccessorReader& reader, const Item& input) {
-    std::vector<double> times = reader.read(input, {"SCALAR"}, floats).values;
+std::vector<double> read_times(AccessorReader& reader, const Place& place, int accessor) {
+    std::vector<double> times = reader.read(place, accessor, TINYGLTF_TYPE_SCALAR, floats).values;
     const auto bad = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
     if (bad != times.end())
-        input.refuse(fmt::format("key frame {} is not later than the one before it",
+        place.refuse(fmt::format("key frame {} is not later than the one before it",
                                  bad - times.begin() + 1),
                      "sort the key frames");
     return times;
 }
 
-Interpolation interpolation_of(const Item& sampler) {
-    const std::string name = sampler.text_or("interpolation", "LINEAR");
+Interpolation interpolation_of(const Place& place, const std::string& name) {
     if (name == "STEP") return Interpolation::step;
     if (name == "LINEAR") return Interpolation::linear;
     if (name == "CUBICSPLINE") return Interpolation::cubic;
-    sampler.at("interpolation")
-        .refuse(fmt::format("\"{}\" is no interpolation", name),
-                "use \"STEP\", \"LINEAR\" or \"CUBICSPLINE\"");
+    place.refuse(fmt::format("\"{}\" is no interpolation", name),
+                 "use \"STEP\", \"LINEAR\" or \"CUBICSPLINE\"");
 }
 
 /// Spherical where `spherical`, the short way round (glTF 2.0, appendix C.4).
@@ -77,23 +75,31 @@ std::vector<double> spline(const double* values, std::size_t width, const Moment
     return result;
 }
 
-/// What a channel drives, and the numbers it takes for it.
-struct Target {
-    std::size_t node = 0;
-    std::string path;
-    std::string_view type;
+/// The numbers that a path takes.
+struct Values {
+    int type = TINYGLTF_TYPE_VEC3;
     unsigned kinds = floats;
 };
 
-std::vector<double> evaluate(AccessorReader& reader, const Item& sampler, const Target& target,
+Values values_of(const Place& place, const std::string& path) {
+    if (path == "translation" || path == "scale") return {};
+    if (path == "rotation") return {TINYGLTF_TYPE_VEC4, floats | normalized_integers};
+    if (path == "weights") return {TINYGLTF_TYPE_SCALAR, floats | normalized_integers};
+    place.refuse(fmt::format("\"{}\" is no animated property", path),
+                 "use \"translation\", \"rotation\", \"scale\" or \"weights\"");
+}
+
+std::vector<double> evaluate(AccessorReader& reader, const Place& place,
+                             const tinygltf::AnimationSampler& sampler, const Values& wanted,
                              double time) {
-    const std::vector<double> times = read_times(reader, sampler.at("input"));
-    const Item output = sampler.at("output");
-    const Elements values = reader.read(output, {target.type}, target.kinds);
-    const Interpolation interpolation = interpolation_of(sampler);
+    const std::vector<double> times = read_times(reader, place / "input", sampler.input);
+    const Place output = place / "output";
+    const Elements values = reader.read(output, sampler.output, wanted.type, wanted.kinds);
+    const Interpolation interpolation =
+        interpolation_of(place / "interpolation", sampler.interpolation);
     const std::size_t keys = times.size() * (interpolation == Interpolation::cubic ? 3 : 1);
     const std::size_t width = values.values.size() / keys;
-    const bool is_weights = target.type == "SCALAR";
+    const bool is_weights = wanted.type == TINYGLTF_TYPE_SCALAR;
     if (width == 0 || values.values.size() % keys != 0 ||
         (!is_weights && width != values.components))
         output.refuse(fmt::format("has {} elements for {} key frames", values.count, times.size()),
@@ -103,66 +109,53 @@ std::vector<double> evaluate(AccessorReader& reader, const Item& sampler, const 
     if (interpolation == Interpolation::cubic) return spline(first, width, moment);
     const double fraction = interpolation == Interpolation::step ? 0 : moment.fraction;
     return mix(first + moment.key * width, first + moment.next * width, width, fraction,
-               target.path == "rotation");
+               wanted.type == TINYGLTF_TYPE_VEC4);
 }
 
-void apply(const Item& channel, const Target& target, const std::vector<double>& value,
+void apply(const Place& channel, const std::string& path, const std::vector<double>& value,
            Node& node) {
-    if (target.path == "weights") {
+    if (path == "weights") {
         node.weights = value;
         return;
     }
     if (node.matrix)
         channel.refuse("animates a node that has a matrix", "give the node translation, rotation "
                                                             "and scale");
-    if (target.path == "translation") node.translation = {value[0], value[1], value[2]};
-    if (target.path == "scale") node.scale = {value[0], value[1], value[2]};
-    if (target.path == "rotation") {
+    if (path == "translation") node.translation = {value[0], value[1], value[2]};
+    if (path == "scale") node.scale = {value[0], value[1], value[2]};
+    if (path == "rotation") {
         node.rotation = glm::normalize(glm::dquat(value[3], value[0], value[1], value[2]));
         if (!std::isfinite(glm::dot(node.rotation, node.rotation)))
             channel.refuse("comes to a rotation without direction", "mend its key frames");
     }
 }
 
-/// Nothing where the channel drives no node, which glTF allows, or an extension's property.
-std::optional<Target> read_target(const Item& root, const Item& channel) {
-    const Item item = channel.at("target");
-    const auto node = item.find("node");
-    if (!node) return std::nullopt;
-    Target target{reference_index(root, "nodes", *node), item.at("path").text(), "VEC3", floats};
-    if (target.path == "translation" || target.path == "scale") return target;
-    target.kinds = floats | normalized_integers;
-    target.type = target.path == "rotation" ? "VEC4" : "SCALAR";
-    if (target.path == "rotation" || target.path == "weights") return target;
-    item.at("path").refuse(fmt::format("\"{}\" is no animated property", target.path),
-                           "use \"translation\", \"rotation\", \"scale\" or \"weights\"");
-}
-
 } // namespace
 
 void pose_nodes(AccessorReader& reader, double time, NodeGraph& graph,
                 std::vector<std::string>& notes) {
-    const Item root = reader.document().root();
-    const std::size_t count = count_of(root, "animations");
-    if (count == 0) return;
-    const Item animation = root.at("animations")[0];
-    notes.push_back(count == 1
-                        ? fmt::format("posed at {} s of the animation", time)
-                        : fmt::format("posed at {} s of the first of {} animations", time, count));
-    const Item samplers = animation.at("samplers");
-    const Item channels = animation.at("channels");
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        const Item channel = channels[i];
-        const auto target = read_target(root, channel);
-        if (!target) continue;
-        const Item reference = channel.at("sampler");
-        const std::size_t sampler = reference.whole(0, 0xffffffffU);
-        if (sampler >= samplers.size())
-            reference.refuse(
-                fmt::format("{} is no index into the {} samplers", sampler, samplers.size()),
-                "name a sampler that exists");
-        apply(channel, *target, evaluate(reader, samplers[sampler], *target, time),
-              graph.nodes[target->node]);
+    const std::vector<tinygltf::Animation>& animations = reader.document().model.animations;
+    if (animations.empty()) return;
+    notes.push_back(
+        animations.size() == 1
+            ? fmt::format("posed at {} s of the animation", time)
+            : fmt::format("posed at {} s of the first of {} animations", time, animations.size()));
+    const tinygltf::Animation& animation = animations.front();
+    const Place place = reader.document().root() / "animations" / 0;
+    for (std::size_t i = 0; i < animation.channels.size(); ++i) {
+        const tinygltf::AnimationChannel& channel = animation.channels[i];
+        if (channel.target_node < 0) continue; // glTF allows it, as for an extension's property
+        const Place here = place / "channels" / i;
+        const Values wanted = values_of(here / "target" / "path", channel.target_path);
+        const std::size_t sampler = as_index(channel.sampler);
+        if (sampler >= animation.samplers.size())
+            (here / "sampler")
+                .refuse(fmt::format("{} is no index into the {} samplers", sampler,
+                                    animation.samplers.size()),
+                        "name a sampler that exists");
+        const std::vector<double> value = evaluate(reader, place / "samplers" / sampler,
+                                                   animation.samplers[sampler], wanted, time);
+        apply(here, channel.target_path, value, graph.nodes[as_index(channel.target_node)]);
     }
 }
 

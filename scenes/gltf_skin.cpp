@@ -2,57 +2,81 @@
 
 #include <fmt/format.h>
 
+#include <glm/gtc/type_ptr.hpp>
+#include <optional>
+
 namespace shadowproof::gltf {
 
-Skin read_skin(AccessorReader& reader, const NodeGraph& graph, const Item& skin) {
-    const Item root = reader.document().root();
-    const Item joints = skin.at("joints");
+Skin read_skin(AccessorReader& reader, const NodeGraph& graph, std::size_t skin) {
+    const tinygltf::Skin& source = reader.document().model.skins[skin];
     std::optional<Elements> inverse_bind;
-    if (const auto reference = skin.find("inverseBindMatrices")) {
-        inverse_bind = reader.read(*reference, {"MAT4"}, floats);
-        if (inverse_bind->count < joints.size())
-            reference->refuse(
-                fmt::format("has {} matrices for {} joints", inverse_bind->count, joints.size()),
-                "give each joint one");
+    if (source.inverseBindMatrices >= 0) {
+        const Place place = reader.document().root() / "skins" / skin / "inverseBindMatrices";
+        inverse_bind = reader.read(place, source.inverseBindMatrices, TINYGLTF_TYPE_MAT4, floats);
+        if (inverse_bind->count < source.joints.size())
+            place.refuse(fmt::format("has {} matrices for {} joints", inverse_bind->count,
+                                     source.joints.size()),
+                         "give each joint one");
     }
     Skin result;
-    for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (std::size_t i = 0; i < source.joints.size(); ++i) {
         glm::dmat4 joint_from_mesh(1.0);
-        for (std::size_t k = 0; inverse_bind && k < 16; ++k)
-            joint_from_mesh[static_cast<int>(k / 4)][static_cast<int>(k % 4)] =
-                inverse_bind->values[i * 16 + k];
-        const std::size_t node = reference_index(root, "nodes", joints[i]);
-        result.world_from_mesh.push_back(graph.nodes[node].world_from_node * joint_from_mesh);
+        if (inverse_bind) joint_from_mesh = glm::make_mat4(inverse_bind->values.data() + i * 16);
+        const Node& joint = graph.nodes[as_index(source.joints[i])];
+        result.world_from_mesh.push_back(joint.world_from_node * joint_from_mesh);
     }
     return result;
 }
 
-Influences read_influences(AccessorReader& reader, const Item& primitive, const Skin& skin,
+namespace {
+
+/// The accessor of an attribute that a skinned primitive must have.
+int required_attribute(const Place& attributes, const tinygltf::Primitive& primitive,
+                       const std::string& name) {
+    const auto attribute = primitive.attributes.find(name);
+    if (attribute == primitive.attributes.end())
+        attributes.refuse(fmt::format("\"{}\" is missing", name),
+                          "add it, for the mesh has a skin");
+    return attribute->second;
+}
+
+/// The last set of the influences.
+void check_set(const Place& joints_place, const Place& weights_place, const Influences& influences,
+               const Skin& skin, std::size_t vertices) {
+    const Elements& joints = influences.joints.back();
+    const Elements& weights = influences.weights.back();
+    if (joints.count != vertices || weights.count != vertices)
+        joints_place.refuse(fmt::format("has {} elements and {} weights for {} vertices",
+                                        joints.count, weights.count, vertices),
+                            "give each vertex one of each");
+    for (std::size_t k = 0; k < joints.values.size(); ++k) {
+        if (joints.values[k] >= static_cast<double>(skin.world_from_mesh.size()))
+            joints_place.refuse(fmt::format("element {} names joint {} of {}", k / 4,
+                                            joints.values[k], skin.world_from_mesh.size()),
+                                "mend the joints");
+        if (weights.values[k] < 0)
+            weights_place.refuse(fmt::format("element {} is negative", k / 4), "mend the weights");
+    }
+}
+
+} // namespace
+
+Influences read_influences(AccessorReader& reader, const Place& place,
+                           const tinygltf::Primitive& primitive, const Skin& skin,
                            std::size_t vertices) {
-    Influences influences{{}, {}, primitive};
-    const Item attributes = primitive.at("attributes");
+    Influences influences{{}, {}, place};
+    const Place attributes = place / "attributes";
     for (std::size_t set = 0;; ++set) {
-        const std::string joints_key = fmt::format("JOINTS_{}", set);
-        const std::string weights_key = fmt::format("WEIGHTS_{}", set);
-        if (set > 0 && !attributes.has(joints_key.c_str())) return influences;
-        const Item joints = attributes.at(joints_key.c_str());
-        const Item weights = attributes.at(weights_key.c_str());
-        influences.joints.push_back(reader.read(joints, {"VEC4"}, unsigned_integers));
-        influences.weights.push_back(reader.read(weights, {"VEC4"}, floats | normalized_integers));
-        const Elements& indices = influences.joints.back();
-        const Elements& shares = influences.weights.back();
-        if (indices.count != vertices || shares.count != vertices)
-            joints.refuse(fmt::format("has {} elements and {} weights for {} vertices",
-                                      indices.count, shares.count, vertices),
-                          "give each vertex one of each");
-        for (std::size_t k = 0; k < indices.values.size(); ++k) {
-            if (indices.values[k] >= static_cast<double>(skin.world_from_mesh.size()))
-                joints.refuse(fmt::format("element {} names joint {} of {}", k / 4,
-                                          indices.values[k], skin.world_from_mesh.size()),
-                              "mend the joints");
-            if (shares.values[k] < 0)
-                weights.refuse(fmt::format("element {} is negative", k / 4), "mend the weights");
-        }
+        const std::string joints_name = fmt::format("JOINTS_{}", set);
+        const std::string weights_name = fmt::format("WEIGHTS_{}", set);
+        if (set > 0 && primitive.attributes.count(joints_name) == 0) return influences;
+        const int joints = required_attribute(attributes, primitive, joints_name);
+        const int weights = required_attribute(attributes, primitive, weights_name);
+        influences.joints.push_back(
+            reader.read(attributes / joints_name, joints, TINYGLTF_TYPE_VEC4, unsigned_integers));
+        influences.weights.push_back(reader.read(attributes / weights_name, weights,
+                                                 TINYGLTF_TYPE_VEC4, floats | normalized_integers));
+        check_set(attributes / joints_name, attributes / weights_name, influences, skin, vertices);
     }
 }
 

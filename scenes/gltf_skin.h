@@ -19,13 +19,14 @@ struct Skin {
 struct Influences {
     std::vector<Elements> joints;
     std::vector<Elements> weights;
-    Item primitive; ///< for messages
+    Place primitive; ///< for messages
 };
 
-Skin read_skin(AccessorReader& reader, const NodeGraph& graph, const Item& skin);
+Skin read_skin(AccessorReader& reader, const NodeGraph& graph, std::size_t skin);
 
 /// Refused: no JOINTS_0 or WEIGHTS_0, counts that differ, a joint out of range, a negative weight.
-Influences read_influences(AccessorReader& reader, const Item& primitive, const Skin& skin,
+Influences read_influences(AccessorReader& reader, const Place& place,
+                           const tinygltf::Primitive& primitive, const Skin& skin,
                            std::size_t vertices);
 
 /// World position of a vertex. Weights are divided by their sum, which exporters round; a sum of

@@ -1,10 +1,9 @@
-#include "scenes/error.h"
 #include "scenes/gltf_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 
 namespace shadowproof::gltf {
 
@@ -41,55 +40,26 @@ bool lies_inside(const std::filesystem::path& folder, const std::filesystem::pat
     return parts.first == folder.end() && parts.second != path.end();
 }
 
-/// 0..63, or -1.
-int base64_digit(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    if (c == '+') return 62;
-    if (c == '/') return 63;
-    return -1;
-}
-
 } // namespace
 
-std::filesystem::path resolve_uri(const std::filesystem::path& folder, const Item& uri) {
-    const std::string text = uri.text();
-    const auto decoded = percent_decoded(text);
+std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri,
+                                  const Place& place) {
+    const auto decoded = percent_decoded(uri);
     if (!decoded || decoded->empty())
-        uri.refuse("is not a well-formed URI", "write a relative path, percent-encoded");
+        place.refuse("is not a well-formed URI", "write a relative path, percent-encoded");
     const std::filesystem::path relative = *decoded;
-    if (relative.is_absolute() || text.substr(0, text.find('/')).find(':') != std::string::npos)
-        uri.refuse(fmt::format("\"{}\" is not relative to the asset's folder", text),
-                   "put the file beside the asset");
+    if (relative.is_absolute() || uri.substr(0, uri.find('/')).find(':') != std::string::npos)
+        place.refuse(fmt::format("\"{}\" is not relative to the asset's folder", uri),
+                     "put the file beside the asset");
     std::error_code failure;
     const auto root =
         std::filesystem::canonical(folder.empty() ? std::filesystem::path(".") : folder, failure);
-    const auto place = failure ? root : std::filesystem::weakly_canonical(root / relative, failure);
-    if (failure) uri.refuse(fmt::format("\"{}\": {}", text, failure.message()), "mend the path");
-    if (!lies_inside(root, place))
-        uri.refuse(fmt::format("\"{}\" leaves the asset's folder", text),
-                   "put the file inside the folder");
-    return place;
-}
-
-std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
-    if (text.size() % 4 != 0) return std::nullopt;
-    std::vector<std::byte> bytes;
-    bytes.reserve(text.size() / 4 * 3);
-    for (std::size_t i = 0; i < text.size(); i += 4) {
-        const bool last = i + 4 == text.size();
-        const std::size_t padding = last && text[i + 3] == '=' ? (text[i + 2] == '=' ? 2 : 1) : 0;
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const int digit = k >= 4 - padding ? 0 : base64_digit(text[i + k]);
-            if (digit < 0) return std::nullopt;
-            group = group << 6U | static_cast<std::uint32_t>(digit);
-        }
-        for (std::size_t k = 0; k < 3 - padding; ++k)
-            bytes.push_back(static_cast<std::byte>(group >> (16 - 8 * k) & 0xffU));
-    }
-    return bytes;
+    const auto path = failure ? root : std::filesystem::weakly_canonical(root / relative, failure);
+    if (failure) place.refuse(fmt::format("\"{}\": {}", uri, failure.message()), "mend the path");
+    if (!lies_inside(root, path))
+        place.refuse(fmt::format("\"{}\" leaves the asset's folder", uri),
+                     "put the file inside the folder");
+    return path;
 }
 
 } // namespace shadowproof::gltf

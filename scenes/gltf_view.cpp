@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
@@ -64,7 +65,8 @@ Camera default_camera(const Scene& scene, const SceneRequest& request) {
 /// A node that carries a camera or a light, with the names it answers to.
 struct Carrier {
     std::size_t node = 0;
-    Item item; ///< the camera's or the light's own JSON
+    std::size_t index = 0; ///< of the camera or the light in the model
+    Place place;           ///< of the same
     std::string name;
 };
 
@@ -92,119 +94,99 @@ std::size_t find_named(const std::string& file, const char* kind,
                                 : "choose one of: " + offered);
 }
 
-std::string name_of_carrier(const Node& node, const Item& item) {
-    const std::string own = item.text_or("name", "");
-    return own.empty() ? node.name : own;
-}
-
 std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& graph) {
-    std::vector<Carrier> cameras;
-    for (const std::size_t node : graph.in_scene)
-        if (const auto reference = node_item(document, node).find("camera")) {
-            const Item item = referenced(document.root(), "cameras", *reference);
-            cameras.push_back({node, item, name_of_carrier(graph.nodes[node], item)});
-        }
-    return cameras;
-}
-
-bool is_perspective(const Item& camera) {
-    const std::string type = camera.at("type").text();
-    if (type != "perspective" && type != "orthographic")
-        camera.at("type").refuse(fmt::format("\"{}\" is no camera type", type),
-                                 "use \"perspective\"");
-    return type == "perspective";
+    std::vector<Carrier> carriers;
+    for (const std::size_t node : graph.in_scene) {
+        if (document.model.nodes[node].camera < 0) continue;
+        const std::size_t index = as_index(document.model.nodes[node].camera);
+        const std::string& own = document.model.cameras[index].name;
+        carriers.push_back({node, index, document.root() / "cameras" / index,
+                            own.empty() ? graph.nodes[node].name : own});
+    }
+    return carriers;
 }
 
 Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
                    const SceneRequest& request) {
-    if (!is_perspective(carrier.item))
-        carrier.item.refuse("is an orthographic camera, which is not evaluated",
-                            "choose or add a perspective camera");
-    const Item perspective = carrier.item.at("perspective");
-    const double yfov = perspective.at("yfov").number(); // radians
-    if (!(yfov > 0 && yfov < std::numbers::pi))
-        perspective.at("yfov").refuse(fmt::format("{} is not between 0 and pi", yfov),
-                                      "write radians");
+    const tinygltf::Camera& source = document.model.cameras[carrier.index];
+    if (source.type != "perspective")
+        carrier.place.refuse("is an orthographic camera, which is not evaluated",
+                             "choose or add a perspective camera");
+    const tinygltf::PerspectiveCamera& perspective = source.perspective;
+    const Place place = carrier.place / "perspective";
+    if (!(perspective.yfov > 0 && perspective.yfov < std::numbers::pi)) // radians
+        (place / "yfov")
+            .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
     Camera camera;
     camera.width = request.width;
     camera.height = request.height;
-    camera.tan_half_height = std::tan(yfov / 2);
-    camera.near = perspective.at("znear").number();
-    if (!(camera.near > 0))
-        perspective.at("znear").refuse(fmt::format("{} is not above 0", camera.near),
-                                       "move the near plane in front of the eye");
-    camera.far = perspective.number_or("zfar", camera.far);
+    camera.tan_half_height = std::tan(perspective.yfov / 2);
+    camera.near = perspective.znear;
+    if (perspective.zfar > 0) camera.far = perspective.zfar; // 0: there is none
     if (!(camera.far > camera.near))
-        perspective.at("zfar").refuse(
-            fmt::format("{} is not above znear {}", camera.far, camera.near),
-            "move the far plane back, or leave it out");
+        (place / "zfar")
+            .refuse(fmt::format("{} is not above znear {}", camera.far, camera.near),
+                    "move the far plane back, or leave it out");
     const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
     camera.eye = glm::dvec3(world[3]);
     if (!orient(camera, -glm::dvec3(world[2]), glm::dvec3(world[1])))
-        node_item(document, carrier.node)
-            .refuse("has a transform that leaves its camera no direction",
-                    "use a transform without zero scale");
+        graph.nodes[carrier.node].place.refuse(
+            "has a transform that leaves its camera no direction",
+            "use a transform without zero scale");
     return camera;
 }
 
-std::optional<Item> light_extension(const Item& owner) {
-    const auto extensions = owner.find("extensions");
-    return extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
-}
-
 std::vector<Carrier> find_lights(const Document& document, const NodeGraph& graph) {
-    std::vector<Carrier> lights;
-    const auto offered = light_extension(document.root());
-    for (const std::size_t node : graph.in_scene)
-        if (const auto extension = light_extension(node_item(document, node))) {
-            const Item reference = extension->at("light");
-            if (!offered)
-                reference.refuse("names a light but the file's KHR_lights_punctual has none",
-                                 "add /extensions/KHR_lights_punctual/lights");
-            const Item item = referenced(*offered, "lights", reference);
-            lights.push_back({node, item, name_of_carrier(graph.nodes[node], item)});
-        }
-    return lights;
+    const char* const extension = "KHR_lights_punctual";
+    const Place lights = document.root() / "extensions" / extension / "lights";
+    std::vector<Carrier> carriers;
+    for (const std::size_t node : graph.in_scene) {
+        const tinygltf::ExtensionMap& extensions = document.model.nodes[node].extensions;
+        const auto found = extensions.find(extension);
+        if (found == extensions.end()) continue;
+        const std::size_t index = as_index(found->second.Get("light").GetNumberAsInt());
+        const std::string& own = document.model.lights[index].name;
+        carriers.push_back(
+            {node, index, lights / index, own.empty() ? graph.nodes[node].name : own});
+    }
+    return carriers;
 }
 
-Light::Kind light_kind(const Item& item) {
-    const std::string type = item.at("type").text();
+Light::Kind light_kind(const Place& place, const std::string& type) {
     if (type == "point") return Light::Kind::point;
     if (type == "spot") return Light::Kind::spot;
     if (type == "directional") return Light::Kind::directional;
-    item.at("type").refuse(fmt::format("\"{}\" is no light type", type),
-                           "use \"point\", \"spot\" or \"directional\"");
+    place.refuse(fmt::format("\"{}\" is no light type", type),
+                 "use \"point\", \"spot\" or \"directional\"");
 }
 
-void read_cones(const Item& item, Light& light) {
-    const auto spot = item.find("spot");
-    if (!spot) return;
-    light.inner_cone = spot->number_or("innerConeAngle", light.inner_cone);
-    light.outer_cone = spot->number_or("outerConeAngle", light.outer_cone);
+void read_cones(const Place& place, const tinygltf::SpotLight& spot, Light& light) {
+    light.inner_cone = spot.innerConeAngle;
+    light.outer_cone = spot.outerConeAngle;
     if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone &&
           light.outer_cone <= std::numbers::pi / 2))
-        spot->refuse(fmt::format("cone angles {} and {} do not satisfy 0 <= inner < outer <= pi/2",
+        place.refuse(fmt::format("cone angles {} and {} do not satisfy 0 <= inner < outer <= pi/2",
                                  light.inner_cone, light.outer_cone),
                      "mend the angles");
 }
 
 Light read_light(const Document& document, const NodeGraph& graph, const Carrier& carrier) {
+    const tinygltf::Light& source = document.model.lights[carrier.index];
     Light light;
     light.name = carrier.name;
-    light.kind = light_kind(carrier.item);
-    if (const auto color = carrier.item.find("color")) light.color = color->vector();
-    light.intensity = carrier.item.number_or("intensity", 1);
+    light.kind = light_kind(carrier.place / "type", source.type);
+    if (!source.color.empty()) light.color = glm::make_vec3(source.color.data());
+    light.intensity = source.intensity;
     if (light.intensity < 0)
-        carrier.item.at("intensity").refuse("is negative", "write candela, or lux");
-    if (light.kind == Light::Kind::spot) read_cones(carrier.item, light);
+        (carrier.place / "intensity").refuse("is negative", "write candela, or lux");
+    if (light.kind == Light::Kind::spot) read_cones(carrier.place / "spot", source.spot, light);
     const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
     light.position = glm::dvec3(world[3]);
     light.direction = glm::normalize(-glm::dvec3(world[2]));
     if (light.kind != Light::Kind::point &&
         !std::isfinite(glm::dot(light.direction, light.direction)))
-        node_item(document, carrier.node)
-            .refuse("has a transform that leaves its light no direction",
-                    "use a transform without zero scale");
+        graph.nodes[carrier.node].place.refuse("has a transform that leaves its light no direction",
+                                               "use a transform without zero scale");
     if (light.kind == Light::Kind::point) light.direction = {0, 0, -1}; // has no meaning
     return light;
 }
@@ -233,8 +215,8 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
                               "above, 45 degrees, no far plane");
         return default_camera(scene, request);
     }
-    const auto first = std::find_if(cameras.begin(), cameras.end(), [](const Carrier& carrier) {
-        return is_perspective(carrier.item);
+    const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
+        return document.model.cameras[carrier.index].type == "perspective";
     });
     if (first == cameras.end()) return read_camera(document, graph, cameras.front(), request);
     if (first != cameras.begin())
