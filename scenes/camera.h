@@ -12,14 +12,14 @@ namespace shadowproof {
 /// World units are the scene's own; depth is measured along `forward`.
 struct Camera {
     glm::dvec3 eye{0, 0, 0};
-    glm::dvec3 right{1, 0, 0};    ///< right, up, forward: orthonormal, right x up = -forward
+    glm::dvec3 right{1, 0, 0}; ///< right, up, forward: orthonormal, right x up = -forward
     glm::dvec3 up{0, 1, 0};
     glm::dvec3 forward{0, 0, -1}; ///< the view direction
     double tan_half_height = 1;   ///< tan(yfov / 2); the width follows from the picture's shape
     double near = 0.1;            ///< depth of the near plane, > 0
     double far = std::numeric_limits<double>::infinity(); ///< depth of the far plane
-    int width = 512;              ///< pixels
-    int height = 512;             ///< pixels
+    int width = 512;                                      ///< pixels
+    int height = 512;                                     ///< pixels
 };
 
 /// Half extents of the picture at depth 1: (tan_half_height * width / height, tan_half_height).
@@ -47,8 +47,8 @@ glm::dmat3 view_from_eye_relative(const Camera& camera);
 glm::dmat4 view_from_world(const Camera& camera);
 
 /// OpenGL projections; window depth grows away from the eye except in the last.
-glm::dmat4 clip_from_view_finite(const Camera& camera, double far);      ///< z in [-w, w]
-glm::dmat4 clip_from_view_infinite(const Camera& camera);                ///< z in [-w, w]
-glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera);       ///< z in [0, w], 1 at near
+glm::dmat4 clip_from_view_finite(const Camera& camera, double far); ///< z in [-w, w]
+glm::dmat4 clip_from_view_infinite(const Camera& camera);           ///< z in [-w, w]
+glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera);  ///< z in [0, w], 1 at near
 
 } // namespace shadowproof

@@ -32,7 +32,7 @@ struct DepthModel {
     Projection projection = Projection::finite;
     double near = 0.1;
     double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
-    bool floating = false;     ///< D32F; otherwise 24-bit fixed point
+    bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
     bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
 };

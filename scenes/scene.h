@@ -5,10 +5,9 @@
 #include "scenes/camera.h"
 #include "scenes/cause.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -37,21 +36,21 @@ struct Light {
     glm::dvec3 direction{0, 0, -1}; ///< spot and directional: where the light shines to, unit
     double inner_cone = 0;          ///< spot, radians
     double outer_cone = 0.7853981633974483; ///< spot, radians
-    glm::dvec3 color{1, 1, 1};      ///< linear
-    double intensity = 1;           ///< candela, or lux where directional
+    glm::dvec3 color{1, 1, 1};              ///< linear
+    double intensity = 1;                   ///< candela, or lux where directional
 };
 
 struct Scene {
-    std::string name;           ///< bundled name, or the file's stem
-    std::filesystem::path file; ///< as given
+    std::string name;                  ///< bundled name, or the file's stem
+    std::filesystem::path file;        ///< as given
     std::vector<glm::vec3> positions;  ///< world space; the same array goes to OpenGL
     std::vector<glm::uvec3> triangles; ///< into positions; counter-clockwise from the front, the
                                        ///< flip of mirroring nodes already made
     std::vector<Mesh> meshes;          ///< cover all triangles, in order, without gaps
     std::vector<Material> materials;   ///< at least one
     Camera camera;
-    std::vector<Light> lights; ///< at least one
-    std::size_t light = 0;     ///< the one that is judged
+    std::vector<Light> lights;      ///< at least one
+    std::size_t light = 0;          ///< the one that is judged
     std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
     bool declares_provokes = false; ///< whether the file says what it provokes
     std::vector<std::string> notes; ///< said on the console: defaults taken, things not evaluated
@@ -62,7 +61,9 @@ inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
     return scene.positions[scene.triangles[triangle][k]];
 }
 
-inline const Light& chosen_light(const Scene& scene) { return scene.lights[scene.light]; }
+inline const Light& chosen_light(const Scene& scene) {
+    return scene.lights[scene.light];
+}
 
 /// Index into Scene::meshes of the mesh that holds a triangle.
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
