@@ -69,18 +69,24 @@ double depth_freedom(const Scene& scene, const DepthModel& depth_model, const gl
     return 16 * v * (window_depth_error + transform_terms(scene, depth_model, point));
 }
 
-std::vector<glm::dvec3> sample_directions(const Camera& camera, int x, int y,
-                                          const BandRadius& radius) {
+Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius) {
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
-    std::vector<glm::dvec3> directions;
-    const auto add = [&](double reach, std::size_t first) {
-        for (std::size_t i = first; i < steps.size() * steps.size(); ++i)
-            directions.push_back(ray_direction(camera, x + 0.5 + reach * steps[i % steps.size()],
-                                               y + 0.5 + reach * steps[i / steps.size()]));
+    Neighbourhood around;
+    const auto ray = [&](double right, double down) {
+        return ray_direction(camera, x + 0.5 + right, y + 0.5 + down);
     };
-    add(radius.surface, 0);
-    if (radius.nearest > radius.surface) add(radius.nearest, 1);
-    return directions;
+    const auto add = [&](double reach) {
+        for (std::size_t i = 1; i < steps.size() * steps.size(); ++i)
+            around.rays.push_back(
+                ray(reach * steps[i % steps.size()], reach * steps[i / steps.size()]));
+    };
+    around.rays.push_back(ray(0, 0));
+    if (radius.surface > 0) add(radius.surface);
+    if (radius.nearest > radius.surface) add(radius.nearest);
+    const double reach = std::max(radius.surface, radius.nearest);
+    around.corners = {ray(-reach, -reach), ray(reach, -reach), ray(-reach, reach),
+                      ray(reach, reach)};
+    return around;
 }
 
 namespace {
@@ -112,11 +118,11 @@ bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& dir
     return inside(a, b) && inside(b, c) && inside(c, a);
 }
 
-/// Largest difference of a component from the first direction.
-double spread(std::span<const glm::dvec3> directions) {
+/// Largest difference of a ray's component from the centre's.
+double spread(const Neighbourhood& around) {
     double largest = 0;
-    for (const glm::dvec3& direction : directions) {
-        const glm::dvec3 apart = glm::abs(direction - directions.front());
+    for (const glm::dvec3& corner : around.corners) {
+        const glm::dvec3 apart = glm::abs(corner - around.rays.front());
         largest = std::max({largest, apart.x, apart.y, apart.z});
     }
     return largest;
@@ -168,12 +174,12 @@ struct DepthRange {
 class BandFinder {
 public:
     BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-               std::span<const glm::dvec3> directions, std::span<const RayTruth> truth)
+               const Neighbourhood& around, std::span<const RayTruth> truth)
         : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
-          directions_(directions) {
+          around_(around) {
         shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
-        may_cover_ = shown != no_triangle &&
-                     may_cover(scene_, shown, directions.front(), spread(directions));
+        may_cover_ =
+            shown != no_triangle && may_cover(scene_, shown, around.rays.front(), spread(around));
         std::vector<std::uint32_t> in_front;
         for (const RayTruth& t : truth)
             if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
@@ -186,10 +192,10 @@ public:
     bool collect(std::size_t i, const RayTruth& truth, const NearbyVolumes& volumes,
                  std::vector<Reading>& readings) {
         bool moved = false;
-        const std::optional<double> depth = shown_depth(truth, directions_[i], moved);
+        const std::optional<double> depth = shown_depth(truth, around_.rays[i], moved);
         if (!depth) return false;
         shown_range_.nominal = *depth;
-        collect(ray_ledger(tracer_, volumes, directions_[i]), directions_[i], moved, readings);
+        collect(ray_ledger(tracer_, volumes, around_.rays[i]), around_.rays[i], moved, readings);
         return true;
     }
 
@@ -199,7 +205,7 @@ private:
     const Frame& frame_;
     double far_;
     std::uint32_t shown_;
-    std::span<const glm::dvec3> directions_;
+    const Neighbourhood& around_;
     DepthRange shown_range_;
     bool may_cover_ = false; ///< the shown triangle may cover the pixel's centre
     bool may_gape_ = false;  ///< what is in front of it may let it be seen through a gap
@@ -208,10 +214,10 @@ private:
         return surface_range(triangle).upper < shown_range_.lower;
     }
 
-    /// A triangle's plane over all samples, with the depth format's freedom.
+    /// A triangle's plane over the neighbourhood, with the depth format's freedom.
     DepthRange surface_range(std::uint32_t triangle) const {
         DepthRange range{0, infinity, 0};
-        for (const glm::dvec3& direction : directions_) {
+        for (const glm::dvec3& direction : around_.corners) {
             const double t = plane_depth(scene_, triangle, direction);
             const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
             range.include(t, depth_freedom(scene_, frame_.depth_model, point));
@@ -219,12 +225,12 @@ private:
         return range;
     }
 
-    /// A volume face's plane over all samples: on a ray D it is met at a depth that is inverse to
-    /// D . plane; not at all where that changes its sign.
+    /// A volume face's plane over the neighbourhood: on a ray D it is met at a depth that is
+    /// inverse to D . plane; not at all where that changes its sign.
     DepthRange face_range(const Crossing& crossing, const glm::dvec3& direction) const {
         DepthRange range{crossing.depth, crossing.depth, crossing.depth};
         const double here = glm::dot(direction, crossing.plane);
-        for (const glm::dvec3& other : directions_) {
+        for (const glm::dvec3& other : around_.corners) {
             const double ratio = here / glm::dot(other, crossing.plane);
             range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
         }
@@ -334,14 +340,17 @@ void sort_out(std::vector<Reading>& readings) {
 } // namespace
 
 PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth,
+                    const Neighbourhood& around, std::span<const RayTruth> truth,
                     const std::function<bool(const Reading&)>& matches) {
-    const NearbyVolumes volumes = volumes_near(tracer, directions.front(), spread(directions));
-    BandFinder finder(tracer, frame, far, shown, directions, truth);
+    const NearbyVolumes volumes = volumes_near(tracer, around.rays.front(), spread(around));
+    BandFinder finder(tracer, frame, far, shown, around, truth);
     PixelBand band;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-        band.surface_allowed |= finder.collect(i, truth[i], volumes, band.readings);
-        if (std::any_of(band.readings.begin(), band.readings.end(), matches)) break;
+    for (std::size_t i = 0; i < around.rays.size(); ++i) {
+        std::vector<Reading> readings;
+        band.surface_allowed |= finder.collect(i, truth[i], volumes, readings);
+        const bool found = std::any_of(readings.begin(), readings.end(), matches);
+        band.readings.insert(band.readings.end(), readings.begin(), readings.end());
+        if (found) break;
     }
     sort_out(band.readings);
     return band;

@@ -6,6 +6,7 @@
 #include "reference/trace.h"
 #include "scenes/frame.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -28,10 +29,12 @@ struct BandRadius {
     double nearest = 0; ///< for the nearest face that is counted, which may move further
 };
 
-/// Rays through the points at which a pixel's neighbourhood is looked at: its centre first, then a
-/// grid that reaches to each radius.
-std::vector<glm::dvec3> sample_directions(const Camera& camera, int x, int y,
-                                          const BandRadius& radius);
+/// Rays through the points at which a pixel's neighbourhood is looked at.
+struct Neighbourhood {
+    std::vector<glm::dvec3> rays;        ///< the pixel's centre first, then a grid to each radius
+    std::array<glm::dvec3, 4> corners{}; ///< of the larger grid: what is linear is extreme there
+};
+Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius);
 
 /// One value that the counter may have at a pixel, and how it comes about.
 struct Reading {
@@ -47,10 +50,10 @@ struct PixelBand {
     std::vector<Reading> readings; ///< without repetition, for that triangle
 };
 
-/// `directions` as sample_directions gives them, `truth` what trace_rays finds along them. Looks no
-/// further than to the first sample that has a reading for which `matches` holds.
+/// `truth`: what trace_rays finds along the neighbourhood's rays. Looks no further than to the
+/// first ray that has a reading for which `matches` holds.
 PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    std::span<const glm::dvec3> directions, std::span<const RayTruth> truth,
+                    const Neighbourhood& around, std::span<const RayTruth> truth,
                     const std::function<bool(const Reading&)>& matches);
 
 } // namespace shadowproof

@@ -163,56 +163,62 @@ BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& d
     return {at(surface), at(nearest)};
 }
 
-/// The samples of many pixels, one after the other.
-struct Samples {
-    std::vector<std::size_t> first; ///< of each pixel; one more at the end
-    std::vector<glm::dvec3> directions;
-};
+/// How closely pixels are looked at.
+enum class Scrutiny : std::uint8_t { band, centre };
 
-Samples gather_samples(const Context& context, std::span<const PixelPlace> places) {
+std::vector<Neighbourhood> neighbourhoods(const Context& context,
+                                          std::span<const PixelPlace> places, Scrutiny scrutiny) {
     const Camera& camera = context.tracer.scene().camera;
-    std::vector<std::vector<glm::dvec3>> each(places.size());
+    std::vector<Neighbourhood> around(places.size());
     parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
         const PixelPlace p = places[static_cast<std::size_t>(i)];
         const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
-        each[static_cast<std::size_t>(i)] =
-            sample_directions(camera, p.x, p.y, band_radius(context, p, centre));
+        const BandRadius radius =
+            scrutiny == Scrutiny::band ? band_radius(context, p, centre) : BandRadius{};
+        around[static_cast<std::size_t>(i)] = neighbourhood(camera, p.x, p.y, radius);
     });
-    Samples samples{{0}, {}};
-    for (const std::vector<glm::dvec3>& directions : each) {
-        samples.directions.insert(samples.directions.end(), directions.begin(), directions.end());
-        samples.first.push_back(samples.directions.size());
-    }
-    return samples;
+    return around;
 }
 
 /// Pixels looked at together: as many as keep the samples within a few megabytes.
 constexpr std::size_t batch_size = 1024;
 
 void look_around_batch(const Context& context, std::span<const PixelPlace> places,
-                       std::span<Finding> findings) {
-    const Samples samples = gather_samples(context, places);
-    const std::vector<RayTruth> truths = trace_rays(context.tracer, samples.directions);
+                       Scrutiny scrutiny, std::span<Finding> findings) {
+    const std::vector<Neighbourhood> around = neighbourhoods(context, places, scrutiny);
+    std::vector<std::size_t> first; // of each pixel's rays among all
+    std::vector<glm::dvec3> rays;
+    for (const Neighbourhood& each : around) {
+        first.push_back(rays.size());
+        rays.insert(rays.end(), each.rays.begin(), each.rays.end());
+    }
+    const std::vector<RayTruth> truths = trace_rays(context.tracer, rays);
     parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
         const auto k = static_cast<std::size_t>(i);
-        const std::size_t first = samples.first[k];
-        const std::size_t count = samples.first[k + 1] - first;
-        const std::span around = std::span(truths).subspan(first, count);
+        const std::span truth = std::span(truths).subspan(first[k], around[k].rays.size());
         const std::uint32_t shown = context.frame.triangle.at(places[k].x, places[k].y);
         const PixelBand band = find_band(
-            context.tracer, context.frame, context.depths.far, shown,
-            std::span(samples.directions).subspan(first, count), around,
+            context.tracer, context.frame, context.depths.far, shown, around[k], truth,
             [&](const Reading& reading) { return explains(context, places[k], reading); });
-        findings[k] = look_around(context, places[k], band, around);
+        findings[k] = look_around(context, places[k], band, truth);
     });
 }
 
+/// Once so many pixels are beyond explanation, the verdict is beyond doubt, and it would take
+/// minutes to search the bands of all others: they are looked at in their centres only.
+constexpr std::ptrdiff_t hopeless = 2048;
+
 std::vector<Finding> look_around(const Context& context, const std::vector<PixelPlace>& places) {
     std::vector<Finding> findings(places.size());
+    std::ptrdiff_t unexplained = 0;
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
+        const std::span batch = std::span(findings).subspan(first, count);
         look_around_batch(context, std::span(places).subspan(first, count),
-                          std::span(findings).subspan(first, count));
+                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre, batch);
+        unexplained += std::count_if(batch.begin(), batch.end(), [](const Finding& finding) {
+            return !finding.ledger_in_band;
+        });
     }
     return findings;
 }

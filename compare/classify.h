@@ -31,9 +31,9 @@ struct LedgerCheck {
 };
 
 struct Comparison {
-    Image<std::uint8_t> cause;        ///< Cause, or no_difference
-    Image<std::uint8_t> ledger_miss;  ///< 1 where the counter is neither predicted nor in the band
-    Image<std::uint8_t> predicted;    ///< the counter predicted at the centre, as stored
+    Image<std::uint8_t> cause;       ///< Cause, or no_difference
+    Image<std::uint8_t> ledger_miss; ///< 1 where the counter is neither predicted nor in the band
+    Image<std::uint8_t> predicted;   ///< the counter predicted at the centre, as stored
     std::array<std::uint64_t, all_causes.size()> causes{}; ///< pixels by cause
     std::uint64_t differing = 0;
     /// First in rows from the top; a pixel whose cause is worst (unexplained, then any but edge,
@@ -42,7 +42,8 @@ struct Comparison {
     LedgerCheck ledger;
 };
 
-/// All pictures must have one size (asserted).
+/// All pictures must have one size (asserted). Where thousands of pixels are unexplained, further
+/// ones are compared at their centres only, so that some of those may lie in their bands after all.
 Comparison classify(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
                     const Frame& frame);
 

@@ -71,6 +71,8 @@ struct Stretch {
     Face first; ///< where it begins
     Face last;  ///< where it ends
 
+    bool is_ahead() const { return begin < end && end > 0; }
+
     /// Keeps what has constant + t slope >= 0.
     void cut(double constant, double slope, const Face& face) {
         if (slope == 0) {
@@ -98,20 +100,24 @@ glm::dvec3 side_plane(const glm::dvec3& light, const glm::dvec3& a, const glm::d
     return glm::cross(a - light, b - a);
 }
 
-Stretch stretch_in_volume(const Tracer::State& state, const Corners& t,
-                          const glm::dvec3& direction) {
+/// `radius` widens the stretch to hold those of all rays whose direction differs by at most that a
+/// component: a plane's slope then differs by at most |plane|_1 radius.
+Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const glm::dvec3& direction,
+                          double radius) {
     Stretch stretch;
+    const auto slope = [&](const glm::dvec3& plane) {
+        return glm::dot(direction, plane) + radius * sum_of(plane);
+    };
     // The light sees the front: from it a, c, b is the positive order.
     const std::array<std::pair<const glm::dvec3*, const glm::dvec3*>, 3> edges{
         {{&t.a, &t.c}, {&t.c, &t.b}, {&t.b, &t.a}}};
     for (const auto& [from, to] : edges) {
         const glm::dvec3 plane = side_plane(state.light, *from, *to);
-        stretch.cut(glm::dot(state.eye - state.light, plane), glm::dot(direction, plane),
+        stretch.cut(glm::dot(state.eye - state.light, plane), slope(plane),
                     {plane, Crossing::Kind::side});
     }
     const glm::dvec3 away = glm::cross(t.c - t.a, t.b - t.a);
-    stretch.cut(glm::dot(state.eye - t.a, away), glm::dot(direction, away),
-                {away, Crossing::Kind::light_cap});
+    stretch.cut(glm::dot(state.eye - t.a, away), slope(away), {away, Crossing::Kind::light_cap});
     return stretch;
 }
 
@@ -159,9 +165,13 @@ NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, do
         for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
         if (entry.count > 0) continue;
         const Cluster& cluster = state.hierarchy.clusters[entry.first];
-        for (std::uint32_t i = 0; i < cluster.count; ++i)
-            if (state.from_light.side[cluster.triangles[i]] < 0)
-                volumes.triangles.push_back(cluster.triangles[i]);
+        for (std::uint32_t i = 0; i < cluster.count; ++i) {
+            const std::uint32_t triangle = cluster.triangles[i];
+            if (state.from_light.side[triangle] >= 0) continue;
+            const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle),
+                                                      direction, radius * (1 + 0x1p-20));
+            if (stretch.is_ahead()) volumes.triangles.push_back(triangle);
+        }
     }
     std::sort(volumes.triangles.begin(), volumes.triangles.end());
     return volumes;
@@ -174,8 +184,8 @@ RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
     std::vector<Crossing> events;
     for (const std::uint32_t triangle : volumes.triangles) {
         const Stretch stretch =
-            stretch_in_volume(state, corners(*state.scene, triangle), direction);
-        if (!(stretch.begin < stretch.end) || stretch.end <= 0) continue;
+            stretch_in_volume(state, corners(*state.scene, triangle), direction, 0);
+        if (!stretch.is_ahead()) continue;
         const auto event = [&](double depth, int change, const Face& face) {
             events.push_back({depth, change, face.kind, triangle, face.plane});
         };
