@@ -1,0 +1,94 @@
+#include "reference/bounded.h"
+#include "reference/exact.h"
+#include "reference/predicates.h"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory_resource>
+#include <random>
+
+namespace shadowproof {
+namespace {
+
+constexpr std::uint32_t seed = 20260101;
+
+/// Doubles of many magnitudes, some equal, some zero.
+double any_double(std::mt19937& random) {
+    std::uniform_int_distribution<int> kind(0, 9);
+    if (kind(random) == 0) return 0;
+    std::uniform_real_distribution<double> mantissa(-1, 1);
+    std::uniform_int_distribution<int> exponent(-30, 30);
+    return std::ldexp(mantissa(random), exponent(random));
+}
+
+TEST(Expansion, sums_and_products_of_random_doubles_have_the_sign_of_their_rationals) {
+    std::mt19937 random(seed);
+    for (int trial = 0; trial < 20000; ++trial) {
+        std::pmr::monotonic_buffer_resource arena;
+        const ExpansionArithmetic exact{&arena};
+        std::array<double, 6> x{};
+        for (double& value : x) value = any_double(random);
+        // A determinant whose value is the rounding error of a larger one.
+        const double nearly = x[0] * x[1] + x[2] * x[3];
+        const auto formula = [&](const auto& arithmetic) {
+            const auto sum = arithmetic.number(x[0]) * arithmetic.number(x[1]) +
+                             arithmetic.number(x[2]) * arithmetic.number(x[3]);
+            return (sum - arithmetic.number(nearly)) * arithmetic.difference(x[4], x[5]);
+        };
+        ASSERT_EQ(formula(exact).sign(), formula(RationalArithmetic{}).sign())
+            << "seed " << seed << ", trial " << trial;
+    }
+}
+
+TEST(Bounded, a_sign_it_is_certain_of_is_right_and_near_zero_it_is_not_certain) {
+    std::mt19937 random(seed);
+    int uncertain = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        std::array<double, 4> x{};
+        for (double& value : x) value = any_double(random);
+        const double nearly = x[0] * x[1] + x[2] * x[3];
+        const auto formula = [&](const auto& arithmetic) {
+            return arithmetic.number(x[0]) * arithmetic.number(x[1]) +
+                   arithmetic.number(x[2]) * arithmetic.number(x[3]) - arithmetic.number(nearly);
+        };
+        const std::optional<int> sign = formula(BoundedArithmetic{}).sign();
+        if (sign)
+            ASSERT_EQ(*sign, formula(RationalArithmetic{}).sign())
+                << "seed " << seed << ", trial " << trial;
+        else
+            ++uncertain;
+    }
+    EXPECT_GT(uncertain, 10000);
+}
+
+TEST(Predicates, a_point_in_a_triangles_plane_is_on_neither_side) {
+    const Predicates predicates;
+    const Corners t{{0.1F, 0.7F, 0.3F}, {1.1F, 0.9F, 0.2F}, {0.4F, 1.3F, 0.9F}};
+    // a + 2 (b - a) - (c - a), exact in doubles as the corners are floats.
+    const glm::dvec3 inside = t.a + 2.0 * (t.b - t.a) - (t.c - t.a);
+    EXPECT_EQ(predicates.side(inside, t).sign, 0);
+    EXPECT_EQ(predicates.side(inside, t).exactness, Exactness::degenerate);
+    const glm::dvec3 normal{0.14, -0.65, 0.52};
+    const glm::dvec3 above = inside + 0x1p-50 * normal;
+    EXPECT_NE(predicates.side(above, t).sign, 0);
+    EXPECT_EQ(predicates.side(above, t).exactness, Exactness::exact);
+}
+
+TEST(Predicates, a_tie_at_an_edge_is_broken_the_other_way_for_the_triangle_on_its_other_side) {
+    const Predicates predicates;
+    const EyeRay ray{{0, 0, 0}, {0, 0, -1}, {2, 0, -4}};
+    const RayPoint q{.kind = RayPoint::Kind::depth, .depth = 4};
+    // The segment from the light to (0, 0, -4) passes through (1, 0, -4).
+    const glm::dvec3 a{1, 0, -3};
+    const glm::dvec3 b{1, 0, -5};
+    ASSERT_EQ(predicates.shadow_edge(ray, q, a, b).sign, 0);
+    const int one_way = predicates.shadow_edge_untied(ray, q, a, b).sign;
+    EXPECT_NE(one_way, 0);
+    EXPECT_EQ(predicates.shadow_edge_untied(ray, q, b, a).sign, -one_way);
+}
+
+} // namespace
+} // namespace shadowproof
