@@ -11,7 +11,8 @@ namespace shadowproof {
 
 namespace {
 
-constexpr double v = 0x1p-24; ///< rounding unit of float
+constexpr double v = 0x1p-24;                 ///< rounding unit of float
+constexpr double depth_roundings = 2 * 8 * v; ///< see depth_freedom
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
@@ -52,12 +53,12 @@ double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const 
     return half_step + 2 * 5 * v * scale * terms / depth_of(camera, point) + 3 * v * pixels;
 }
 
-// Window depth z is rounded 8 times on its way: reciprocal of w, product, viewport product and sum,
-// the plane's two products and two sums at the pixel; the fixed-point format then rounds at most
-// as much again as those in all ulps of 1: none counts for more than v z, with z = 1 the largest
-// standard depth and z = n/t reversed. Surface and volume face each: 16 v z, carried back to view
-// depth by dt/dz. (The plane's slope is computed from its corners; its error is an error of
-// place, far below the snapping step, and is covered with that.)
+// Window depth z is rounded at 1/w, z/w, the viewport's sum (its product is by a power of two), and
+// at the pixel in two products and two sums of its plane: 7 times by at most v z, where z = 1 is
+// the largest standard depth and z = n/t the reversed one. Storing it in fixed point rounds once
+// more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
+// are compared, carried back to view depth by dt/dz. (The plane's slope is computed from its
+// corners: its error is one of place, far below the snapping step, and covered with that.)
 double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const double t = depth_of(scene.camera, point);
     const double near = depth_model.near;
@@ -66,7 +67,7 @@ double depth_freedom(const Scene& scene, const DepthModel& depth_model, const gl
     if (depth_model.projection == DepthModel::Projection::finite)
         window_depth_error = t * t * (far - near) / (far * near);
     if (depth_model.projection == DepthModel::Projection::infinite_reversed) window_depth_error = t;
-    return 16 * v * (window_depth_error + transform_terms(scene, depth_model, point));
+    return depth_roundings * (window_depth_error + transform_terms(scene, depth_model, point));
 }
 
 Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius) {
@@ -253,13 +254,13 @@ private:
     }
 
     /// The cleared depth: the far plane, or infinity, where a standard projection's depths round
-    /// to 1 as soon as n / t is within the error of 1, 16 v.
+    /// to 1 as soon as n / t is within the error of 1.
     DepthRange background_range() const {
         const DepthModel& model = frame_.depth_model;
         if (model.projection == DepthModel::Projection::infinite_reversed)
             return {infinity, infinity, infinity};
         if (model.projection == DepthModel::Projection::infinite)
-            return {infinity, model.near / (16 * v), infinity};
+            return {infinity, model.near / depth_roundings, infinity};
         const glm::dvec3 point = scene_.camera.eye + far_ * scene_.camera.forward;
         const double q = depth_freedom(scene_, model, point);
         return {far_, far_ - q, far_ + q};

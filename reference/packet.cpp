@@ -1,5 +1,7 @@
 #include "reference/packet.h"
 
+#include "reference/norms.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -273,8 +275,7 @@ double power_that_normalises(double size) {
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
-    const double size =
-        std::max({std::abs(w.direction.x), std::abs(w.direction.y), std::abs(w.direction.z)});
+    const double size = largest(w.direction);
     const bool known = size > 0x1p-100 && size < 0x1p100 && w.error < size;
     // Powers of two only: 1 <= |w| < 2 afterwards.
     const double shrink = known ? power_that_normalises(size) : 1;

@@ -1,4 +1,5 @@
 #include "reference/ledger.h"
+#include "reference/norms.h"
 #include "reference/state.h"
 
 #include <algorithm>
@@ -19,13 +20,6 @@ struct Slab {
     double lower = 0; ///< of gradient . (X - L)
     double upper = 0;
 };
-
-double sum_of(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-double largest(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 /// All points between an eye ray and the light: X - L = p e + q D with e = E - L, 0 <= p <= 1 and
 /// 0 <= q. With m = e x D, m . (X - L) = 0, (D x m) . (X - L) = p m.m, (m x e) . (X - L) = q m.m.

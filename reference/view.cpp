@@ -1,5 +1,6 @@
 #include "reference/view.h"
 
+#include "reference/norms.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 namespace shadowproof {
 
 namespace {
-
-double largest(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
 
 /// The determinant in double is off by at most 48 u m l^2, m the largest coordinate of a - O and l
 /// that of an edge: the normal's components are off by 8 u l^2 (two products of edges rounded to

@@ -1,5 +1,7 @@
 #include "reference/visibility.h"
 
+#include "reference/norms.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,10 +12,6 @@ namespace shadowproof {
 namespace {
 
 constexpr double u = 0x1p-53;
-
-double largest(const glm::dvec3& w) {
-    return std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
-}
 
 float below(double x) {
     return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
