@@ -47,7 +47,12 @@ if [ ${#missing[@]} -gt 0 ]; then
     echo "setup.sh: installing ${missing[*]}"
     apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq
          -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0)
-    "${apt[@]}" update
+    # apt-get waits for the lock of the packages, but not for that of the lists.
+    for attempt in {1..60}; do
+        "${apt[@]}" update && break
+        [ "$attempt" -lt 60 ] || exit 3
+        sleep 5
+    done
     "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
 fi
 

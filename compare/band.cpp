@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
 /// point, the largest over the three. World coordinates carry the eye's distance from the origin
-/// with them; eye-relative ones do not. A point of a volume's side was extruded from the light,
-/// and that direction is rounded too.
+/// with them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A
+/// point of a volume's side was extruded from the light, and that direction is rounded too.
 double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const Camera& camera = scene.camera;
     const glm::dvec3 light = chosen_light(scene).position;
@@ -41,23 +41,26 @@ double depth_of(const Camera& camera, const glm::dvec3& point) {
 
 } // namespace
 
-// A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes, in x and
-// in w alike, so twice, divided by w = depth, in units of half the picture. The division, the
-// viewport's product and its sum each round a coordinate of up to the picture's width: 3 v.
+// A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes. In x
+// that moves a point by scale / depth pixels a unit, in w by its own distance from the middle, at
+// most half the picture, over the depth. The division, the viewport's product and its sum each
+// round a coordinate of up to the picture's width: 3 v.
 double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const Camera& camera = scene.camera;
     const double half_step = std::exp2(-depth_model.subpixel_bits - 1);
     const double pixels = std::max(camera.width, camera.height);
     const double scale = 0.5 * camera.height / camera.tan_half_height;
     const double terms = transform_terms(scene, depth_model, point);
-    return half_step + 2 * 5 * v * scale * terms / depth_of(camera, point) + 3 * v * pixels;
+    const double transform = 5 * v * (scale + 0.5 * pixels) * terms / depth_of(camera, point);
+    return half_step + transform + 3 * v * pixels;
 }
 
 // Window depth z is rounded at 1/w, z/w, the viewport's sum (its product is by a power of two), and
 // at the pixel in two products and two sums of its plane: 7 times by at most v z, where z = 1 is
 // the largest standard depth and z = n/t the reversed one. Storing it in fixed point rounds once
 // more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
-// are compared, carried back to view depth by dt/dz. (The plane's slope is computed from its
+// are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
+// lateral_freedom), which 8 covers too. (The plane's slope is computed from its
 // corners: its error is one of place, far below the snapping step, and covered with that.)
 double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const double t = depth_of(scene.camera, point);
@@ -188,16 +191,15 @@ public:
         may_gape_ = may_gape(scene_, in_front);
     }
 
-    /// Appends what the counter may read if the pixel is covered as sample i is. False where the
+    /// Appends what the counter may read if the pixel is covered as sample i is: nothing where the
     /// shown surface cannot be seen there.
-    bool collect(std::size_t i, const RayTruth& truth, const NearbyVolumes& volumes,
+    void collect(std::size_t i, const RayTruth& truth, const NearbyVolumes& volumes,
                  std::vector<Reading>& readings) {
         bool moved = false;
         const std::optional<double> depth = shown_depth(truth, around_.rays[i], moved);
-        if (!depth) return false;
+        if (!depth) return;
         shown_range_.nominal = *depth;
         collect(ray_ledger(tracer_, volumes, around_.rays[i]), around_.rays[i], moved, readings);
-        return true;
     }
 
 private:
@@ -348,7 +350,7 @@ PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::u
     PixelBand band;
     for (std::size_t i = 0; i < around.rays.size(); ++i) {
         std::vector<Reading> readings;
-        band.surface_allowed |= finder.collect(i, truth[i], volumes, readings);
+        finder.collect(i, truth[i], volumes, readings);
         const bool found = std::any_of(readings.begin(), readings.end(), matches);
         band.readings.insert(band.readings.end(), readings.begin(), readings.end());
         if (found) break;

@@ -46,8 +46,7 @@ struct Reading {
 
 /// What the rasterizer may make of a pixel that shows the triangle read back.
 struct PixelBand {
-    bool surface_allowed = false;  ///< the triangle read back is one that may be seen here
-    std::vector<Reading> readings; ///< without repetition, for that triangle
+    std::vector<Reading> readings; ///< without repetition; none where it cannot be seen here
 };
 
 /// `truth`: what trace_rays finds along the neighbourhood's rays. Looks no further than to the

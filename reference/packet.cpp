@@ -276,6 +276,7 @@ void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const 
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
     const double size = largest(w.direction);
+    // Beyond 2^+-100 the limits, which are scaled alike, would leave the range of floats.
     const bool known = size > 0x1p-100 && size < 0x1p100 && w.error < size;
     // Powers of two only: 1 <= |w| < 2 afterwards.
     const double shrink = known ? power_that_normalises(size) : 1;

@@ -29,7 +29,8 @@ std::array<Slab, 3> swept_region(const glm::dvec3& e, const glm::dvec3& directio
     const glm::dvec3 m = glm::cross(e, direction);
     const double mm = glm::dot(m, m);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    // q |D| <= |X - L| + |e|. Rounding is far below 2^-40 of the terms' sizes.
+    // q |D| <= |X - L| + |e|. Gradients are products of up to four factors, each off by some 2^-53:
+    // 2^-40 of the terms' sizes leaves room for thousands of roundings.
     const double farthest = (reach + largest(e)) / largest(direction);
     const auto margin = [&](const glm::dvec3& gradient) {
         return sum_of(gradient) * (farthest * radius + 0x1p-40 * (reach + largest(e)));
@@ -162,6 +163,7 @@ NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, do
         for (std::uint32_t i = 0; i < cluster.count; ++i) {
             const std::uint32_t triangle = cluster.triangles[i];
             if (state.from_light.side[triangle] >= 0) continue;
+            // A little more than the radius, for the rounding of the slopes.
             const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle),
                                                       direction, radius * (1 + 0x1p-20));
             if (stretch.is_ahead()) volumes.triangles.push_back(triangle);

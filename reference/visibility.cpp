@@ -121,8 +121,15 @@ private:
         const double denominator = glm::dot(ray.direction, normal);
         const double denominator_error = 50 * u * largest(ray.direction) * l * l;
         const double scale = question_.state->from_eye.scale;
-        if (!(std::abs(numerator) > 4 * numerator_error)) return; // the old limits stay valid
-        // 1/s = denominator / (numerator scale), both off by their errors.
+        // Too near the eye's own plane to tell: whatever comes must be compared exactly.
+        if (!(std::abs(numerator) > 4 * numerator_error)) {
+            packet.lower_hi[static_cast<std::size_t>(lane)] =
+                std::numeric_limits<float>::infinity();
+            return;
+        }
+        // 1/s = denominator / (numerator scale). The numerator may be smaller by a quarter, which
+        // makes its relative error and the denominator's share up to 4/3 as large: 1.5 covers that
+        // and second order, 4 u the roundings.
         const double inverse = denominator / (numerator * scale);
         const double error =
             std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) + 4 * u) +

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -134,6 +135,7 @@ std::string as_text(const Explanation& e) {
     const Scene& scene = e.scene;
     std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", scene.name, e.pixel.x, e.pixel.y,
                                    scene.camera.width, scene.camera.height);
+    for (const std::string& note : scene.notes) text += fmt::format("  note      {}\n", note);
     text += fmt::format("  ray       from {} along {}\n", vector_words(scene.camera.eye),
                         vector_words(e.direction));
     const bool seen = e.truth.triangle != no_triangle;
@@ -226,6 +228,7 @@ Json as_json(const Explanation& e) {
                 {"surface", seen ? Json(e.at_surface) : Json(nullptr)},
                 {"far", e.at_far},
                 {"infinity", e.ledger.at_infinity}}},
+              {"notes", scene.notes},
               {"techniques", Json::array()}};
     if (seen) {
         json["seen"]["depth"] = e.truth.depth;
@@ -263,14 +266,16 @@ int explain(const ExplainOptions& options) {
                   .techniques = {}};
     if (e.truth.triangle != no_triangle)
         e.faces_light = sides_of(tracer, e.truth.triangle).faces_light();
-    if (e.truth.triangle != no_triangle)
-        e.faces_light = sides_of(tracer, e.truth.triangle).faces_light();
     Gpu gpu(options.technique.platform);
     for (const Technique* technique : options.technique.chosen())
         e.techniques.push_back(ask(*technique, tracer, truth, depths, plan, options.pixel, gpu));
-    if (!options.json.empty()) write_file(options.json, as_json(e).dump(1) + "\n");
     fmt::print("{}", as_text(e));
-    return exit_passed;
+    if (!options.json.empty())
+        write_file(options.json,
+                   as_json(e).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    const bool all_ran = std::all_of(e.techniques.begin(), e.techniques.end(),
+                                     [](const TechniqueWords& t) { return t.error.empty(); });
+    return all_ran ? exit_passed : exit_could_not;
 }
 
 /// The pixel must lie in the picture, whichever of the two flags stands first.

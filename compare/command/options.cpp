@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -97,11 +98,16 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "--technique",
             [&](const std::vector<std::string>& names) {
                 options.techniques.clear();
-                for (const std::string& name : names)
-                    options.techniques.push_back(parse_technique(name));
+                for (const std::string& name : names) {
+                    const Technique* technique = parse_technique(name);
+                    auto& chosen = options.techniques;
+                    if (std::find(chosen.begin(), chosen.end(), technique) == chosen.end())
+                        chosen.push_back(technique);
+                }
             },
             "Techniques, separated by commas (all)")
         ->delimiter(',')
+        ->allow_extra_args(false) // a scene may follow
         ->type_name("A,B");
     command
         .add_option_function<std::string>(

@@ -6,13 +6,13 @@ namespace shadowproof {
 namespace {
 
 /// Counts volume faces behind the visible surface; depth clamping keeps what lies past the far
-/// plane, so the whole volume is counted.
+/// plane, so the whole volume is counted. Where no volume gets there, nothing needs clamping.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     ShadowVolume volume = extrude(scene);
     if (!plan.dark_cap) volume.dark_cap.clear();
     return draw_stencil_shadows(
         gpu, scene, volume,
-        {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
+        {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = plan.volume_meets_far},
          .steps = {.front = -1, .back = +1},
          .depth_model = {.projection = DepthModel::Projection::finite,
                          .near = scene.camera.near,
