@@ -44,8 +44,8 @@ struct GroundTruth {
 /// A scene prepared for tracing: hierarchy, light and camera. Keeps a reference to the scene.
 class Tracer {
 public:
-    /// threads 0: one per core. Coordinates must be finite. Throws Error for what the reference does
-    /// not decide: a directional light, no triangles.
+    /// threads 0: one per core. Coordinates must be finite. Throws Error for what the reference
+    /// does not decide: a directional light, no triangles.
     explicit Tracer(const Scene& scene, int threads = 0);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
