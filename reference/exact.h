@@ -54,6 +54,12 @@ struct ExpansionArithmetic {
 inline constexpr double expansion_smallest = 1e-20;
 inline constexpr double expansion_largest = 1e20;
 
+/// A ray's direction enters once, beside five differences: 1e-180 so far. Its component is a sum of
+/// the camera's axes times factors that are zero or above 1e-16 * 1e-20 (a rounded picture place
+/// times tan_half_height); cancellation leaves 2^-53 of the smallest term. With axes of at least
+/// 1e-40 that is above 1e-92, and 1e-180 * 1e-92 * 2^-53 > 1e-288 still holds.
+inline constexpr double expansion_smallest_axis = 1e-40;
+
 struct RationalArithmetic {
     struct Number {
         mpq_class value;

@@ -36,15 +36,20 @@ bool beyond_expansions(double x) {
     return size != 0 && !(size >= expansion_smallest && size <= expansion_largest);
 }
 
-/// Whether exact signs need rationals (exact.h). Ray directions are sums of the camera's axes:
-/// their smallest non-zero component is bounded by rounding, not by the axes, so is left to the
-/// predicates' range with room: 2^-53 of the largest is above 1e-17.
+/// Whether exact signs need rationals (exact.h).
 bool needs_rationals(const Scene& scene) {
     const auto beyond = [](const auto& v) {
         return beyond_expansions(v.x) || beyond_expansions(v.y) || beyond_expansions(v.z);
     };
-    return beyond(scene.camera.eye) || beyond(chosen_light(scene).position) ||
-           beyond_expansions(scene.camera.near) ||
+    const auto tiny = [](const glm::dvec3& axis) {
+        const auto is_tiny = [](double x) {
+            return x != 0 && std::abs(x) < expansion_smallest_axis;
+        };
+        return is_tiny(axis.x) || is_tiny(axis.y) || is_tiny(axis.z);
+    };
+    return tiny(scene.camera.right) || tiny(scene.camera.up) || tiny(scene.camera.forward) ||
+           beyond_expansions(scene.camera.tan_half_height) || beyond(scene.camera.eye) ||
+           beyond(chosen_light(scene).position) || beyond_expansions(scene.camera.near) ||
            (std::isfinite(scene.camera.far) && beyond_expansions(scene.camera.far)) ||
            std::any_of(scene.positions.begin(), scene.positions.end(), beyond);
 }

@@ -192,6 +192,12 @@ std::vector<HardScene> hard_scenes() {
                           scene.camera.far = 5;
                           return scene;
                       }});
+    scenes.push_back({"camera_axes_of_1e-200", [] {
+                          Scene scene = boxes({0.5, 0, -1});
+                          scene.camera.forward.x = 1e-200;
+                          scene.camera.up.z = -1e-200;
+                          return scene;
+                      }});
     return scenes;
 }
 
