@@ -300,7 +300,7 @@ private:
     /// that surface is culled.
     bool counts(const Crossing& crossing) const {
         if (crossing.depth < scene_.camera.near) return false;
-        return crossing.kind == Crossing::Kind::side ||
+        return crossing.is_side() ||
                (crossing.triangle != shown_ && !sides_of(tracer_, crossing.triangle).visible);
     }
 

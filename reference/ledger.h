@@ -30,12 +30,15 @@ std::int64_t predicted_count(const ShadowDepths& depths, const GroundTruth& trut
 
 /// One crossing of an eye ray with the boundary of the shadow volumes.
 struct Crossing {
-    enum class Kind : std::uint8_t { light_cap, side };
+    /// Which face: the side over the triangle's edge from corner k to the next, or its light cap.
+    enum class Part : std::uint8_t { side_0, side_1, side_2, light_cap };
     double depth = 0; ///< view depth
     int change = 0;   ///< +1: entering a volume, -1: leaving it
-    Kind kind = Kind::side;
+    Part part = Part::light_cap;
     std::uint32_t triangle = no_triangle; ///< whose volume (one of them, where sides cancel)
     glm::dvec3 plane{0, 0, 0};            ///< normal of the face that is crossed, of any length
+
+    bool is_side() const { return part != Part::light_cap; }
 };
 
 /// The ledger along one ray: crossings by increasing depth from the eye on, the count at the eye,

@@ -1,3 +1,4 @@
+#include "reference/faces.h"
 #include "reference/ledger.h"
 #include "reference/norms.h"
 #include "reference/state.h"
@@ -56,7 +57,7 @@ bool may_meet(const Entry& entry, const glm::dvec3& light, const std::array<Slab
 /// A face of one triangle's shadow volume.
 struct Face {
     glm::dvec3 plane{0, 0, 0};
-    Crossing::Kind kind = Crossing::Kind::side;
+    Crossing::Part part = Crossing::Part::light_cap;
 };
 
 /// The stretch of an eye ray that lies in one triangle's shadow volume, which is convex.
@@ -85,16 +86,6 @@ struct Stretch {
     }
 };
 
-bool before(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
-}
-
-/// Both triangles at an edge must find the same bits, so the edge is always taken one way.
-glm::dvec3 side_plane(const glm::dvec3& light, const glm::dvec3& a, const glm::dvec3& b) {
-    if (before(b, a)) return -side_plane(light, b, a);
-    return glm::cross(a - light, b - a);
-}
-
 /// `radius` widens the stretch to hold those of all rays whose direction differs by at most that a
 /// component: a plane's slope then differs by at most |plane|_1 radius.
 Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const glm::dvec3& direction,
@@ -105,14 +96,14 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const gl
     };
     // The light sees the front: from it a, c, b is the positive order.
     const std::array<std::pair<const glm::dvec3*, const glm::dvec3*>, 3> edges{
-        {{&t.a, &t.c}, {&t.c, &t.b}, {&t.b, &t.a}}};
-    for (const auto& [from, to] : edges) {
-        const glm::dvec3 plane = side_plane(state.light, *from, *to);
+        {{&t.b, &t.a}, {&t.c, &t.b}, {&t.a, &t.c}}};
+    for (std::size_t part = 0; part < edges.size(); ++part) {
+        const glm::dvec3 plane = side_plane(state.light, *edges[part].first, *edges[part].second);
         stretch.cut(glm::dot(state.eye - state.light, plane), slope(plane),
-                    {plane, Crossing::Kind::side});
+                    {plane, static_cast<Crossing::Part>(part)});
     }
-    const glm::dvec3 away = glm::cross(t.c - t.a, t.b - t.a);
-    stretch.cut(glm::dot(state.eye - t.a, away), slope(away), {away, Crossing::Kind::light_cap});
+    const glm::dvec3 away = cap_plane(t);
+    stretch.cut(glm::dot(state.eye - t.a, away), slope(away), {away, Crossing::Part::light_cap});
     return stretch;
 }
 
@@ -120,7 +111,7 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const gl
 std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
     std::sort(events.begin(), events.end(), [](const Crossing& a, const Crossing& b) {
         if (a.depth != b.depth) return a.depth < b.depth;
-        if (a.kind != b.kind) return a.kind < b.kind;
+        if (a.is_side() != b.is_side()) return b.is_side();
         if (a.change != b.change) return a.change < b.change;
         return a.triangle < b.triangle;
     });
@@ -129,14 +120,14 @@ std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
         std::size_t end = i;
         int sides = 0;
         for (; end < events.size() && events[end].depth == events[i].depth; ++end) {
-            if (events[end].kind == Crossing::Kind::light_cap)
-                kept.push_back(events[end]);
-            else
+            if (events[end].is_side())
                 sides += events[end].change;
+            else
+                kept.push_back(events[end]);
         }
         const int change = sides > 0 ? 1 : -1;
         for (std::size_t k = i; k < end && sides != 0; ++k) {
-            if (events[k].kind != Crossing::Kind::side || events[k].change != change) continue;
+            if (!events[k].is_side() || events[k].change != change) continue;
             kept.push_back(events[k]);
             sides -= change;
         }
@@ -183,7 +174,7 @@ RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
             stretch_in_volume(state, corners(*state.scene, triangle), direction, 0);
         if (!stretch.is_ahead()) continue;
         const auto event = [&](double depth, int change, const Face& face) {
-            events.push_back({depth, change, face.kind, triangle, face.plane});
+            events.push_back({depth, change, face.part, triangle, face.plane});
         };
         if (stretch.begin < 0)
             ++ledger.at_eye;

@@ -1,0 +1,37 @@
+// The planes of the faces that bound shadow volumes, and where an eye ray meets them. The formulas
+// are plain products and sums in a fixed order, so that another program may repeat them bit for
+// bit.
+#pragma once
+
+#include "reference/predicates.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// Order of points: by x, then y, then z.
+inline bool before(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+/// Normal of the plane through the light and the edge from a to b, any length. Both triangles at an
+/// edge must find the same bits, so the edge is always taken one way.
+inline glm::dvec3 side_plane(const glm::dvec3& light, const glm::dvec3& a, const glm::dvec3& b) {
+    if (before(b, a)) return -side_plane(light, b, a);
+    return glm::cross(a - light, b - a);
+}
+
+/// Normal of a triangle, into the volume behind it where the light sees its front.
+inline glm::dvec3 cap_plane(const Corners& t) {
+    return glm::cross(t.c - t.a, t.b - t.a);
+}
+
+/// Parameter t at which eye + t D meets a plane through `through`. Infinite or NaN where they are
+/// parallel.
+inline double depth_on_plane(const glm::dvec3& eye, const glm::dvec3& direction,
+                             const glm::dvec3& through, const glm::dvec3& plane) {
+    return -glm::dot(eye - through, plane) / glm::dot(direction, plane);
+}
+
+} // namespace shadowproof

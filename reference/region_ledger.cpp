@@ -1,0 +1,218 @@
+#include "reference/region_ledger.h"
+
+#include "reference/faces.h"
+#include "reference/state.h"
+#include "scenes/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <tuple>
+
+namespace shadowproof {
+
+namespace {
+
+/// Normal of the plane through the eye and an edge, whichever way the edge is given.
+glm::dvec3 edge_plane(const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b) {
+    return before(b, a) ? glm::cross(b - eye, a - eye) : glm::cross(a - eye, b - eye);
+}
+
+/// Signs of a function that is linear in the direction, over a region.
+struct Signs {
+    bool some_negative = false;
+    bool some_positive = false; ///< or zero
+
+    Signs(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& plane) {
+        for (const glm::dvec3& corner : corners)
+            (glm::dot(corner, plane) < 0 ? some_negative : some_positive) = true;
+    }
+    bool mixed() const { return some_negative && some_positive; }
+};
+
+std::vector<std::uint32_t> casting_triangles(const Tracer::State& state) {
+    std::vector<std::uint32_t> casting;
+    for (std::uint32_t i = 0; i < state.from_light.side.size(); ++i)
+        if (state.from_light.side[i] < 0) casting.push_back(i);
+    return casting;
+}
+
+/// Where the edges of `edges`, sorted by a and b, begin at each position.
+std::vector<std::size_t> first_of_each(const std::vector<SurplusEdge>& edges, std::size_t size) {
+    std::vector<std::size_t> first(size + 1, 0);
+    for (const SurplusEdge& edge : edges) ++first[edge.a + 1];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    return first;
+}
+
+/// Planes between neighbouring corners and the eye; normals point out of the region.
+std::array<glm::dvec3, 4> walls_of(const std::array<glm::dvec3, 4>& corners) {
+    std::array<glm::dvec3, 4> walls{};
+    const glm::dvec3 middle = corners[0] + corners[1] + corners[2] + corners[3];
+    for (std::size_t i = 0; i < 4; ++i) {
+        walls[i] = glm::cross(corners[i], corners[(i + 1) % 4]);
+        if (glm::dot(walls[i], middle) > 0) walls[i] = -walls[i];
+    }
+    return walls;
+}
+
+} // namespace
+
+Silhouette::Silhouette(const Tracer& tracer) {
+    const Tracer::State& state = tracer.state();
+    const Scene& scene = *state.scene;
+    const std::vector<std::uint32_t> welded = weld_by_position(scene.positions);
+    const std::vector<std::uint32_t> casting = casting_triangles(state);
+    const std::vector<SurplusEdge> edges = boundary(scene, welded, casting);
+    const std::vector<std::size_t> first = first_of_each(edges, scene.positions.size());
+
+    constexpr std::uint32_t unnumbered = 0xffffffffU;
+    std::vector<std::uint32_t> numbers(scene.positions.size(), unnumbered);
+    const auto number_of = [&](std::uint32_t position) {
+        if (numbers[position] == unnumbered) {
+            numbers[position] = static_cast<std::uint32_t>(vertices_.size());
+            const glm::dvec3 at(scene.positions[position]);
+            vertices_.push_back({at, glm::cross(at - state.light, state.eye - state.light)});
+        }
+        return numbers[position];
+    };
+    for (const SurplusEdge& edge : edges) {
+        const glm::dvec3 a(scene.positions[edge.a]);
+        const glm::dvec3 b(scene.positions[edge.b]);
+        const bool turned = before(b, a);
+        Side& side = sides_.emplace_back();
+        side.p = number_of(turned ? edge.b : edge.a);
+        side.q = number_of(turned ? edge.a : edge.b);
+        // The light sees the front of the triangle on the left of a to b: its side runs back.
+        side.surplus = turned ? edge.surplus : -edge.surplus;
+        side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
+        side.edge = edge_plane(state.eye, a, b);
+    }
+    for (const std::uint32_t triangle : casting)
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t a = welded[scene.triangles[triangle][k]];
+            const std::uint32_t b = welded[scene.triangles[triangle][(k + 1) % 3]];
+            for (std::size_t i = first[a]; i < first[a + 1]; ++i) {
+                if (edges[i].b != b || sides_[i].triangle != no_triangle) continue;
+                sides_[i].triangle = triangle;
+                sides_[i].part = static_cast<Crossing::Part>(k);
+            }
+        }
+}
+
+RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
+                           const std::array<glm::dvec3, 4>& corners)
+    : tracer_(tracer), silhouette_(silhouette) {
+    gather_sides(corners);
+    gather_caps(corners);
+}
+
+// A ray eye + t D crosses the side over p and q, as seen from the light L, where
+//   p and q lie on different sides of the plane through the ray and L: the signs of
+//     det(p - L, eye - L, D) and det(q - L, eye - L, D) differ;
+//   with N = (p - L) x (q - L), t = -(eye - L).N / D.N is positive;
+//   the crossing lies beyond the edge: det(D, p - eye, q - eye) has the sign of (eye - L).N, as
+//     that determinant is (lambda - 1) / t times it where the crossing is L + lambda (edge - L).
+// All are linear in D, so what holds at no corner of a region holds nowhere in it.
+void RegionLedger::gather_sides(const std::array<glm::dvec3, 4>& corners) {
+    const Tracer::State& state = tracer_.state();
+    const std::vector<Silhouette::Vertex>& vertices = silhouette_.vertices();
+    std::vector<Signs> signs;
+    signs.reserve(vertices.size());
+    for (const Silhouette::Vertex& vertex : vertices) signs.emplace_back(corners, vertex.plane);
+    for (const Silhouette::Side& side : silhouette_.sides()) {
+        const Signs& p = signs[side.p];
+        const Signs& q = signs[side.q];
+        if (!p.mixed() && !q.mixed() && p.some_negative == q.some_negative) continue;
+        const double eye = glm::dot(state.eye - state.light, side.plane);
+        const Signs ray(corners, side.plane);
+        if (eye < 0 ? !ray.some_positive : !ray.some_negative) continue;
+        const Signs beyond(corners, side.edge);
+        if (eye < 0 ? !beyond.some_negative : !beyond.some_positive) continue;
+        sides_.push_back(side);
+    }
+}
+
+void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
+    const Tracer::State& state = tracer_.state();
+    const std::array<glm::dvec3, 4> walls = walls_of(corners);
+    const auto may_meet = [&](const Entry& entry) {
+        const glm::dvec3 lower(entry.lower[0], entry.lower[1], entry.lower[2]);
+        const glm::dvec3 upper(entry.upper[0], entry.upper[1], entry.upper[2]);
+        const glm::dvec3 centre = 0.5 * (lower + upper) - state.eye;
+        const glm::dvec3 half = 0.5 * (upper - lower);
+        return std::all_of(walls.begin(), walls.end(), [&](const glm::dvec3& wall) {
+            // 2^-40 of the terms' sizes leaves room for thousands of roundings.
+            const double reach = glm::dot(glm::abs(wall), half);
+            const double size = glm::dot(glm::abs(wall), glm::abs(centre)) + reach;
+            return glm::dot(wall, centre) - reach <= 0x1p-40 * size;
+        });
+    };
+    std::vector<std::uint32_t> stack{0};
+    while (!stack.empty()) {
+        const Entry& entry = state.hierarchy.entries[stack.back()];
+        stack.pop_back();
+        if (!may_meet(entry)) continue;
+        for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
+        if (entry.count > 0) continue;
+        const Cluster& cluster = state.hierarchy.clusters[entry.first];
+        for (std::uint32_t i = 0; i < cluster.count; ++i) gather_cap(cluster.triangles[i], corners);
+    }
+}
+
+void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners) {
+    const Tracer::State& state = tracer_.state();
+    if (state.from_light.side[triangle] >= 0 || state.from_eye.side[triangle] == 0) return;
+    const Corners t = shadowproof::corners(*state.scene, triangle);
+    Cap cap{triangle, t.a, cap_plane(t), {}, {}};
+    const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
+    bool may_be_left = true;
+    bool may_be_right = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        cap.edges[k] = edge_plane(state.eye, loop[k], loop[k + 1]);
+        cap.turned[k] = before(loop[k + 1], loop[k]);
+        const Signs signs(corners, cap.edges[k]);
+        may_be_left = may_be_left && (cap.turned[k] ? signs.some_positive : signs.some_negative);
+        may_be_right = may_be_right && (cap.turned[k] ? signs.some_negative : signs.some_positive);
+    }
+    if (may_be_left || may_be_right) caps_.push_back(cap);
+}
+
+bool RegionLedger::Cap::is_met_by(const glm::dvec3& direction) const {
+    const auto left = [&](std::size_t k) {
+        return (glm::dot(direction, edges[k]) < 0) != turned[k];
+    };
+    return left(0) == left(1) && left(1) == left(2);
+}
+
+void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>& found) const {
+    const Tracer::State& state = tracer_.state();
+    found.clear();
+    for (const Silhouette::Side& side : sides_) {
+        const auto behind = [&](std::uint32_t vertex) {
+            return glm::dot(direction, silhouette_.vertices()[vertex].plane) < 0;
+        };
+        if (behind(side.p) == behind(side.q)) continue;
+        const double slope = glm::dot(direction, side.plane);
+        const double eye = glm::dot(state.eye - state.light, side.plane);
+        if (slope == 0 || (slope < 0) == (eye < 0)) continue;
+        if ((glm::dot(direction, side.edge) < 0) != (eye < 0)) continue;
+        const int change = slope > 0 ? side.surplus : -side.surplus;
+        for (int i = 0; i < std::abs(change); ++i)
+            found.push_back(
+                {-eye / slope, change > 0 ? 1 : -1, side.part, side.triangle, side.plane});
+    }
+    for (const Cap& cap : caps_) {
+        if (!cap.is_met_by(direction)) continue;
+        const double depth = depth_on_plane(state.eye, direction, cap.through, cap.plane);
+        if (!(depth > 0)) continue;
+        found.push_back({depth, glm::dot(direction, cap.plane) > 0 ? 1 : -1,
+                         Crossing::Part::light_cap, cap.triangle, cap.plane});
+    }
+    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
+        return std::tuple(a.depth, !a.is_side() ? 0 : 1, a.change, a.triangle) <
+               std::tuple(b.depth, !b.is_side() ? 0 : 1, b.change, b.triangle);
+    });
+}
+
+} // namespace shadowproof

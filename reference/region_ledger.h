@@ -1,0 +1,75 @@
+// The ledgers of all eye rays of a small region of the picture: only the silhouettes of the shadow
+// volumes are asked, and few of them reach one region. A hundred times faster than ray by ray.
+#pragma once
+
+#include "reference/ledger.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+/// The silhouette edges of a scene as its light sees them: made once, for all regions.
+class Silhouette {
+public:
+    explicit Silhouette(const Tracer& tracer);
+
+    /// A side of the shadow volumes, over the edge from vertex p to q, p before q.
+    struct Side {
+        std::uint32_t p = 0; ///< indices into vertices
+        std::uint32_t q = 0;
+        int surplus = 0; ///< how many sides lie there; negative where they run from p to q
+        std::uint32_t triangle = no_triangle; ///< the first that has it
+        Crossing::Part part = Crossing::Part::side_0;
+        glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
+        glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
+    };
+    struct Vertex {
+        glm::dvec3 position{0, 0, 0};
+        glm::dvec3 plane{0, 0, 0}; ///< normal of the plane through it, eye and light
+    };
+
+    const std::vector<Vertex>& vertices() const { return vertices_; }
+    const std::vector<Side>& sides() const { return sides_; }
+
+private:
+    std::vector<Vertex> vertices_;
+    std::vector<Side> sides_;
+};
+
+class RegionLedger {
+public:
+    /// `corners`: directions of four rays of the picture whose rectangle holds all that are asked
+    /// for. Keeps references to tracer and silhouette.
+    RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
+                 const std::array<glm::dvec3, 4>& corners);
+
+    /// Crossings of one ray by increasing depth from the eye on, as ray_ledger lists them. Double
+    /// precision with signs that neighbouring faces share, so that a closed volume is left as often
+    /// as it is entered but where a product rounds to another sign: compare the sum with the exact
+    /// counts.
+    void crossings(const glm::dvec3& direction, std::vector<Crossing>& found) const;
+
+private:
+    struct Cap {
+        std::uint32_t triangle = no_triangle;
+        glm::dvec3 through{0, 0, 0};
+        glm::dvec3 plane{0, 0, 0};
+        std::array<glm::dvec3, 3> edges{}; ///< as Silhouette::Side::edge
+        std::array<bool, 3> turned{};      ///< the triangle runs through the edge the other way
+        bool is_met_by(const glm::dvec3& direction) const; ///< ahead of the eye or behind it
+    };
+
+    void gather_sides(const std::array<glm::dvec3, 4>& corners);
+    void gather_caps(const std::array<glm::dvec3, 4>& corners);
+    void gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners);
+
+    const Tracer& tracer_;
+    const Silhouette& silhouette_;
+    std::vector<Silhouette::Side> sides_;
+    std::vector<Cap> caps_;
+};
+
+} // namespace shadowproof

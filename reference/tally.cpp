@@ -1,0 +1,55 @@
+#include "reference/tally.h"
+
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+bool clips_at_far(const Counting& counting, const DepthModel& depth_model) {
+    return depth_model.projection == DepthModel::Projection::finite && !counting.depth_clamp;
+}
+
+} // namespace
+
+std::string_view name_of(Tally tally) {
+    switch (tally) {
+    case Tally::counted:
+        return "counted";
+    case Tally::beyond:
+        return "beyond";
+    case Tally::lost_near:
+        return "lost_near";
+    case Tally::lost_far:
+        return "lost_far";
+    case Tally::lost_cap:
+        break;
+    }
+    return "lost_cap";
+}
+
+Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double far,
+            const Counting& counting, const DepthModel& depth_model) {
+    if (seen == no_triangle)
+        surface = depth_model.projection == DepthModel::Projection::finite
+                      ? far
+                      : std::numeric_limits<double>::infinity();
+    const bool own = crossing.triangle == seen && !crossing.is_side();
+    const bool in_front = !own && crossing.depth < surface;
+    const bool asked_for = in_front == (counting.test == Counting::Test::depth_pass);
+    if (!asked_for) return Tally::beyond;
+    if (in_front && !counting.depth_clamp && crossing.depth < depth_model.near)
+        return Tally::lost_near;
+    if (!in_front && clips_at_far(counting, depth_model) && crossing.depth >= far)
+        return Tally::lost_far;
+    if (!crossing.is_side() && !counting.light_cap) return Tally::lost_cap;
+    return Tally::counted;
+}
+
+Tally tally_of_dark_caps(const Counting& counting, const DepthModel& depth_model) {
+    if (counting.test == Counting::Test::depth_pass) return Tally::beyond;
+    if (clips_at_far(counting, depth_model)) return Tally::lost_far;
+    return counting.dark_cap ? Tally::counted : Tally::lost_cap;
+}
+
+} // namespace shadowproof
