@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/classify.h"
+#include "compare/ledger_table.h"
 #include "compare/verdict.h"
 #include "reference/trace.h"
 #include "scenes/frame.h"
@@ -22,7 +23,9 @@ struct Cell {
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
     Comparison comparison;
+    std::string cause_map; ///< of the comparison, packed as results.json holds it
     Frame frame;
+    LedgerTable ledgers;
 };
 
 struct SceneResult {
@@ -33,7 +36,12 @@ struct SceneResult {
     int width = 0;
     int height = 0;
     std::size_t triangles = 0;
+    std::string digest; ///< of the scene's content, as digest_of gives it
     std::string light;
+    glm::dvec3 light_position{0, 0, 0};
+    Camera camera;
+    double far = 0; ///< the finite far plane of the techniques that have one
+    std::vector<Mesh> meshes;
     std::vector<std::string> provokes;
     std::vector<std::string> left_out;
     std::vector<std::string> notes;
@@ -83,6 +91,9 @@ std::string grouped(std::uint64_t number);
 /// The command that runs this cell alone, quoted for a POSIX shell.
 std::string reproducing_command(const Report& report, const SceneResult& scene, const Cell& cell);
 
+/// The scene's folder in the report: its name in characters that every file system and URL takes.
+std::string folder_of(const SceneResult& scene);
+
 /// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
 
@@ -105,9 +116,9 @@ public:
     ReportFolder(const ReportFolder&) = delete;
     ReportFolder& operator=(const ReportFolder&) = delete;
 
-    /// Writes the pictures of a scene, which may then be dropped. threads 0: one per core.
+    /// Writes pictures and data of a scene, which may then be dropped. threads 0: one per core.
     void add_pictures(const SceneResult& scene, int threads = 0);
-    /// Writes index.html and results.json, and replaces an older report.
+    /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
 
 private:

@@ -1,4 +1,5 @@
 #include "compare/report.h"
+#include "compare/report_data.h"
 #include "compare/report_html.h"
 #include "compare/report_pictures.h"
 #include "scenes/error.h"
@@ -69,7 +70,9 @@ void ReportFolder::add_pictures(const SceneResult& scene, int threads) {
 
 void ReportFolder::finish(const Report& report) {
     write_file(beside_ / "index.html", to_html(report));
-    write_file(beside_ / "results.json", to_json(report));
+    const std::string results = to_json(report);
+    write_file(beside_ / "results.json", results);
+    write_file(beside_ / "results.js", results_script(results));
     check_replaceable(folder_);
     try {
         // A folder that is not empty cannot be renamed over: the older one steps aside first, so

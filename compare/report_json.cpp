@@ -8,6 +8,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Of the data beside the results: the viewer of one format does not read another's.
+constexpr int results_format = 2;
+
 Json causes_of(const Comparison& comparison) {
     Json causes = Json::object();
     for (const CauseWords& words : all_causes) {
@@ -17,8 +20,11 @@ Json causes_of(const Comparison& comparison) {
     return causes;
 }
 
-Json cell_of(const SceneResult& scene, const Cell& cell) {
-    Json json{{"name", cell.technique}};
+Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
+    Json json{{"name", cell.technique},
+              {"summary", cell.summary},
+              {"command", reproducing_command(report, scene, cell)},
+              {"fails", fails(cell, report.gate)}};
     if (!cell.error.empty()) {
         json["error"] = cell.error;
         return json;
@@ -39,10 +45,11 @@ Json cell_of(const SceneResult& scene, const Cell& cell) {
                       {"unexplained", comparison.ledger.unexplained}};
     for (const char* kind : {"claim", "difference", "cause"})
         json["images"][kind] = picture_path(scene, cell, kind);
+    json["cause_map"] = cell.cause_map;
     return json;
 }
 
-Json scene_of(const SceneResult& scene) {
+Json scene_of(const Report& report, const SceneResult& scene) {
     Json json{{"name", scene.name},
               {"file", scene.file},
               {"width", scene.width},
@@ -52,6 +59,8 @@ Json scene_of(const SceneResult& scene) {
         return json;
     }
     const TraceStatistics& traced = scene.truth.statistics;
+    json["folder"] = folder_of(scene);
+    json["digest"] = scene.digest;
     json["triangles"] = scene.triangles;
     json["light"] = scene.light;
     json["provokes"] = scene.provokes;
@@ -68,7 +77,7 @@ Json scene_of(const SceneResult& scene) {
                          {"degenerate", traced.degenerate}};
     json["images"] = {{"truth", truth_path(scene)}};
     json["techniques"] = Json::array();
-    for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(scene, cell));
+    for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(report, scene, cell));
     return json;
 }
 
@@ -76,6 +85,7 @@ Json scene_of(const SceneResult& scene) {
 
 std::string to_json(const Report& report) {
     Json json{{"schema", "shadowproof/results/1"},
+              {"format", results_format},
               {"version", report.version},
               {"gl",
                {{"version", report.gl.version},
@@ -88,7 +98,8 @@ std::string to_json(const Report& report) {
               {"gate", report.gate == Gate::defects ? "defects" : "differences"},
               {"passed", report.passed},
               {"scenes", Json::array()}};
-    for (const SceneResult& scene : report.scenes) json["scenes"].push_back(scene_of(scene));
+    for (const SceneResult& scene : report.scenes)
+        json["scenes"].push_back(scene_of(report, scene));
     // A file name need not be UTF-8; what is not is shown as U+FFFD.
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

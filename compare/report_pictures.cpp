@@ -1,5 +1,6 @@
 #include "compare/report_pictures.h"
 
+#include "compare/report_data.h"
 #include "scenes/error.h"
 
 #include <OpenImageIO/imageio.h>
@@ -14,17 +15,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// The scene's name as a folder that every file system and URL takes.
-std::string folder_of(const SceneResult& scene) {
-    std::string folder = scene.folder.empty() ? scene.name : scene.folder;
-    for (char& c : folder) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                           (c >= '0' && c <= '9') || c == '-' || c == '_';
-        if (!plain) c = '_';
-    }
-    return folder.empty() ? "scene" : folder;
-}
 
 void write_png_bytes(const std::filesystem::path& file, int width, int height, int channels,
                      const void* bytes) {
@@ -79,6 +69,16 @@ void run_all(const std::vector<std::function<void()>>& jobs, int threads) {
 
 } // namespace
 
+std::string folder_of(const SceneResult& scene) {
+    std::string folder = scene.folder.empty() ? scene.name : scene.folder;
+    for (char& c : folder) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '_';
+        if (!plain) c = '_';
+    }
+    return folder.empty() ? "scene" : folder;
+}
+
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
     return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
 }
@@ -113,12 +113,18 @@ void write_pictures(const SceneResult& scene, const std::filesystem::path& repor
     std::vector<std::function<void()>> jobs;
     std::filesystem::create_directories((report / truth_path(scene)).parent_path());
     jobs.emplace_back([&] { write_png(report / truth_path(scene), scene.truth.visibility); });
+    jobs.emplace_back(
+        [&] { write_file(report / folder_of(scene) / "scene.js", scene_script(scene)); });
     for (const Cell& cell : scene.cells) {
         if (!cell.error.empty()) continue;
         const auto path = [&](const char* kind) {
             return report / picture_path(scene, cell, kind);
         };
-        std::filesystem::create_directories(path("claim").parent_path());
+        const std::filesystem::path folder = path("claim").parent_path();
+        std::filesystem::create_directories(folder);
+        jobs.emplace_back([&scene, &cell, file = folder / "cell.js"] {
+            write_file(file, cell_script(scene, cell));
+        });
         jobs.emplace_back([&cell, file = path("claim")] { write_png(file, cell.frame.claim); });
         jobs.emplace_back([&scene, &cell, file = path("difference")] {
             write_png(file, difference_picture(scene.truth, cell));

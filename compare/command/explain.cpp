@@ -79,8 +79,8 @@ std::string_view name_of(Exactness exactness) {
     return "degenerate";
 }
 
-std::string_view name_of(Crossing::Kind kind) {
-    return kind == Crossing::Kind::light_cap ? "light cap" : "side";
+std::string_view name_of(Crossing::Part part) {
+    return part == Crossing::Part::light_cap ? "light cap" : "side";
 }
 
 const std::string& mesh_name(const Scene& scene, std::uint32_t triangle) {
@@ -159,7 +159,7 @@ std::string as_text(const Explanation& e) {
     for (const Crossing& crossing : e.ledger.crossings) {
         inside += crossing.change;
         text += fmt::format("    {:>14.9g}  {:>+6}  {:>6}  {}{}\n", crossing.depth, crossing.change,
-                            inside, name_of(crossing.kind),
+                            inside, name_of(crossing.part),
                             crossing.triangle == no_triangle
                                 ? ""
                                 : " of " + triangle_words(scene, crossing.triangle));
@@ -238,7 +238,7 @@ Json as_json(const Explanation& e) {
     for (const Crossing& crossing : e.ledger.crossings)
         json["crossings"].push_back({{"depth", crossing.depth},
                                      {"change", crossing.change},
-                                     {"kind", name_of(crossing.kind)},
+                                     {"kind", name_of(crossing.part)},
                                      {"caster", triangle_json(scene, crossing.triangle)}});
     for (const TechniqueWords& technique : e.techniques)
         json["techniques"].push_back(technique_json(technique));

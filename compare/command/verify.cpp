@@ -1,7 +1,9 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/report_data.h"
 #include "raster/render.h"
 #include "scenes/catalog.h"
+#include "scenes/digest.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>
@@ -61,6 +63,7 @@ struct Trial {
     const Tracer& tracer;
     const GroundTruth& truth;
     const ShadowDepths& depths;
+    const Silhouette& silhouette;
 };
 
 Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
@@ -73,6 +76,9 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         refuse_blank(technique, trial.truth, cell.frame);
         cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
+        cell.cause_map = packed_cause_map(cell.comparison);
+        cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
+                                    cell.frame, cell.comparison.cause);
     } catch (const Error& error) {
         cell.error = error.what();
     }
@@ -122,7 +128,12 @@ void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, C
     result.width = scene.camera.width;
     result.height = scene.camera.height;
     result.triangles = scene.triangles.size();
+    result.digest = digest_of(scene);
     result.light = chosen_light(scene).name;
+    result.light_position = chosen_light(scene).position;
+    result.camera = scene.camera;
+    result.far = finite_far(scene);
+    result.meshes = scene.meshes;
     result.provokes = cause_names(scene.provokes);
     result.notes = scene.notes;
     const Plan plan = make_plan(scene);
@@ -132,8 +143,9 @@ void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, C
     console.progress(fmt::format("{}: tracing", result.name));
     const Tracer tracer(scene, options.scene.threads);
     result.truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, result.truth, finite_far(scene));
-    const Trial trial{scene, plan, tracer, result.truth, depths};
+    const ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
+    const Silhouette silhouette(tracer);
+    const Trial trial{scene, plan, tracer, result.truth, depths, silhouette};
     const ColumnWidths widths = widths_of(options, result.name);
     for (const Technique* technique : options.technique.chosen()) {
         console.progress(fmt::format("{}: {}", result.name, technique->name));
@@ -153,6 +165,7 @@ void drop_pictures(SceneResult& scene) {
     scene.truth.statistics = statistics;
     for (Cell& cell : scene.cells) {
         cell.frame = {};
+        cell.ledgers = {};
         cell.comparison.cause = {};
         cell.comparison.ledger_miss = {};
         cell.comparison.predicted = {};

@@ -1,0 +1,118 @@
+#include "compare/report_data.h"
+
+#include "compare/blocks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+/// A line of script that hands the viewer an object by its name: what `header` says, and blocks.
+std::string script(std::string_view function, const std::string& name, const Json& header,
+                   const std::vector<std::pair<std::string_view, std::string>>& blocks) {
+    std::string text = fmt::format("shadowproof.{}(\"{}\", ", function, name);
+    text += header.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.back() = ',';
+    text += "\n\"blocks\":{";
+    for (const auto& [block_name, values] : blocks)
+        text += fmt::format("{}\n\"{}\":{}", &block_name == &blocks.front().first ? "" : ",",
+                            block_name, values);
+    return text + "}});\n";
+}
+
+/// Visibility's values are bytes already.
+std::string picture_block(const Image<Visibility>& picture) {
+    return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
+}
+
+std::string_view name_of(DepthModel::Projection projection) {
+    switch (projection) {
+    case DepthModel::Projection::finite:
+        return "finite";
+    case DepthModel::Projection::infinite:
+        return "infinite";
+    case DepthModel::Projection::infinite_reversed:
+        break;
+    }
+    return "infinite_reversed";
+}
+
+} // namespace
+
+std::string scene_script(const SceneResult& scene) {
+    const Camera& camera = scene.camera;
+    Json header{{"width", scene.width},
+                {"height", scene.height},
+                {"camera",
+                 {{"eye", vector_json(camera.eye)},
+                  {"right", vector_json(camera.right)},
+                  {"up", vector_json(camera.up)},
+                  {"forward", vector_json(camera.forward)},
+                  {"tan_half_height", camera.tan_half_height},
+                  {"near", camera.near}}},
+                {"far", scene.far},
+                {"light", {{"name", scene.light}, {"position", vector_json(scene.light_position)}}},
+                {"meshes", Json::array()}};
+    for (const Mesh& mesh : scene.meshes)
+        header["meshes"].push_back(
+            {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
+    return script("scene", folder_of(scene), header,
+                  {{"visibility", picture_block(scene.truth.visibility)}});
+}
+
+std::string cell_script(const SceneResult& scene, const Cell& cell) {
+    const Counting& counting = cell.frame.counting;
+    const DepthModel& depth = cell.frame.depth_model;
+    const bool finite = std::isfinite(depth.far);
+    const Json header{
+        {"counting",
+         {{"test", counting.test == Counting::Test::depth_pass ? "depth_pass" : "depth_fail"},
+          {"depth_clamp", counting.depth_clamp},
+          {"light_cap", counting.light_cap},
+          {"dark_cap", counting.dark_cap},
+          {"stencil_bits", counting.stencil_bits}}},
+        {"depth",
+         {{"projection", name_of(depth.projection)},
+          {"floating", depth.floating},
+          {"near", depth.near},
+          {"far", finite ? Json(depth.far) : Json(nullptr)}}}};
+    const LedgerTable& ledgers = cell.ledgers;
+    return script("cell", folder_of(scene) + "/" + cell.technique, header,
+                  {{"claim", picture_block(cell.frame.claim)},
+                   {"predicted", block(cell.comparison.predicted.pixels)},
+                   {"read_back", block(cell.frame.stencil.pixels)},
+                   {"seen", block(ledgers.seen)},
+                   {"shown", block(ledgers.shown)},
+                   {"exactness", block(ledgers.exactness)},
+                   {"ledger", block(ledgers.ledger)},
+                   {"ledger_start", block(ledgers.start)},
+                   {"ledger_counts", block(ledgers.counts)},
+                   {"ledger_exact", block(ledgers.adds_up)},
+                   {"crossing_face", block(ledgers.crossing_face)},
+                   {"crossing_change", block(ledgers.crossing_change)},
+                   {"crossing_status", block(ledgers.crossing_tally)},
+                   {"face", block(ledgers.face)},
+                   {"triangle", block(ledgers.triangle)},
+                   {"vertex", block(ledgers.vertex)}});
+}
+
+std::string results_script(const std::string& results_json) {
+    return "shadowproof.results(" + results_json + ");\n";
+}
+
+std::string packed_cause_map(const Comparison& comparison) {
+    return packed(std::as_bytes(std::span(comparison.cause.pixels)));
+}
+
+} // namespace shadowproof
