@@ -9,7 +9,7 @@ build_packages=(
     libembree-dev libtbb-dev libglm-dev libhwy-dev libgmp-dev libxxhash-dev libdeflate-dev
     libopenimageio-dev libtinygltf-dev nlohmann-json3-dev
     libosmesa6-dev libegl-dev libegl1
-    libcli11-dev libfmt-dev
+    libcli11-dev libfmt-dev duktape-dev
 )
 test_packages=(libgtest-dev libbenchmark-dev clang-format assimp-testmodels)
 

@@ -1,4 +1,6 @@
 #include "compare/command/commands.h"
+#include "compare/command/drawing.h"
+#include "compare/pixel_record.h"
 #include "raster/render.h"
 #include "reference/ledger.h"
 #include "scenes/catalog.h"
@@ -15,8 +17,6 @@ namespace shadowproof {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct PixelPosition {
     int x = 0;
     int y = 0;
@@ -28,56 +28,8 @@ struct ExplainOptions {
     SceneOptions picture;
     TechniqueOptions technique;
     std::string json;
+    std::string svg;
 };
-
-/// What one technique says of the pixel.
-struct TechniqueWords {
-    std::string name;
-    std::string error;
-    std::int64_t predicted = 0; ///< before wrapping
-    int stored = 0;             ///< as the stencil buffer ought to hold it
-    int read_back = 0;
-    Visibility claim = Visibility::background;
-    std::uint8_t cause = no_difference;
-};
-
-struct Explanation {
-    const Scene& scene;
-    PixelPosition pixel;
-    glm::dvec3 direction;
-    RayTruth truth;
-    bool faces_light = false; ///< the seen side is the light's
-    RayLedger ledger;
-    std::int32_t at_near = 0;
-    std::int32_t at_surface = 0;
-    std::int32_t at_far = 0;
-    double far = 0;
-    std::vector<TechniqueWords> techniques;
-};
-
-std::string_view name_of(Visibility visibility) {
-    switch (visibility) {
-    case Visibility::lit:
-        return "lit";
-    case Visibility::shadowed:
-        return "shadowed";
-    case Visibility::background:
-        break;
-    }
-    return "background";
-}
-
-std::string_view name_of(Exactness exactness) {
-    switch (exactness) {
-    case Exactness::filtered:
-        return "filtered";
-    case Exactness::exact:
-        return "exact";
-    case Exactness::degenerate:
-        break;
-    }
-    return "degenerate";
-}
 
 std::string_view name_of(Crossing::Part part) {
     return part == Crossing::Part::light_cap ? "light cap" : "side";
@@ -107,142 +59,142 @@ PixelPosition parse_pixel(const std::string& text) {
     return pixel;
 }
 
-TechniqueWords ask(const Technique& technique, const Tracer& tracer, const GroundTruth& truth,
-                   const ShadowDepths& depths, const Plan& plan, PixelPosition at, Gpu& gpu) {
-    TechniqueWords words;
-    words.name = technique.name;
+TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, const Tracer& tracer,
+                     const GroundTruth& truth, const ShadowDepths& depths, const Plan& plan,
+                     Gpu& gpu) {
     try {
         const Frame frame = render(technique, tracer.scene(), plan, gpu);
-        const Comparison comparison = classify(tracer, truth, depths, frame);
-        words.predicted =
-            predicted_count(depths, truth, at.x, at.y, frame.counting, frame.depth_model);
-        words.stored = comparison.predicted.at(at.x, at.y);
-        words.read_back = frame.stencil.at(at.x, at.y);
-        words.claim = frame.claim.at(at.x, at.y);
-        words.cause = comparison.cause.at(at.x, at.y);
+        return technique_at(record, truth, depths, std::string(technique.name), frame,
+                            classify(tracer, truth, depths, frame));
     } catch (const std::runtime_error& error) {
-        words.error = error.what();
+        TechniqueAtPixel failed;
+        failed.name = technique.name;
+        failed.error = error.what();
+        return failed;
     }
-    return words;
 }
 
-std::string cause_words(const TechniqueWords& technique) {
+std::string cause_words(const TechniqueAtPixel& technique) {
     return technique.cause == no_difference ? "no difference"
                                             : std::string(all_causes[technique.cause].name);
 }
 
-std::string as_text(const Explanation& e) {
-    const Scene& scene = e.scene;
-    std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", scene.name, e.pixel.x, e.pixel.y,
-                                   scene.camera.width, scene.camera.height);
-    for (const std::string& note : scene.notes) text += fmt::format("  note      {}\n", note);
-    text += fmt::format("  ray       from {} along {}\n", vector_words(scene.camera.eye),
-                        vector_words(e.direction));
-    const bool seen = e.truth.triangle != no_triangle;
+std::string_view loss_words(Tally tally) {
+    switch (tally) {
+    case Tally::lost_near:
+        return "before the near plane";
+    case Tally::lost_far:
+        return "past the far plane";
+    case Tally::lost_cap:
+        return "on a missing cap";
+    case Tally::counted:
+    case Tally::beyond:
+        break;
+    }
+    return {};
+}
+
+/// "+1 at 3.2 before the near plane, 2 dark caps past the far plane"
+std::string lost_words(const PixelRecord& record, const TechniqueAtPixel& technique) {
+    std::string lost;
+    const auto add = [&](const std::string& what, Tally tally) {
+        if (loss_words(tally).empty()) return;
+        lost += fmt::format("{}{} {}", lost.empty() ? "" : ", ", what, loss_words(tally));
+    };
+    for (std::size_t i = 0; i < technique.tallies.size(); ++i)
+        add(fmt::format("{:+} at {:.9g}", record.ledger.crossings[i].change,
+                        record.ledger.crossings[i].depth),
+            technique.tallies[i]);
+    const std::int32_t open = record.ledger.counts.at_infinity;
+    if (open != 0)
+        add(fmt::format("{} dark {}", open, open == 1 ? "cap" : "caps"), technique.dark_caps);
+    if (technique.counting.test == Counting::Test::depth_pass && record.ledger.counts.at_eye != 0)
+        lost += fmt::format("{}{} around the eye", lost.empty() ? "" : ", ",
+                            record.ledger.counts.at_eye);
+    return lost;
+}
+
+std::string ray_text(const Scene& scene, const PixelRecord& record) {
+    const glm::dvec3& eye = scene.camera.eye;
+    std::string text = fmt::format("  ray       from {} along {}\n", vector_words(eye),
+                                   vector_words(record.direction));
+    const bool seen = record.seen != no_triangle;
     text += seen ? fmt::format("  sees      {} at {}, depth {:.9g}\n",
-                               triangle_words(scene, e.truth.triangle),
-                               vector_words(scene.camera.eye + e.truth.depth * e.direction),
-                               e.truth.depth)
+                               triangle_words(scene, record.seen),
+                               vector_words(eye + record.ledger.surface * record.direction),
+                               record.ledger.surface)
                  : "  sees      background\n";
     const Light& light = chosen_light(scene);
     text += fmt::format("  light     {} at {}\n", light.name, vector_words(light.position));
-    text += fmt::format("  truth     {} ({})\n", name_of(e.truth.visibility),
-                        name_of(e.truth.exactness));
-    if (e.truth.occluder != no_triangle)
-        text += fmt::format("  occluder  {}\n", triangle_words(scene, e.truth.occluder));
-    if (seen && !e.faces_light) text += "  the seen side faces away from the light\n";
-
-    text += "  shadow volumes along the ray, by depth\n";
-    text += fmt::format("    {:>14}  {:>6}  inside\n", "depth", "change");
-    std::int32_t inside = e.ledger.at_eye;
-    text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "eye", "", inside);
-    for (const Crossing& crossing : e.ledger.crossings) {
-        inside += crossing.change;
-        text += fmt::format("    {:>14.9g}  {:>+6}  {:>6}  {}{}\n", crossing.depth, crossing.change,
-                            inside, name_of(crossing.part),
-                            crossing.triangle == no_triangle
-                                ? ""
-                                : " of " + triangle_words(scene, crossing.triangle));
-    }
-    text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "infinity", "", e.ledger.at_infinity);
-    text += fmt::format("  inside    {} at the eye, {} at near {:.9g}, ", e.ledger.at_eye,
-                        e.at_near, scene.camera.near);
-    if (seen) text += fmt::format("{} at the surface, ", e.at_surface);
     text +=
-        fmt::format("{} at far {:.9g}, {} at infinity\n", e.at_far, e.far, e.ledger.at_infinity);
-
-    text += fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{}\n", "technique", "predicted", "stored",
-                        "read back", "claim", "cause");
-    for (const TechniqueWords& technique : e.techniques)
-        text += technique.error.empty()
-                    ? fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{}\n", technique.name,
-                                  technique.predicted, technique.stored, technique.read_back,
-                                  name_of(technique.claim), cause_words(technique))
-                    : fmt::format("  {:<16}{}\n", technique.name, technique.error);
+        fmt::format("  truth     {} ({})\n", name_of(record.visibility), name_of(record.exactness));
+    if (record.occluder != no_triangle)
+        text += fmt::format("  occluder  {}\n", triangle_words(scene, record.occluder));
+    if (seen && !record.faces_light) text += "  the seen side faces away from the light\n";
+    if (record.depth_margin)
+        text += fmt::format("  margin    {:.9g} in depth to the nearest volume face\n",
+                            *record.depth_margin);
+    if (record.pixel_margin)
+        text += fmt::format("  margin    {:.9g} pixels to the nearest of another class\n",
+                            *record.pixel_margin);
     return text;
 }
 
-Json vector_json(const glm::dvec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
-
-Json triangle_json(const Scene& scene, std::uint32_t triangle) {
-    if (triangle == no_triangle) return nullptr;
-    return {{"triangle", triangle}, {"mesh", mesh_name(scene, triangle)}};
-}
-
-Json technique_json(const TechniqueWords& technique) {
-    if (!technique.error.empty()) return {{"name", technique.name}, {"error", technique.error}};
-    return {{"name", technique.name},
-            {"predicted", technique.predicted},
-            {"stored", technique.stored},
-            {"read_back", technique.read_back},
-            {"claim", name_of(technique.claim)},
-            {"cause", technique.cause == no_difference ? Json(nullptr)
-                                                       : Json(all_causes[technique.cause].name)}};
-}
-
-Json as_json(const Explanation& e) {
-    const Scene& scene = e.scene;
-    const Light& light = chosen_light(scene);
-    const bool seen = e.truth.triangle != no_triangle;
-    Json json{{"schema", "shadowproof/pixel/1"},
-              {"scene", scene.name},
-              {"x", e.pixel.x},
-              {"y", e.pixel.y},
-              {"width", scene.camera.width},
-              {"height", scene.camera.height},
-              {"eye", vector_json(scene.camera.eye)},
-              {"direction", vector_json(e.direction)},
-              {"near", scene.camera.near},
-              {"far", e.far},
-              {"light", {{"name", light.name}, {"position", vector_json(light.position)}}},
-              {"truth", name_of(e.truth.visibility)},
-              {"exactness", name_of(e.truth.exactness)},
-              {"seen", triangle_json(scene, e.truth.triangle)},
-              {"occluder", triangle_json(scene, e.truth.occluder)},
-              {"crossings", Json::array()},
-              {"inside",
-               {{"eye", e.ledger.at_eye},
-                {"near", e.at_near},
-                {"surface", seen ? Json(e.at_surface) : Json(nullptr)},
-                {"far", e.at_far},
-                {"infinity", e.ledger.at_infinity}}},
-              {"notes", scene.notes},
-              {"techniques", Json::array()}};
-    if (seen) {
-        json["seen"]["depth"] = e.truth.depth;
-        json["seen"]["point"] = vector_json(scene.camera.eye + e.truth.depth * e.direction);
-        json["seen"]["faces_light"] = e.faces_light;
+std::string ledger_text(const Scene& scene, const PixelRecord& record) {
+    const RayCounts& counts = record.ledger.counts;
+    std::string text = "  shadow volumes along the ray, by depth\n";
+    text += fmt::format("    {:>14}  {:>6}  inside\n", "depth", "change");
+    std::int32_t inside = counts.at_eye;
+    text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "eye", "", inside);
+    for (const Crossing& crossing : record.ledger.crossings) {
+        inside += crossing.change;
+        text +=
+            fmt::format("    {:>14.9g}  {:>+6}  {:>6}  {} of {}\n", crossing.depth, crossing.change,
+                        inside, name_of(crossing.part), triangle_words(scene, crossing.triangle));
     }
-    for (const Crossing& crossing : e.ledger.crossings)
-        json["crossings"].push_back({{"depth", crossing.depth},
-                                     {"change", crossing.change},
-                                     {"kind", name_of(crossing.part)},
-                                     {"caster", triangle_json(scene, crossing.triangle)}});
-    for (const TechniqueWords& technique : e.techniques)
-        json["techniques"].push_back(technique_json(technique));
-    return json;
+    text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "infinity", "", counts.at_infinity);
+    if (!record.ledger.adds_up)
+        text +=
+            "    the depths are rounded, and rounding moved a crossing: the sums differ from the "
+            "exact counts\n";
+    text += fmt::format("  inside    {} at the eye, {} at near {:.9g}, ", counts.at_eye,
+                        counts.at_near, scene.camera.near);
+    if (record.seen != no_triangle) text += fmt::format("{} at the surface, ", counts.at_surface);
+    return text + fmt::format("{} at far {:.9g}, {} at infinity\n", counts.at_far, record.far,
+                              counts.at_infinity);
+}
+
+std::string techniques_text(const PixelRecord& record) {
+    std::string text = fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}\n", "technique",
+                                   "predicted", "stored", "read back", "claim", "cause", "lost");
+    for (const TechniqueAtPixel& technique : record.techniques) {
+        std::string line = technique.error.empty()
+                               ? fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}",
+                                             technique.name, technique.predicted, technique.stored,
+                                             technique.read_back, name_of(technique.claim),
+                                             cause_words(technique), lost_words(record, technique))
+                               : fmt::format("  {:<16}{}", technique.name, technique.error);
+        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return text;
+}
+
+std::string as_text(const Scene& scene, const PixelRecord& record) {
+    std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", scene.name, record.x, record.y,
+                                   scene.camera.width, scene.camera.height);
+    for (const std::string& note : scene.notes) text += fmt::format("  note      {}\n", note);
+    return text + ray_text(scene, record) + ledger_text(scene, record) + techniques_text(record);
+}
+
+/// The technique to draw: the first that differs, else the first that ran.
+std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>& techniques) {
+    std::optional<std::size_t> first;
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        if (!techniques[i].error.empty()) continue;
+        if (techniques[i].cause != no_difference) return i;
+        if (!first) first = i;
+    }
+    return first;
 }
 
 int explain(const ExplainOptions& options) {
@@ -251,30 +203,19 @@ int explain(const ExplainOptions& options) {
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const auto [x, y] = options.pixel;
-    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
-    Explanation e{.scene = scene,
-                  .pixel = options.pixel,
-                  .direction = direction,
-                  .truth = trace_ray(tracer, direction),
-                  .faces_light = false,
-                  .ledger = ray_ledger(tracer, direction),
-                  .at_near = depths.at_near.at(x, y),
-                  .at_surface = depths.at_surface.at(x, y),
-                  .at_far = depths.at_far.at(x, y),
-                  .far = depths.far,
-                  .techniques = {}};
-    if (e.truth.triangle != no_triangle)
-        e.faces_light = sides_of(tracer, e.truth.triangle).faces_light();
+    PixelRecord record = record_pixel(tracer, truth, depths, options.pixel.x, options.pixel.y);
     Gpu gpu(options.technique.platform);
     for (const Technique* technique : options.technique.chosen())
-        e.techniques.push_back(ask(*technique, tracer, truth, depths, plan, options.pixel, gpu));
-    fmt::print("{}", as_text(e));
-    if (!options.json.empty())
-        write_file(options.json,
-                   as_json(e).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-    const bool all_ran = std::all_of(e.techniques.begin(), e.techniques.end(),
-                                     [](const TechniqueWords& t) { return t.error.empty(); });
+        record.techniques.push_back(ask(*technique, record, tracer, truth, depths, plan, gpu));
+    fmt::print("{}", as_text(scene, record));
+    const std::string json =
+        to_json(scene, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (!options.json.empty()) write_file(options.json, json + "\n");
+    const std::optional<std::size_t> drawn = technique_to_draw(record.techniques);
+    if (!options.svg.empty() && drawn) write_file(options.svg, draw_cutaway(json, *drawn));
+    const bool all_ran =
+        std::all_of(record.techniques.begin(), record.techniques.end(),
+                    [](const TechniqueAtPixel& technique) { return technique.error.empty(); });
     return all_ran ? exit_passed : exit_could_not;
 }
 
@@ -305,6 +246,11 @@ Work add_explain(CLI::App& app) {
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->picture);
     command->add_option("--json", options->json, "Also write it all here")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        ->add_option("--svg", options->svg,
+                     "Draw the pixel here: the first technique that differs, or the one chosen")
         ->type_name("FILE")
         ->check(not_empty());
     command->final_callback([options] { check_inside(*options); });

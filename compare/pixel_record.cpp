@@ -1,0 +1,214 @@
+#include "compare/pixel_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::optional<double> depth_margin(const PixelLedger& ledger, std::uint32_t seen) {
+    if (seen == no_triangle) return std::nullopt;
+    double margin = std::numeric_limits<double>::infinity();
+    for (const Crossing& crossing : ledger.crossings) {
+        const bool own_cap = !crossing.is_side() && crossing.triangle == seen;
+        if (!own_cap) margin = std::min(margin, std::abs(crossing.depth - ledger.surface));
+    }
+    if (std::isinf(margin)) return std::nullopt;
+    return margin;
+}
+
+/// Looked for in growing rings, until no pixel further out can be nearer.
+std::optional<double> pixel_margin(const Image<Visibility>& truth, int x, int y) {
+    const Visibility own = truth.at(x, y);
+    long nearest = std::numeric_limits<long>::max(); // squared
+    const auto look = [&](int i, int k) {
+        if (i < 0 || k < 0 || i >= truth.width || k >= truth.height || truth.at(i, k) == own)
+            return;
+        const long dx = i - x;
+        const long dy = k - y;
+        nearest = std::min(nearest, dx * dx + dy * dy);
+    };
+    const int widest = std::max(truth.width, truth.height);
+    for (int ring = 1; ring < widest && static_cast<long>(ring) * ring < nearest; ++ring)
+        for (int i = -ring; i <= ring; ++i) {
+            look(x + i, y - ring);
+            look(x + i, y + ring);
+            look(x - ring, y + i);
+            look(x + ring, y + i);
+        }
+    if (nearest == std::numeric_limits<long>::max()) return std::nullopt;
+    return std::sqrt(static_cast<double>(nearest));
+}
+
+Json vector_json(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json optional_json(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json triangle_json(const Scene& scene, std::uint32_t triangle) {
+    if (triangle == no_triangle) return nullptr;
+    return {{"triangle", triangle}, {"mesh", scene.meshes[mesh_of(scene, triangle)].name}};
+}
+
+Json corners_json(const Scene& scene, std::uint32_t triangle) {
+    Json corners = Json::array();
+    for (int k = 0; k < 3; ++k) corners.push_back(vector_json(corner(scene, triangle, k)));
+    return corners;
+}
+
+/// Where a face begins: the ends of the edge that a side stands on, or the light cap's corners.
+Json beginning_json(const Scene& scene, const Crossing& crossing) {
+    if (!crossing.is_side()) return corners_json(scene, crossing.triangle);
+    const int k = static_cast<int>(crossing.part);
+    return Json::array({vector_json(corner(scene, crossing.triangle, k)),
+                        vector_json(corner(scene, crossing.triangle, (k + 1) % 3))});
+}
+
+Json crossing_json(const Scene& scene, const Crossing& crossing) {
+    return {{"depth", crossing.depth},
+            {"change", crossing.change},
+            {"kind", crossing.is_side() ? "side" : "light cap"},
+            {"caster", triangle_json(scene, crossing.triangle)},
+            {"from", beginning_json(scene, crossing)}};
+}
+
+Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
+    if (!technique.error.empty()) return {{"name", technique.name}, {"error", technique.error}};
+    const bool depth_pass = technique.counting.test == Counting::Test::depth_pass;
+    Json json{{"name", technique.name},
+              {"test", depth_pass ? "depth_pass" : "depth_fail"},
+              {"predicted", technique.predicted},
+              {"stored", technique.stored},
+              {"read_back", technique.read_back},
+              {"claim", name_of(technique.claim)},
+              {"shown", triangle_json(scene, technique.shown)},
+              {"cause", technique.cause == no_difference ? Json(nullptr)
+                                                         : Json(all_causes[technique.cause].name)},
+              {"statuses", Json::array()},
+              {"dark_cap", name_of(technique.dark_caps)}};
+    for (const Tally tally : technique.tallies) json["statuses"].push_back(name_of(tally));
+    return json;
+}
+
+} // namespace
+
+std::string_view name_of(Visibility visibility) {
+    switch (visibility) {
+    case Visibility::lit:
+        return "lit";
+    case Visibility::shadowed:
+        return "shadowed";
+    case Visibility::background:
+        break;
+    }
+    return "background";
+}
+
+std::string_view name_of(Exactness exactness) {
+    switch (exactness) {
+    case Exactness::filtered:
+        return "filtered";
+    case Exactness::exact:
+        return "exact";
+    case Exactness::degenerate:
+        break;
+    }
+    return "degenerate";
+}
+
+PixelRecord record_pixel(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
+                         int x, int y) {
+    PixelRecord record;
+    record.x = x;
+    record.y = y;
+    record.direction = ray_direction(tracer.scene().camera, x + 0.5, y + 0.5);
+    record.visibility = truth.visibility.at(x, y);
+    record.exactness = truth.exactness.at(x, y);
+    record.seen = truth.triangle.at(x, y);
+    if (record.seen != no_triangle)
+        record.faces_light = sides_of(tracer, record.seen).faces_light();
+    record.occluder = trace_ray(tracer, record.direction).occluder;
+    record.far = depths.far;
+    record.ledger = pixel_ledger(tracer, truth, depths, x, y);
+    record.depth_margin = depth_margin(record.ledger, record.seen);
+    record.pixel_margin = pixel_margin(truth.visibility, x, y);
+    return record;
+}
+
+TechniqueAtPixel technique_at(const PixelRecord& record, const GroundTruth& truth,
+                              const ShadowDepths& depths, std::string name, const Frame& frame,
+                              const Comparison& comparison) {
+    const int x = record.x;
+    const int y = record.y;
+    TechniqueAtPixel technique;
+    technique.name = std::move(name);
+    technique.counting = frame.counting;
+    technique.predicted = predicted_count(depths, truth, x, y, frame.counting, frame.depth_model);
+    technique.stored = comparison.predicted.at(x, y);
+    technique.read_back = frame.stencil.at(x, y);
+    technique.claim = frame.claim.at(x, y);
+    technique.shown = frame.triangle.at(x, y);
+    technique.cause = comparison.cause.at(x, y);
+    for (const Crossing& crossing : record.ledger.crossings)
+        technique.tallies.push_back(tally(crossing, record.ledger.surface, record.seen, record.far,
+                                          frame.counting, frame.depth_model));
+    technique.dark_caps = tally_of_dark_caps(frame.counting, frame.depth_model);
+    return technique;
+}
+
+nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
+    const Camera& camera = scene.camera;
+    const Light& light = chosen_light(scene);
+    const RayCounts& counts = record.ledger.counts;
+    const bool seen = record.seen != no_triangle;
+    Json json{{"schema", "shadowproof/pixel/1"},
+              {"scene", scene.name},
+              {"x", record.x},
+              {"y", record.y},
+              {"width", camera.width},
+              {"height", camera.height},
+              {"eye", vector_json(camera.eye)},
+              {"direction", vector_json(record.direction)},
+              {"near", camera.near},
+              {"far", record.far},
+              {"light", {{"name", light.name}, {"position", vector_json(light.position)}}},
+              {"truth", name_of(record.visibility)},
+              {"exactness", name_of(record.exactness)},
+              {"seen", triangle_json(scene, record.seen)},
+              {"occluder", triangle_json(scene, record.occluder)},
+              {"margin",
+               {{"depth", optional_json(record.depth_margin)},
+                {"pixels", optional_json(record.pixel_margin)}}},
+              {"inside",
+               {{"eye", counts.at_eye},
+                {"near", counts.at_near},
+                {"surface", seen ? Json(counts.at_surface) : Json(nullptr)},
+                {"far", counts.at_far},
+                {"infinity", counts.at_infinity}}},
+              {"crossings", Json::array()},
+              {"adds_up", record.ledger.adds_up},
+              {"notes", scene.notes},
+              {"techniques", Json::array()}};
+    if (seen) {
+        const double depth = record.ledger.surface;
+        json["seen"]["depth"] = depth;
+        json["seen"]["point"] = vector_json(camera.eye + depth * record.direction);
+        json["seen"]["corners"] = corners_json(scene, record.seen);
+        json["seen"]["faces_light"] = record.faces_light;
+    }
+    for (const Crossing& crossing : record.ledger.crossings)
+        json["crossings"].push_back(crossing_json(scene, crossing));
+    for (const TechniqueAtPixel& technique : record.techniques)
+        json["techniques"].push_back(technique_json(scene, technique));
+    return json;
+}
+
+} // namespace shadowproof

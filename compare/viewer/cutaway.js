@@ -1,0 +1,673 @@
+// The drawing of one pixel: a side view in the plane of the eye ray and the light, after the
+// cutaways of the shadow volume papers, and below it the ray's events in order, which stay legible
+// where the picture to scale puts them onto one spot. ECMAScript 5 without a DOM, because the
+// command runs this very file too. Colours are attributes, so that the picture stands alone; the
+// report's style sheet overrides them by class.
+var cutaway = (function () {
+  'use strict';
+
+  var font = 'system-ui, -apple-system, Segoe UI, DejaVu Sans, sans-serif';
+  var colors = { paper: '#ffffff', ink: '#1b1b1f', quiet: '#55555e', line: '#b4b4be',
+                 shade: '#3d5a96', light: '#b86e00', bad: '#a33c00' };
+
+  function escaped(text) {
+    return String(text).replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;')
+      .replace(/"/g, '&quot;');
+  }
+  function px(value) { return String(Math.round(value * 10) / 10); }
+  function short(value) { return String(parseFloat(value.toPrecision(4))); }
+  function signed(value) { return value > 0 ? '+' + value : value < 0 ? '\u2212' + -value : '0'; }
+  function clamp(value, low, high) { return Math.max(low, Math.min(high, value)); }
+  /** Room that a text takes in the widest of the fonts. */
+  function room(text, size) { return 0.6 * size * text.length; }
+
+  function tag(name, attributes, content) {
+    var text = '<' + name, key, value;
+    for (key in attributes) {
+      value = attributes[key];
+      if (value === null || value === undefined) continue;
+      text += ' ' + key + '="' + escaped(typeof value === 'number' ? px(value) : value) + '"';
+    }
+    return text + (content === undefined ? '/>' : '>' + content + '</' + name + '>');
+  }
+  function line(a, b, color, width, extra) {
+    var attributes = { x1: a[0], y1: a[1], x2: b[0], y2: b[1], 'class': 'cut-stroke-' + color,
+                       stroke: colors[color], 'stroke-width': String(width) }, key;
+    for (key in extra || {}) attributes[key] = extra[key];
+    return tag('line', attributes);
+  }
+  function words(at, text, color, size, anchor, extra) {
+    var attributes = { x: at[0], y: at[1], 'class': 'cut-fill-' + color, fill: colors[color],
+                       'font-size': String(size), 'text-anchor': anchor || 'middle' }, key;
+    for (key in extra || {}) attributes[key] = extra[key];
+    return tag('text', attributes, escaped(text));
+  }
+  function polygon(points, color, opacity) {
+    return tag('polygon', {
+      points: points.map(function (p) { return px(p[0]) + ',' + px(p[1]); }).join(' '),
+      'class': 'cut-fill-' + color, fill: colors[color], 'fill-opacity': String(opacity) });
+  }
+
+  function minus(a, b) { return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]; }
+  function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  function cross(a, b) {
+    return [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
+  }
+
+  /**
+   * The plane of the drawing: `at(point)` is [depth, height towards the light in units of depth],
+   * `normal` stands on it. A light on the ray's line leaves no plane: `degenerate`.
+   */
+  function planeOf(record) {
+    var d = record.direction, length = Math.sqrt(dot(d, d));
+    var toLight = minus(record.light.position, record.eye);
+    var along = dot(toLight, d) / dot(d, d);
+    var up = [0, 1, 2].map(function (i) { return toLight[i] - along * d[i]; });
+    var height = Math.sqrt(dot(up, up));
+    var degenerate = !(height > 1e-6 * Math.sqrt(dot(toLight, toLight)));
+    if (!degenerate) up = up.map(function (value) { return value / height; });
+    return {
+      degenerate: degenerate,
+      light: [along, height / length],
+      normal: cross(d, up),
+      at: function (point) {
+        var relative = minus(point, record.eye);
+        return [dot(relative, d) / dot(d, d), dot(relative, up) / length];
+      }
+    };
+  }
+
+  /** Where segment p q meets the plane of the drawing; the nearer end where it just does not. */
+  function cutPoint(plane, eye, p, q) {
+    var side = dot(plane.normal, minus(p, eye)), other = dot(plane.normal, minus(q, eye));
+    var along = side === other ? 0.5 : clamp(side / (side - other), 0, 1);
+    return plane.at([0, 1, 2].map(function (i) { return p[i] + along * (q[i] - p[i]); }));
+  }
+
+  /** The stretch of a triangle in the plane of the drawing, or null. */
+  function cutTriangle(plane, eye, corners) {
+    var ends = [], k, p, q;
+    for (k = 0; k < 3; ++k) {
+      p = corners[k];
+      q = corners[(k + 1) % 3];
+      if ((dot(plane.normal, minus(p, eye)) > 0) !== (dot(plane.normal, minus(q, eye)) > 0))
+        ends.push(cutPoint(plane, eye, p, q));
+    }
+    return ends.length === 2 ? ends : null;
+  }
+
+  /** What lies along the ray, by depth; of equal depths the surface stands before a crossing. */
+  function eventsOf(record, technique) {
+    var events = record.crossings.map(function (crossing, i) {
+      return { kind: 'crossing', depth: crossing.depth, rank: 2, crossing: crossing,
+               status: technique.statuses[i] };
+    });
+    events.push({ kind: 'near', depth: record.near, rank: 0 });
+    if (record.seen) events.push({ kind: 'surface', depth: record.seen.depth, rank: 1 });
+    if (record.far !== null && isFinite(record.far))
+      events.push({ kind: 'far', depth: record.far, rank: 3 });
+    events = events.map(function (event, i) { event.order = i; return event; })
+      .sort(function (a, b) { return a.depth - b.depth || a.rank - b.rank || a.order - b.order; });
+    events.unshift({ kind: 'eye', depth: 0 });
+    if (technique.test === 'depth_fail' && record.inside.infinity !== 0)
+      events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap });
+    var inside = record.inside.eye;
+    events.forEach(function (event) {
+      if (event.kind === 'crossing') inside += event.crossing.change;
+      event.inside = inside; // after it
+    });
+    return events;
+  }
+
+  /** Columns of the strip: an event each, or a run of crossings of one fate where there are many. */
+  function columnsOf(events, most) {
+    var columns = events.map(function (event) { return [event]; });
+    function longestRun() {
+      var best = null, begin = 0, end;
+      while (begin < columns.length) {
+        end = begin + 1;
+        while (end < columns.length && columns[begin][0].kind === 'crossing' &&
+               columns[end][0].kind === 'crossing' &&
+               columns[end][0].status === columns[begin][0].status) ++end;
+        if (end - begin > 1 && (!best || end - begin > best[1] - best[0])) best = [begin, end];
+        begin = end;
+      }
+      return best;
+    }
+    var run = columns.length > most ? longestRun() : null;
+    while (run && columns.length > most) {
+      // The ends of a run stay, where there is room for them: they lie beside what decides.
+      var keep = run[1] - run[0] > 4 && columns.length - (run[1] - run[0]) + 3 <= most ? 1 : 0;
+      var grouped = [].concat.apply([], columns.slice(run[0] + keep, run[1] - keep));
+      columns.splice(run[0] + keep, run[1] - run[0] - 2 * keep, grouped);
+      run = longestRun();
+    }
+    return columns;
+  }
+
+  /** How a technique counts a crossing: behind the surface an exit adds and an entry takes. */
+  function contribution(technique, crossing) {
+    return technique.test === 'depth_fail' ? -crossing.change : crossing.change;
+  }
+
+  function fateWords(status, test) {
+    if (status === 'beyond')
+      return test === 'depth_pass' ? 'behind the surface: not asked for'
+                                   : 'in front of the surface: not asked for';
+    return { counted: 'counted', lost_near: 'lost: in front of the near plane',
+             lost_far: 'lost: clipped at the far plane',
+             lost_cap: 'lost: the cap is missing' }[status] || String(status);
+  }
+
+  /** "counted +1 -1 = 0; read back 0: claims lit". */
+  function sentenceOf(record, technique) {
+    var terms = [], sum = 0, up = 0, down = 0;
+    record.crossings.forEach(function (crossing, i) {
+      if (technique.statuses[i] !== 'counted') return;
+      var value = contribution(technique, crossing);
+      terms.push(signed(value));
+      sum += value;
+      if (value > 0) ++up; else ++down;
+    });
+    if (terms.length > 10) terms = [up + ' times +1, ' + down + ' times \u22121'];
+    if (technique.test === 'depth_fail' && technique.dark_cap === 'counted' &&
+        record.inside.infinity !== 0) {
+      terms.push('dark caps ' + signed(record.inside.infinity));
+      sum += record.inside.infinity;
+    }
+    var text = terms.length === 0 ? 'Counted nothing: 0' :
+      'Counted ' + terms.join(' ') + (terms.length > 1 || sum > 1 || sum < -1 || up + down > 1
+        ? ' = ' + signed(sum) : '');
+    if (sum !== technique.predicted)
+      text += '; exactly ' + signed(technique.predicted) + ', as rounding lost a crossing here';
+    if (technique.stored !== technique.predicted) text += ', stored as ' + technique.stored;
+    text += '; read back ' + technique.read_back +
+      (technique.read_back === technique.stored ? '' : ', not ' + technique.stored) +
+      ': claims ' + technique.claim + '. The truth is ' + record.truth + '.';
+    return text;
+  }
+
+  /**
+   * Where depths and heights go, inside a panel `width` wide: to scale where that is readable;
+   * else heights are squeezed, or depths stand only in their order at `columnX`.
+   */
+  function layout(record, plane, events, casters, width, columnX) {
+    var left = 34, right = 18, most = 250, least = 96, top = 26;
+    var depths = events.filter(function (event) {
+      return isFinite(event.depth) && event.kind !== 'far';
+    }).map(function (event) { return event.depth; });
+    var last = Math.max.apply(null, depths) * 1.06 || 1;
+    if (isFinite(record.far) && record.far !== null && record.far <= 1.4 * last)
+      last = Math.max(last, record.far * 1.03);
+    var first = 0, light = plane.light;
+    var lightIn = !plane.degenerate && light[0] > -0.6 * last && light[0] < 1.7 * last &&
+      light[1] < 3 * last;
+    if (lightIn) {
+      first = Math.min(0, light[0] - 0.02 * last);
+      last = Math.max(last, light[0] * 1.02);
+    }
+    var highest = casters.reduce(function (height, caster) {
+      return caster ? Math.max(height, caster[1]) : height;
+    }, 0) * 1.2;
+    var reach = lightIn ? light[1] : highest > 0 ? Math.min(highest, 3 * last) : 0.3 * last;
+    var scaleX = (width - left - right) / (last - first);
+    var shrunk = Math.min(1, most / (reach * scaleX));
+    if (shrunk >= 0.6) scaleX *= shrunk;
+    var tall = clamp(reach * scaleX, least, most);
+    var scaleY = reach * scaleX < 40 || reach * scaleX > most * 1.001 ? tall / reach : scaleX;
+    var margin = left + (width - left - right - (last - first) * scaleX) / 2;
+    var ray = top + tall;
+    function linear(depth) { return margin + (depth - first) * scaleX; }
+    var gaps = 0, close = 0;
+    depths.forEach(function (depth, i) {
+      if (i === 0) return;
+      ++gaps;
+      if (linear(depth) - linear(depths[i - 1]) < 4) ++close;
+    });
+    var ordinal = gaps > 2 && close > 0.5 * gaps || linear(record.near) - linear(0) < 1.5 &&
+      gaps > 3 && close > 1;
+    var between = ordinal ? interpolation(events, columnX) : linear;
+    var lightAt = [between(light[0]), ray - light[1] * scaleY];
+    if (ordinal) {
+      lightAt = [clamp(between(light[0]), left + 20, width - 60), top + 14];
+      lightIn = !plane.degenerate;
+      tall = 190;
+      ray = top + tall;
+    }
+    return {
+      ray: ray, bottom: ray + 62, ordinal: ordinal, lightIn: lightIn, light: lightAt,
+      scale: ordinal ? null : scaleY / scaleX, top: top,
+      right: ordinal ? width - right : linear(last),
+      x: function (depth) { return isFinite(depth) ? between(depth) : width - right; },
+      point: function (at) { return [between(at[0]), ray - at[1] * scaleY]; }
+    };
+  }
+
+  /** Depth to x by the places of the columns, straight in between. */
+  function interpolation(events, columnX) {
+    var knots = events.map(function (event, i) { return [event.depth, columnX(i)]; })
+      .filter(function (knot) { return isFinite(knot[0]); });
+    return function (depth) {
+      var i = 1, a, b;
+      while (i < knots.length - 1 && knots[i][0] < depth) ++i;
+      a = knots[i - 1];
+      b = knots[i];
+      return b[0] === a[0] ? b[1] : a[1] + (depth - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
+    };
+  }
+
+  /** Points of the drawing for one crossing: on the ray, at the caster, and how far beyond. */
+  function crossingPoints(place, plane, caster, depth) {
+    var on = [place.x(depth), place.ray];
+    var along = 0.5;
+    if (caster) {
+      var whole = Math.sqrt(Math.pow(depth - plane.light[0], 2) + Math.pow(plane.light[1], 2));
+      var part = Math.sqrt(Math.pow(caster[0] - plane.light[0], 2) +
+                           Math.pow(caster[1] - plane.light[1], 2));
+      along = whole > 0 ? clamp(part / whole, 0, 1) : 0.5;
+    }
+    var from = place.light;
+    var beyond = (place.bottom - on[1]) / Math.max(on[1] - from[1], 1e-6);
+    return { on: on,
+             caster: [from[0] + along * (on[0] - from[0]), from[1] + along * (on[1] - from[1])],
+             away: [on[0] + beyond * (on[0] - from[0]), place.bottom] };
+  }
+
+  /** The volumes between an entry and its exit, darker where they overlap. */
+  function shadowsDrawn(events, points, place) {
+    var open = [], text = '', i;
+    var start = crossingPoints(place, { light: [0, 1] }, null, 0);
+    function wedge(a, b) {
+      var outline = [a.on, b.on, b.away, a.away];
+      if (a.side && b.side) outline = [a.caster, b.caster].concat([b.on, b.away, a.away, a.on]);
+      text += polygon(outline, 'shade', 0.13);
+    }
+    for (i = 0; i < events[0].inside; ++i) open.push(start);
+    events.forEach(function (event, k) {
+      if (event.kind !== 'crossing') return;
+      if (event.crossing.change > 0) open.push(points[k]);
+      else if (open.length > 0) wedge(open.pop(), points[k]);
+    });
+    var end = crossingPoints(place, { light: [0, 1] }, null, 0);
+    end.on = [place.right, place.ray];
+    end.away = [place.right + (place.bottom - place.ray) / Math.max(place.ray - place.light[1], 1) *
+                (place.right - place.light[0]), place.bottom];
+    open.forEach(function (begin) { wedge(begin, end); });
+    return text;
+  }
+
+  function sidesDrawn(events, points, place) {
+    var many = events.length > 18, text = '';
+    events.forEach(function (event, k) {
+      if (event.kind !== 'crossing' || !points[k].side) return;
+      var p = points[k], faint = event.status === 'counted' ? '0.95' : '0.55';
+      if (many) faint = '0.35';
+      text += line(place.light, p.caster, 'light', 1,
+                   { 'stroke-dasharray': '2 4', 'stroke-opacity': many ? '0.3' : '0.75' });
+      text += line(p.caster, p.away, 'shade', 1.3, { 'stroke-opacity': faint });
+      text += tag('circle', { cx: p.caster[0], cy: p.caster[1], r: 2.4,
+                              'class': 'cut-fill-ink', fill: colors.ink });
+    });
+    return text;
+  }
+
+  /** A short stroke where a triangle meets the plane of the drawing, through the ray. */
+  function strokeOf(record, plane, place, corners, depth, least) {
+    var on = [place.x(depth), place.ray];
+    var ends = plane.degenerate || place.ordinal ? null : cutTriangle(plane, record.eye, corners);
+    if (!ends) return [[on[0] - 5, on[1] - least], [on[0] + 5, on[1] + least]];
+    return ends.map(place.point).map(function (end) {
+      var x = end[0] - on[0], y = end[1] - on[1], far = Math.sqrt(x * x + y * y);
+      if (far >= least) return end;
+      return far < 0.01 ? on : [on[0] + x / far * least, on[1] + y / far * least];
+    });
+  }
+
+  function capsDrawn(record, events, plane, place) {
+    return events.map(function (event) {
+      if (event.kind !== 'crossing' || event.crossing.kind !== 'light cap') return '';
+      var ends = strokeOf(record, plane, place, event.crossing.from, event.depth, 9);
+      return line(ends[0], ends[1], 'ink', 1.6, { 'stroke-opacity': '0.6' });
+    }).join('');
+  }
+
+  function bandDrawn(events, place) {
+    var text = '';
+    events.forEach(function (event, k) {
+      var begin = place.x(event.depth);
+      var end = k + 1 < events.length ? place.x(events[k + 1].depth) : place.right;
+      if (event.inside > 0 && Math.min(end, place.right) > begin)
+        text += tag('rect', { x: begin, y: place.ray - 5,
+                              width: Math.min(end, place.right) - begin, height: 10,
+                              'class': 'cut-fill-shade', fill: colors.shade,
+                              'fill-opacity': String(Math.min(0.2 + 0.2 * event.inside, 0.9)) });
+    });
+    return text;
+  }
+
+  /** What was lost is struck through in another colour than what nobody asked for. */
+  function struck(status, at, x, y) {
+    if (status === 'counted') return '';
+    return line([at[0] - x, at[1] + y], [at[0] + x, at[1] - y],
+                status === 'beyond' ? 'quiet' : 'bad', 1.8);
+  }
+
+  function dotsDrawn(events, place) {
+    return events.map(function (event) {
+      if (event.kind !== 'crossing') return '';
+      var at = [place.x(event.depth), place.ray], enters = event.crossing.change > 0;
+      return tag('circle', { cx: at[0], cy: at[1], r: 3.6, 'stroke-width': '1.6',
+                             'class': 'cut-stroke-shade ' + (enters ? 'cut-fill-shade'
+                                                                    : 'cut-fill-paper'),
+                             stroke: colors.shade, fill: enters ? colors.shade : colors.paper }) +
+        struck(event.status, at, 5, 5);
+    }).join('');
+  }
+
+  function eyeDrawn(at) {
+    var x = at[0] - 12, y = at[1];
+    return tag('path', {
+      d: 'M' + px(x - 11) + ' ' + px(y) + 'Q' + px(x) + ' ' + px(y - 13) + ' ' + px(x + 11) + ' ' +
+         px(y) + 'Q' + px(x) + ' ' + px(y + 13) + ' ' + px(x - 11) + ' ' + px(y) + 'Z',
+      'class': 'cut-stroke-ink cut-fill-paper', stroke: colors.ink, fill: colors.paper,
+      'stroke-width': '1.6' }) +
+      tag('circle', { cx: x + 3, cy: y, r: 3.6, 'class': 'cut-fill-ink', fill: colors.ink });
+  }
+
+  function lightDrawn(record, place, width) {
+    var at = place.light, name = record.light.name || 'light', text = '', k, angle;
+    var label = /light/i.test(name) ? name : 'light ' + name;
+    if (!place.lightIn) return '';
+    for (k = 0; k < 8; ++k) {
+      angle = k * Math.PI / 4;
+      text += line([at[0] + 8 * Math.cos(angle), at[1] + 8 * Math.sin(angle)],
+                   [at[0] + 12 * Math.cos(angle), at[1] + 12 * Math.sin(angle)], 'light', 1.6);
+    }
+    text += tag('circle', { cx: at[0], cy: at[1], r: 5.5, 'class': 'cut-fill-light',
+                            fill: colors.light });
+    var onLeft = at[0] + 18 + room(label, 12) > width;
+    return text + words([at[0] + (onLeft ? -18 : 18), at[1] + 4], label, 'light', 12,
+                        onLeft ? 'end' : 'start');
+  }
+
+  /** Where the light is, in words, when the drawing cannot hold it. */
+  function lightWords(plane, place) {
+    if (plane.degenerate)
+      return 'The light lies on the line of the ray: the sides of the volumes run along it.';
+    if (place.lightIn) return null;
+    return 'The light is outside the drawing, ' + short(Math.abs(plane.light[0])) +
+      (plane.light[0] < 0 ? ' behind the eye' : ' along the ray') + ' and ' +
+      short(plane.light[1]) + ' beside it.';
+  }
+
+  function planesDrawn(events, place, width) {
+    return events.map(function (event) {
+      if (event.kind !== 'near' && event.kind !== 'far') return '';
+      var x = Math.min(place.x(event.depth), width - 12);
+      var outside = place.x(event.depth) > place.right + 1;
+      if (outside) // an axis break
+        return [0, 4].map(function (shift) {
+          return line([width - 26 + shift, place.ray + 6], [width - 20 + shift, place.ray - 6],
+                      'quiet', 1.3);
+        }).join('');
+      return line([x, place.ray - 34], [x, place.bottom], 'quiet', 1.2,
+                  { 'stroke-dasharray': '7 3' });
+    }).join('');
+  }
+
+  function surfaceDrawn(record, plane, place) {
+    if (!record.seen) return '';
+    var ends = strokeOf(record, plane, place, record.seen.corners, record.seen.depth, 15);
+    return line(ends[0], ends[1], 'ink', 3.6, { 'stroke-linecap': 'round' });
+  }
+
+  function rayDrawn(record, place, width) {
+    var eye = [place.x(0), place.ray], end = width - 8;
+    var stop = record.seen ? place.x(record.seen.depth) : end;
+    return line(eye, [stop, place.ray], 'ink', 1.8) +
+      line([stop, place.ray], [end, place.ray], 'ink', 1.2, { 'stroke-dasharray': '1 3' }) +
+      tag('path', { d: 'M' + px(end) + ' ' + px(place.ray) + 'l-7 -3.5v7z',
+                    'class': 'cut-fill-ink', fill: colors.ink });
+  }
+
+  /** Thin lines from the places along the ray to the columns that name them. */
+  function leadersDrawn(columns, columnX, place, begin, end, width) {
+    return columns.map(function (column) {
+      var first = column[0], last = column[column.length - 1];
+      return [first].concat(last === first ? [] : [last]).map(function (event) {
+        var x = Math.min(place.x(event.depth), width - 8), to = columnX(event.index);
+        return line([x, place.ray + 7], [x, begin], 'line', 0.9, { 'stroke-opacity': '0.8' }) +
+          line([x, begin], [to, end], 'line', 0.9);
+      }).join('');
+    }).join('');
+  }
+
+  function mark(column, technique, at, counts) {
+    var event = column[0], entries = 0, exits = 0, text, half;
+    if (event.kind === 'dark caps')
+      return words([at[0], at[1] + 4], signed(counts.infinity), 'ink', 13, 'middle',
+                   { 'font-weight': '700' }) +
+        struck(event.status, at, 9, 9);
+    if (event.kind !== 'crossing')
+      return tag('rect', { x: at[0] - 1.2, y: at[1] - 10, width: 2.4, height: 20, rx: 1,
+                           'class': 'cut-fill-ink', fill: colors.ink });
+    column.forEach(function (each) { if (each.crossing.change > 0) ++entries; else ++exits; });
+    if (column.length === 1) {
+      text = signed(event.crossing.change);
+      return tag('circle', { cx: at[0], cy: at[1], r: 12, 'stroke-width': '1.6',
+                             'class': 'cut-stroke-shade ' + (entries ? 'cut-fill-shade'
+                                                                     : 'cut-fill-paper'),
+                             stroke: colors.shade, fill: entries ? colors.shade : colors.paper }) +
+        words([at[0], at[1] + 4.5], text, entries ? 'paper' : 'ink', 12.5, 'middle',
+              { 'font-weight': '700' }) +
+        struck(event.status, at, 13, 13);
+    }
+    text = [entries ? entries + '\u00d7+1' : '', exits ? exits + '\u00d7\u22121' : '']
+      .filter(Boolean).join(' ');
+    half = room(text, 10.5) / 2 + 4;
+    return tag('rect', { x: at[0] - half, y: at[1] - 10, width: 2 * half, height: 20, rx: 10,
+                         'stroke-width': '1.4', 'class': 'cut-stroke-shade cut-fill-paper',
+                         stroke: colors.shade, fill: colors.paper }) +
+      words([at[0], at[1] + 4], text, 'ink', 10.5) +
+      struck(event.status, at, half, 7);
+  }
+
+  function columnName(column) {
+    if (column[0].kind === 'crossing') return column.length > 1 ? column.length + ' crossings' : '';
+    return column[0].kind;
+  }
+
+  /** Steps of the shadow depth between the columns: how many volumes the ray is inside of. */
+  function depthSteps(columns, columnCentre, at, width) {
+    var text = '';
+    columns.forEach(function (column, i) {
+      var inside = column[column.length - 1].inside;
+      var begin = columnCentre(i);
+      var end = i + 1 < columns.length ? columnCentre(i + 1) : width - 8;
+      if (end - begin < 6) return;
+      text += tag('rect', { x: begin, y: at, width: end - begin, height: 16,
+                            'class': inside > 0 ? 'cut-fill-shade' : 'cut-fill-line',
+                            fill: inside > 0 ? colors.shade : colors.line,
+                            'fill-opacity': String(inside > 0 ? Math.min(0.1 + 0.1 * inside, 0.4)
+                                                              : 0.12) }) +
+        words([(begin + end) / 2, at + 12], String(inside), 'ink', 11);
+    });
+    return text;
+  }
+
+  /** Brackets under the strip: the fate of each run of crossings, in words that never overlap. */
+  function fatesDrawn(columns, columnCentre, technique, at, step, width) {
+    var runs = [], text = '', rows = [], lowest = 0;
+    columns.forEach(function (column, i) {
+      if (!column[0].status) return;
+      var last = runs[runs.length - 1];
+      if (last && last.status === column[0].status) last.end = i;
+      else runs.push({ status: column[0].status, begin: i, end: i });
+    });
+    runs.forEach(function (run) {
+      var begin = columnCentre(run.begin) - step * 0.42, end = columnCentre(run.end) + step * 0.42;
+      var good = run.status === 'counted', label = fateWords(run.status, technique.test);
+      var color = good ? 'ink' : run.status === 'beyond' ? 'quiet' : 'bad';
+      var half = room(label, 11.5) / 2;
+      var middle = clamp((begin + end) / 2, half + 6, width - half - 6), row = 0;
+      while (rows[row] !== undefined && middle - half < rows[row] + 8) ++row;
+      rows[row] = middle + half;
+      lowest = Math.max(lowest, row);
+      text += line([begin, at], [end, at], color, good ? 2.4 : 1.6) +
+        line([begin, at - 4], [begin, at], color, 1.4) + line([end, at - 4], [end, at], color, 1.4) +
+        (row > 0 ? line([clamp((begin + end) / 2, middle - half, middle + half), at],
+                        [clamp((begin + end) / 2, middle - half, middle + half), at + 4 + 15 * row],
+                        color, 0.8) : '') +
+        words([middle, at + 15 + 15 * row], label, color, 11.5);
+    });
+    return { text: text, height: runs.length ? 22 + 15 * lowest : 0 };
+  }
+
+  /** Lines of at most `most` characters. */
+  function wrapped(text, most) {
+    var lines = [''];
+    text.split(' ').forEach(function (word) {
+      var last = lines[lines.length - 1];
+      if (last && last.length + word.length + 1 > most) lines.push(word);
+      else lines[lines.length - 1] = last ? last + ' ' + word : word;
+    });
+    return lines;
+  }
+
+  function scaleWords(place) {
+    if (place.ordinal) return 'not to scale: depths in their order only';
+    if (Math.abs(place.scale - 1) < 0.01) return 'to scale';
+    return 'not to scale: heights \u00d7 ' + short(place.scale);
+  }
+
+  /** Names of what stands in the geometry, each where it hides no other. */
+  function labelsDrawn(record, events, points, place, width) {
+    var taken = [], text = '';
+    if (place.lightIn) taken.push([place.light[0] - 100, place.light[1] - 14,
+                                   place.light[0] + 100, place.light[1] + 14]);
+    taken.push([width - 300, 0, width, 18]);
+    points.forEach(function (p) {
+      if (p.side) taken.push([p.caster[0] - 3, p.caster[1] - 3, p.caster[0] + 3, p.caster[1] + 3]);
+    });
+    function put(at, label, size, color) {
+      var half = room(label, size) / 2, tries = [[0, 0], [0, -14], [0, 14], [half, -6], [-half, -6]];
+      var box, k, free;
+      for (k = 0; k < tries.length; ++k) {
+        var x = clamp(at[0] + tries[k][0], half + 2, width - half - 2), y = at[1] + tries[k][1];
+        box = [x - half - 3, y - size, x + half + 3, y + 4];
+        free = taken.every(function (other) {
+          return box[2] < other[0] || box[0] > other[2] || box[3] < other[1] || box[1] > other[3];
+        });
+        if (free && y > 16) {
+          taken.push(box);
+          text += words([x, y], label, color, size);
+          return;
+        }
+      }
+    }
+    put([place.x(0) - 12, place.ray + 24], 'eye', 12, 'ink');
+    put([place.x(record.near), place.ray - 40], 'near plane', 11.5, 'quiet');
+    if (place.x(record.far) <= place.right) put([place.x(record.far), place.ray - 40], 'far plane',
+                                                11.5, 'quiet');
+    if (record.seen) put([place.x(record.seen.depth), place.ray - 24],
+                         record.seen.mesh || 'surface', 12, 'ink');
+    var said = {};
+    events.forEach(function (event, k) {
+      if (event.kind !== 'crossing' || !points[k].side || !event.crossing.caster) return;
+      var name = event.crossing.caster.mesh;
+      if (!name || said[name]) return;
+      said[name] = true;
+      put([points[k].caster[0], points[k].caster[1] - 8], name, 11.5, 'ink');
+    });
+    return text;
+  }
+
+  /** An SVG text of record.techniques[k]; `width` in pixels, 760 where it is not given. */
+  function cutaway(record, k, width) {
+    var technique = record.techniques[k];
+    width = Math.max(320, width || 760);
+    var plane = planeOf(record), events = eventsOf(record, technique);
+    events.forEach(function (event, i) { event.index = i; });
+    var columns = columnsOf(events, Math.max(8, Math.floor((width - 16) / 42)));
+    var step = (width - 16) / columns.length;
+    var spot = [];
+    columns.forEach(function (column, i) {
+      column.forEach(function (event, j) {
+        spot[event.index] = 8 + step * (i + 0.5) +
+          (column.length > 1 ? (j / (column.length - 1) - 0.5) * step * 0.7 : 0);
+      });
+    });
+    function columnX(i) { return spot[i]; }
+    function columnCentre(i) { return 8 + step * (i + 0.5); }
+
+    var casters = events.map(function (event) {
+      if (event.kind !== 'crossing' || event.crossing.kind !== 'side' || plane.degenerate ||
+          !event.crossing.from) return null;
+      return cutPoint(plane, record.eye, event.crossing.from[0], event.crossing.from[1]);
+    });
+    var place = layout(record, plane, events, casters, width, columnX);
+    var points = events.map(function (event, i) {
+      var p = crossingPoints(place, plane, casters[i], event.depth);
+      p.side = casters[i] !== null;
+      return p;
+    });
+
+    var crossings = record.crossings.length;
+    var panel = (plane.degenerate ? '' : shadowsDrawn(events, points, place) +
+                                         sidesDrawn(events, points, place)) +
+      planesDrawn(events, place, width) + capsDrawn(record, events, plane, place) +
+      bandDrawn(events, place) + rayDrawn(record, place, width) +
+      surfaceDrawn(record, plane, place) + dotsDrawn(events, place);
+    var fan = place.bottom, strip = fan + 30, marks = strip + 22;
+    var text = tag('svg', { x: 0, y: 0, width: width, height: place.bottom }, panel) +
+      eyeDrawn([place.x(0), place.ray]) + lightDrawn(record, place, width) +
+      labelsDrawn(record, events, points, place, width) +
+      words([width - 8, 13], scaleWords(place), 'quiet', 11.5, 'end') +
+      leadersDrawn(columns, columnX, place, fan, strip + 4, width);
+
+    columns.forEach(function (column, i) {
+      var at = [columnCentre(i), marks], depth = column[0].depth;
+      text += mark(column, technique, at, record.inside) +
+        words([at[0], marks + 27], columnName(column) ||
+              (column.length === 1 ? short(depth) : ''), 'ink', 10.5) +
+        (column[0].kind === 'crossing' ? '' :
+          words([at[0], marks + 40], isFinite(depth) ? short(depth) : 'at infinity', 'quiet', 10.5));
+    });
+    var steps = marks + 48;
+    text += depthSteps(columns, columnCentre, steps, width);
+    var fates = fatesDrawn(columns, columnCentre, technique, steps + 28, step, width);
+    text += fates.text;
+
+    var notes = [lightWords(plane, place)];
+    if (technique.test === 'depth_fail' && crossings > 0)
+      notes.push('Counted behind the surface, where an exit adds one and an entry takes one.');
+    if (crossings === 0) notes.push('No side or cap of a shadow volume meets this ray.');
+    if (!record.seen) notes.push('The ray meets no surface: background.');
+    if (!record.adds_up)
+      notes.push('Rounding lost a crossing: those drawn do not add up to the exact counts.');
+    var y = steps + 28 + fates.height + 22, most = Math.floor((width - 16) / 7.6);
+    var sentence = sentenceOf(record, technique);
+    wrapped(sentence, most).forEach(function (row) {
+      text += words([8, y], row, 'ink', 13, 'start', { 'font-weight': '600' });
+      y += 18;
+    });
+    notes.filter(Boolean).forEach(function (note) {
+      wrapped(note, Math.floor(most * 1.08)).forEach(function (row) {
+        text += words([8, y], row, 'quiet', 12, 'start');
+        y += 16;
+      });
+    });
+    var height = y - 2;
+    var title = 'Pixel (' + record.x + ', ' + record.y + ') of ' + record.scene + ', ' +
+      technique.name;
+    var description = 'Side view along the eye ray, ' + scaleWords(place) + '. ' + crossings +
+      (crossings === 1 ? ' crossing' : ' crossings') + ' of shadow volumes. ' + sentence;
+    return '<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 ' + px(width) + ' ' +
+      px(height) + '" width="' + px(width) + '" height="' + px(height) + '" font-family="' + font +
+      '" class="cutaway">' + tag('title', {}, escaped(title)) + tag('desc', {}, escaped(description)) +
+      tag('rect', { x: 0, y: 0, width: width, height: height, 'class': 'cut-fill-paper',
+                    fill: colors.paper }) + text + '</svg>\n';
+  }
+
+  return cutaway;
+}());
