@@ -66,6 +66,8 @@ struct Report {
     Gate gate = Gate::defects;
     std::vector<SceneResult> scenes;
     bool passed = false;
+    double milliseconds = 0;        ///< the whole run until the results are written
+    double report_milliseconds = 0; ///< of them, ledgers, pictures and data of the report
 };
 
 /// Does this cell fail the run? One that could not run does.
@@ -125,9 +127,6 @@ private:
     std::filesystem::path folder_;
     std::filesystem::path beside_;
 };
-
-/// The whole folder from a report that still holds its pictures.
-void write_html(const Report& report, const std::filesystem::path& folder);
 
 /// Writes text beside `file` and renames it into place. Throws Error naming the file.
 void write_file(const std::filesystem::path& file, const std::string& text);

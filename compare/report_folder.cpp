@@ -1,6 +1,6 @@
 #include "compare/report.h"
 #include "compare/report_data.h"
-#include "compare/report_html.h"
+#include "compare/report_page.h"
 #include "compare/report_pictures.h"
 #include "scenes/error.h"
 
@@ -69,7 +69,7 @@ void ReportFolder::add_pictures(const SceneResult& scene, int threads) {
 }
 
 void ReportFolder::finish(const Report& report) {
-    write_file(beside_ / "index.html", to_html(report));
+    write_file(beside_ / "index.html", report_page());
     const std::string results = to_json(report);
     write_file(beside_ / "results.json", results);
     write_file(beside_ / "results.js", results_script(results));
@@ -85,12 +85,6 @@ void ReportFolder::finish(const Report& report) {
     } catch (const fs::filesystem_error& error) {
         throw_unwritable(folder_, error.code().message());
     }
-}
-
-void write_html(const Report& report, const fs::path& folder) {
-    ReportFolder pages(folder);
-    for (const SceneResult& scene : report.scenes) pages.add_pictures(scene);
-    pages.finish(report);
 }
 
 } // namespace shadowproof

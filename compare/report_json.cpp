@@ -97,6 +97,8 @@ std::string to_json(const Report& report) {
               {"arguments", report.arguments},
               {"gate", report.gate == Gate::defects ? "defects" : "differences"},
               {"passed", report.passed},
+              {"ms", report.milliseconds},
+              {"report_ms", report.report_milliseconds},
               {"scenes", Json::array()}};
     for (const SceneResult& scene : report.scenes)
         json["scenes"].push_back(scene_of(report, scene));

@@ -20,4 +20,7 @@ std::string fill(std::string_view text, const Gaps& values);
 /// An embedded file of compare/viewer, "page.html"; one that is not there is asserted.
 std::string_view viewer_file(std::string_view name);
 
+/// All of compare/viewer's scripts, one after the other.
+std::string viewer_script();
+
 } // namespace shadowproof

@@ -1,5 +1,6 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/command/stopwatch.h"
 #include "compare/report_data.h"
 #include "raster/render.h"
 #include "scenes/catalog.h"
@@ -64,6 +65,7 @@ struct Trial {
     const GroundTruth& truth;
     const ShadowDepths& depths;
     const Silhouette& silhouette;
+    double& report_milliseconds; ///< grows by what the report takes
 };
 
 Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
@@ -76,9 +78,11 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         refuse_blank(technique, trial.truth, cell.frame);
         cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
+        const Stopwatch stopwatch;
         cell.cause_map = packed_cause_map(cell.comparison);
         cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame, cell.comparison.cause);
+        trial.report_milliseconds += stopwatch.milliseconds();
     } catch (const Error& error) {
         cell.error = error.what();
     }
@@ -119,7 +123,8 @@ void describe(Console& console, const SceneResult& result) {
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
 
-void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, Console& console) {
+void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, Console& console,
+                  double& report_milliseconds) {
     console.progress(fmt::format("{}: reading", result.name));
     const Scene scene = load_scene(result.argument, options.scene.request());
     result.name = scene.name;
@@ -144,8 +149,10 @@ void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, C
     const Tracer tracer(scene, options.scene.threads);
     result.truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
+    const Stopwatch stopwatch;
     const Silhouette silhouette(tracer);
-    const Trial trial{scene, plan, tracer, result.truth, depths, silhouette};
+    report_milliseconds += stopwatch.milliseconds();
+    const Trial trial{scene, plan, tracer, result.truth, depths, silhouette, report_milliseconds};
     const ColumnWidths widths = widths_of(options, result.name);
     for (const Technique* technique : options.technique.chosen()) {
         console.progress(fmt::format("{}: {}", result.name, technique->name));
@@ -225,6 +232,7 @@ void conclude(Console& console, const Report& report, const VerifyOptions& optio
 }
 
 int verify(const VerifyOptions& options) {
+    const Stopwatch run;
     Console console(options.quiet);
     // The outputs are refused before the work is done, not after.
     ReportFolder folder(options.out);
@@ -245,7 +253,7 @@ int verify(const VerifyOptions& options) {
         result.name = std::filesystem::path(argument).stem().string();
         result.file = argument;
         try {
-            verify_scene(options, result, gpu, console);
+            verify_scene(options, result, gpu, console, report.report_milliseconds);
         } catch (const Error& error) {
             result.error = error.what();
             result.cells.clear();
@@ -253,12 +261,15 @@ int verify(const VerifyOptions& options) {
         }
         result.folder = unique_folder(report, result);
         console.progress(fmt::format("{}: writing pictures", result.name));
+        const Stopwatch stopwatch;
         folder.add_pictures(result, options.scene.threads);
+        report.report_milliseconds += stopwatch.milliseconds();
         drop_pictures(result);
     }
     report.passed =
         std::none_of(report.scenes.begin(), report.scenes.end(),
                      [&](const SceneResult& scene) { return fails(scene, options.gate); });
+    report.milliseconds = run.milliseconds();
     folder.finish(report);
     if (!options.json.empty()) write_file(options.json, to_json(report));
     if (!options.junit.empty()) write_file(options.junit, to_junit(report));

@@ -1,9 +1,14 @@
-# Writes OUTPUT, a C++ source whose viewer_file() returns the text of each of FILES by its name.
+# Writes OUTPUT, a C++ source whose viewer_file() returns the text of each of FILES by its name, and
+# whose viewer_script() returns those that end in .js, one after the other.
 set(cases "")
+set(scripts "")
 foreach(file ${FILES})
     get_filename_component(name ${file} NAME)
     file(READ ${file} text)
     string(APPEND cases "    if (name == \"${name}\")\n        return R\"viewer(${text})viewer\";\n")
+    if(name MATCHES "\\.js$")
+        string(APPEND scripts "    script += viewer_file(\"${name}\");\n")
+    endif()
 endforeach()
 file(WRITE ${OUTPUT} "// Made by compare/viewer/embed.cmake.
 #include \"compare/report_template.h\"
@@ -15,6 +20,11 @@ namespace shadowproof {
 std::string_view viewer_file(std::string_view name) {
 ${cases}    assert(false && \"no such file in compare/viewer\");
     return {};
+}
+
+std::string viewer_script() {
+    std::string script;
+${scripts}    return script;
 }
 
 } // namespace shadowproof

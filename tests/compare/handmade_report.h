@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/report.h"
+#include "compare/report_data.h"
 
 namespace shadowproof {
 
@@ -22,6 +23,7 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     scene.triangles = 1234;
     scene.light = "lamp";
     scene.left_out = {"tangents: no normal map"};
+    scene.digest = "0123456789abcdef";
     scene.truth.visibility = Image<Visibility>(4, 3);
     scene.truth.visibility.pixels = {B, L, L, L, B, L, S, S, B, L, S, S};
     scene.truth.statistics.lit = 5;
@@ -45,6 +47,7 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     mark(2, 1, Cause::near_plane);
     mark(1, 2, Cause::edge);
     mark(3, 2, corner_cause);
+    cell.cause_map = packed_cause_map(comparison);
     comparison.first = FirstDifference{2, 1, Cause::near_plane};
     comparison.ledger = {.equal = 9, .in_band = 1, .unexplained = 2, .first_x = 3, .first_y = 0};
     return scene;

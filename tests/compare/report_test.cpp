@@ -1,4 +1,4 @@
-#include "compare/report_html.h"
+#include "compare/report_page.h"
 #include "scenes/error.h"
 #include "tests/compare/handmade_report.h"
 
@@ -14,6 +14,12 @@ namespace shadowproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+void write_report(const Report& report, const fs::path& folder) {
+    ReportFolder pages(folder);
+    for (const SceneResult& scene : report.scenes) pages.add_pictures(scene);
+    pages.finish(report);
+}
 
 /// A folder of this test alone, gone with it.
 struct Scratch {
@@ -135,43 +141,51 @@ TEST(ReportJunit, counts_and_messages_are_those_of_the_report) {
     EXPECT_EQ(xml.find("<a"), std::string::npos);
 }
 
-TEST(ReportHtml, failures_come_first) {
-    const std::string page = to_html(handmade_report());
-    EXPECT_LT(page.find("<section class=\"scene\" id=\"broken\""),
-              page.find("<section class=\"scene\" id=\"near_plane\""));
+TEST(ReportPage, it_is_the_viewer_with_its_legend_and_no_gap_is_left) {
+    const std::string page = report_page();
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+    for (const CauseWords& cause : all_causes)
+        EXPECT_NE(page.find("\"" + std::string(cause.meaning) + "\""), std::string::npos);
+    EXPECT_NE(page.find("<script src=\"results.js\">"), std::string::npos);
 }
 
-TEST(ReportHtml, names_from_a_file_are_escaped) {
+TEST(ReportFolder, times_stand_in_the_results_and_nowhere_else) {
+    const Scratch scratch;
     Report report = handmade_report();
-    report.scenes[0].light = "<script>alert(1)</script>";
-    report.scenes[0].notes = {"</ul><img src=x onerror=alert(1)>"};
-    const std::string page = to_html(report);
-    EXPECT_EQ(page.find("<script"), std::string::npos);
-    EXPECT_EQ(page.find("<img src=x"), std::string::npos);
-    EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
-}
-
-TEST(ReportHtml, the_same_run_gives_the_same_page_whatever_the_times) {
-    Report report = handmade_report();
-    const std::string page = to_html(report);
+    write_report(report, scratch.path / "a");
     report.scenes[0].cells[0].milliseconds = 77.7;
     report.scenes[0].truth.statistics.milliseconds = 88.8;
-    EXPECT_EQ(to_html(report), page);
+    write_report(report, scratch.path / "b");
+    auto a = files_of(scratch.path / "a");
+    auto b = files_of(scratch.path / "b");
+    for (const char* file : {"results.json", "results.js"}) {
+        EXPECT_NE(a.at(file), b.at(file));
+        a.erase(file);
+        b.erase(file);
+    }
+    EXPECT_EQ(a, b);
+}
+
+TEST(ReportFolder, results_js_hands_over_what_results_json_says) {
+    const Scratch scratch;
+    write_report(handmade_report(), scratch.path / "report");
+    EXPECT_EQ(bytes_of(scratch.path / "report/results.js"),
+              "shadowproof.results(" + bytes_of(scratch.path / "report/results.json") + ");\n");
 }
 
 TEST(ReportFolder, two_writings_have_the_same_bytes) {
     const Scratch scratch;
-    write_html(handmade_report(), scratch.path / "a");
-    write_html(handmade_report(), scratch.path / "b");
+    write_report(handmade_report(), scratch.path / "a");
+    write_report(handmade_report(), scratch.path / "b");
     const auto a = files_of(scratch.path / "a");
-    EXPECT_EQ(a.size(), 2 + 2 * 4U);
+    EXPECT_EQ(a.size(), 3 + 2 * 6U);
     EXPECT_TRUE(a.contains("index.html"));
     EXPECT_EQ(a, files_of(scratch.path / "b"));
 }
 
 TEST(ReportFolder, every_picture_that_results_name_is_there) {
     const Scratch scratch;
-    write_html(handmade_report(), scratch.path / "report");
+    write_report(handmade_report(), scratch.path / "report");
     const auto json = nlohmann::json::parse(bytes_of(scratch.path / "report/results.json"));
     for (const auto& scene : json["scenes"]) {
         EXPECT_TRUE(fs::exists(scratch.path / "report" / scene["images"]["truth"]));
@@ -183,9 +197,9 @@ TEST(ReportFolder, every_picture_that_results_name_is_there) {
 TEST(ReportFolder, an_older_report_is_replaced_whole) {
     const Scratch scratch;
     Report report = handmade_report();
-    write_html(report, scratch.path / "report");
+    write_report(report, scratch.path / "report");
     report.scenes.erase(report.scenes.begin());
-    write_html(report, scratch.path / "report/");
+    write_report(report, scratch.path / "report/");
     EXPECT_FALSE(fs::exists(scratch.path / "report/near_plane"));
     EXPECT_TRUE(fs::exists(scratch.path / "report/broken/truth.png"));
     EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path), {}), 1) << "something was left";
@@ -195,16 +209,16 @@ TEST(ReportFolder, a_folder_that_is_no_report_is_left_alone) {
     const Scratch scratch;
     fs::create_directories(scratch.path / "holiday");
     std::ofstream(scratch.path / "holiday/results.json") << "{\"schema\":\"mine\"}";
-    EXPECT_THROW(write_html(handmade_report(), scratch.path / "holiday"), Error);
+    EXPECT_THROW(write_report(handmade_report(), scratch.path / "holiday"), Error);
     EXPECT_EQ(bytes_of(scratch.path / "holiday/results.json"), "{\"schema\":\"mine\"}");
     std::ofstream(scratch.path / "file") << "text";
-    EXPECT_THROW(write_html(handmade_report(), scratch.path / "file"), Error);
+    EXPECT_THROW(write_report(handmade_report(), scratch.path / "file"), Error);
     EXPECT_EQ(bytes_of(scratch.path / "file"), "text");
 }
 
 TEST(ReportFolder, one_that_is_dropped_leaves_the_older_report_and_nothing_else) {
     const Scratch scratch;
-    write_html(handmade_report(), scratch.path / "report");
+    write_report(handmade_report(), scratch.path / "report");
     const auto before = files_of(scratch.path);
     {
         ReportFolder folder(scratch.path / "report");
