@@ -16,6 +16,8 @@ namespace {
 
 /// Pixels along a region's side: measured, 8 and 32 take a third longer.
 constexpr int region_side = 16;
+/// Regions of a band, from top to bottom.
+constexpr int regions_high = 8;
 
 struct Inputs {
     const Tracer& tracer;
@@ -50,53 +52,84 @@ void append_words(const Inputs& in, const PixelLedger& ledger, std::uint32_t see
                                                       in.frame.counting, in.frame.depth_model)));
 }
 
-/// The ledgers of one region's differing pixels, in rows from the top.
-struct RegionWords {
-    std::vector<std::size_t> start{0}; ///< of each pixel's words; one more at the end
+struct Place {
+    int x = 0;
+    int y = 0;
+};
+
+/// The differing pixels of one region, in rows from the top, and their ledgers.
+struct Region {
+    std::vector<Place> places;
+    std::vector<std::size_t> start{0}; ///< of each place's words; one more at the end
     Words words;
 };
 
-struct Region {
-    int left = 0;
-    int top = 0;
-    int right = 0;
-    int bottom = 0;
-};
-
-RegionWords region_words(const Inputs& in, const Region& region) {
+void find_words(const Inputs& in, Region& region) {
+    if (region.places.empty()) return;
     const Camera& camera = in.tracer.scene().camera;
-    Region box{region.right, region.bottom, region.left, region.top}; // of what differs
-    for (int y = region.top; y < region.bottom; ++y)
-        for (int x = region.left; x < region.right; ++x)
-            if (in.cause.at(x, y) != no_difference)
-                box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1),
-                       std::max(box.bottom, y + 1)};
-    RegionWords result;
-    if (box.left >= box.right) return result;
-    const auto ray = [&](int x, int y) { return ray_direction(camera, x + 0.5, y + 0.5); };
-    const RegionLedger ledgers(in.tracer, in.silhouette,
-                               {ray(box.left, box.top), ray(box.right - 1, box.top),
-                                ray(box.right - 1, box.bottom - 1), ray(box.left, box.bottom - 1)});
-    for (int y = box.top; y < box.bottom; ++y)
-        for (int x = box.left; x < box.right; ++x) {
-            if (in.cause.at(x, y) == no_difference) continue;
-            const PixelLedger ledger = pixel_ledger(in.tracer, ledgers, in.truth, in.depths, x, y);
-            append_words(in, ledger, in.truth.triangle.at(x, y), result.words);
-            result.start.push_back(result.words.size());
-        }
-    return result;
+    Place least = region.places.front();
+    Place most = least;
+    for (const Place& p : region.places) {
+        least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+        most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+    }
+    RegionLedger ledgers(in.tracer, in.silhouette,
+                         corner_rays(camera, least.x, least.y, most.x + 1, most.y + 1));
+    PixelLedger ledger;
+    for (const auto& [x, y] : region.places) {
+        find_pixel_ledger(in.tracer, ledgers, in.truth, in.depths, x, y, ledger);
+        append_words(in, ledger, in.truth.triangle.at(x, y), region.words);
+        region.start.push_back(region.words.size());
+    }
 }
 
-struct HashWords {
-    std::size_t operator()(const Words& words) const {
-        return XXH3_64bits(words.data(), words.size() * sizeof(std::uint64_t));
+/// All differing pixels, in rows from the top.
+std::vector<Place> differing_places(const Image<std::uint8_t>& cause) {
+    std::vector<Place> places;
+    for (int y = 0; y < cause.height; ++y) {
+        const std::uint8_t* row = cause.pixels.data() + cause.index(0, y);
+        for (int x = 0; x < cause.width; ++x)
+            if (row[x] != no_difference) places.push_back({x, y});
     }
+    return places;
+}
+
+/// Lists of words, each kept once and numbered.
+class WordLists {
+public:
+    struct Numbered {
+        std::uint32_t number = 0;
+        bool is_new = false;
+    };
+    Numbered number_of(std::span<const std::uint64_t> words) {
+        // Another list with the same hash has gone one further.
+        for (std::uint64_t hash = XXH3_64bits(words.data(), words.size_bytes());; ++hash) {
+            const auto count = static_cast<std::uint32_t>(start_.size() - 1);
+            const auto [place, is_new] = numbers_.try_emplace(hash, count);
+            if (is_new) {
+                words_.insert(words_.end(), words.begin(), words.end());
+                start_.push_back(words_.size());
+                return {count, true};
+            }
+            const auto kept = words_.begin() + static_cast<std::ptrdiff_t>(start_[place->second]);
+            const std::size_t size = start_[place->second + 1] - start_[place->second];
+            if (size == words.size() && std::equal(words.begin(), words.end(), kept))
+                return {place->second, false};
+        }
+    }
+
+private:
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers_; ///< by hash
+    Words words_;
+    std::vector<std::size_t> start_{0};
 };
 
 /// Fills a table in a fixed order, whoever found the ledgers.
 class TableBuilder {
 public:
-    explicit TableBuilder(const Inputs& in) : in_(in), scene_(in.tracer.scene()) {}
+    explicit TableBuilder(const Inputs& in)
+        : in_(in), scene_(in.tracer.scene()), faces_(4 * scene_.triangles.size(), unnumbered),
+          needed_(scene_.triangles.size(), 0) {}
 
     void add_pixel(int x, int y, std::span<const std::uint64_t> words) {
         const std::uint32_t seen = in_.truth.triangle.at(x, y);
@@ -106,28 +139,22 @@ public:
         table_.exactness.push_back(static_cast<std::uint8_t>(in_.truth.exactness.at(x, y)));
         need(seen);
         need(shown);
-        // Neighbours mostly have the same.
-        if (!std::equal(words.begin(), words.end(), last_.begin(), last_.end())) {
-            last_.assign(words.begin(), words.end());
-            const auto [place, is_new] =
-                ledgers_.try_emplace(last_, static_cast<std::uint32_t>(ledgers_.size()));
-            if (is_new) add_ledger(words);
-            last_ledger_ = place->second;
-        }
-        table_.ledger.push_back(last_ledger_);
+        const auto [ledger, is_new] = ledgers_.number_of(words);
+        if (is_new) add_ledger(words);
+        table_.ledger.push_back(ledger);
     }
 
     LedgerTable finish() {
-        std::sort(triangles_.begin(), triangles_.end());
-        triangles_.erase(std::unique(triangles_.begin(), triangles_.end()), triangles_.end());
-        std::unordered_map<std::uint32_t, std::uint32_t> vertices;
-        for (const std::uint32_t triangle : triangles_) {
+        std::vector<std::uint32_t> vertices(scene_.positions.size(), unnumbered);
+        for (std::uint32_t triangle = 0; triangle < needed_.size(); ++triangle) {
+            if (needed_[triangle] == 0) continue;
             table_.triangle.push_back(triangle);
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t position = scene_.triangles[triangle][k];
-                const auto [place, is_new] =
-                    vertices.try_emplace(position, static_cast<std::uint32_t>(vertices.size()));
-                table_.triangle.push_back(place->second);
+                std::uint32_t& vertex = vertices[position];
+                const bool is_new = vertex == unnumbered;
+                if (is_new) vertex = static_cast<std::uint32_t>(table_.vertex.size() / 3);
+                table_.triangle.push_back(vertex);
                 if (!is_new) continue;
                 const glm::vec3& p = scene_.positions[position];
                 table_.vertex.insert(table_.vertex.end(), {p.x, p.y, p.z});
@@ -137,19 +164,17 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t unnumbered = 0xffffffffU;
+
     const Inputs& in_;
     const Scene& scene_;
     LedgerTable table_;
-    Words last_;
-    std::uint32_t last_ledger_ = 0;
-    std::unordered_map<Words, std::uint32_t, HashWords> ledgers_;
-    std::unordered_map<std::uint64_t, std::uint32_t> faces_;
-    std::vector<std::uint32_t> triangles_;
+    WordLists ledgers_;
+    std::vector<std::uint32_t> faces_; ///< 4 a triangle: number of each part's face, or unnumbered
+    std::vector<std::uint8_t> needed_; ///< a flag a triangle
 
     void need(std::uint32_t triangle) {
-        if (triangle == no_triangle) return;
-        if (!triangles_.empty() && triangles_.back() == triangle) return;
-        triangles_.push_back(triangle);
+        if (triangle != no_triangle) needed_[triangle] = 1;
     }
 
     void add_ledger(std::span<const std::uint64_t> words) {
@@ -161,13 +186,13 @@ private:
         for (const std::uint64_t word : words.subspan(count_words)) {
             const auto triangle = static_cast<std::uint32_t>(word >> 32U);
             const auto part = static_cast<std::uint32_t>(word >> 1U & 3U);
-            const auto [place, is_new] = faces_.try_emplace(
-                std::uint64_t{triangle} << 2U | part, static_cast<std::uint32_t>(faces_.size()));
-            if (is_new) {
+            std::uint32_t& face = faces_[4 * std::size_t{triangle} + part];
+            if (face == unnumbered) {
+                face = static_cast<std::uint32_t>(table_.face.size() / 2);
                 table_.face.insert(table_.face.end(), {triangle, part});
                 need(triangle);
             }
-            table_.crossing_face.push_back(place->second);
+            table_.crossing_face.push_back(face);
             table_.crossing_change.push_back((word & 1U) != 0 ? std::int8_t{1} : std::int8_t{-1});
             table_.crossing_tally.push_back(static_cast<std::uint8_t>(word >> 8U & 0xffU));
         }
@@ -180,34 +205,35 @@ private:
 LedgerTable list_ledgers(const Tracer& tracer, const Silhouette& silhouette,
                          const GroundTruth& truth, const ShadowDepths& depths, const Frame& frame,
                          const Image<std::uint8_t>& cause) {
+    const std::vector<Place> places = differing_places(cause);
+    if (places.empty()) return {};
     const Inputs in{tracer, silhouette, truth, depths, frame, cause};
     TableBuilder builder(in);
     const int columns = (cause.width + region_side - 1) / region_side;
+    const auto band_of = [](const Place& p) { return p.y / (region_side * regions_high); };
+    const auto region_of = [&](const Place& p) {
+        const int row = p.y / region_side % regions_high;
+        return static_cast<std::size_t>(row * columns + p.x / region_side);
+    };
     // A band of regions at a time, so that what waits for its place in the table stays small.
-    constexpr int rows_of_regions = 8;
-    for (int top = 0; top < cause.height; top += region_side * rows_of_regions) {
-        std::vector<RegionWords> found(static_cast<std::size_t>(columns) * rows_of_regions);
-        parallel_for(static_cast<int>(found.size()), tracer.threads(), [&](int i, int) {
-            const int left = i % columns * region_side;
-            const int y = top + i / columns * region_side;
-            found[static_cast<std::size_t>(i)] =
-                region_words(in, {left, y, std::min(left + region_side, cause.width),
-                                  std::min(y + region_side, cause.height)});
-        });
-        std::vector<std::size_t> next(found.size(), 0); // pixel of each region
-        const int bottom = std::min(top + region_side * rows_of_regions, cause.height);
-        for (int y = top; y < bottom; ++y)
-            for (int x = 0; x < cause.width; ++x) {
-                if (cause.at(x, y) == no_difference) continue;
-                const auto i =
-                    static_cast<std::size_t>((y - top) / region_side * columns + x / region_side);
-                const RegionWords& region = found[i];
-                const std::size_t pixel = next[i]++;
-                builder.add_pixel(x, y,
-                                  std::span(region.words)
-                                      .subspan(region.start[pixel],
-                                               region.start[pixel + 1] - region.start[pixel]));
-            }
+    for (auto begin = places.begin(); begin != places.end();) {
+        const auto end = std::find_if(
+            begin, places.end(), [&](const Place& p) { return band_of(p) != band_of(*begin); });
+        std::vector<Region> regions(static_cast<std::size_t>(columns) * regions_high);
+        for (auto p = begin; p != end; ++p) regions[region_of(*p)].places.push_back(*p);
+        // For a few pixels no thread is worth its start.
+        const int threads = end - begin < 256 ? 1 : tracer.threads();
+        parallel_for(static_cast<int>(regions.size()), threads,
+                     [&](int i, int) { find_words(in, regions[static_cast<std::size_t>(i)]); });
+        std::vector<std::size_t> next(regions.size(), 0); // place of each region
+        for (auto p = begin; p != end; ++p) {
+            const Region& region = regions[region_of(*p)];
+            const std::size_t i = next[region_of(*p)]++;
+            builder.add_pixel(p->x, p->y,
+                              std::span(region.words)
+                                  .subspan(region.start[i], region.start[i + 1] - region.start[i]));
+        }
+        begin = end;
     }
     return builder.finish();
 }

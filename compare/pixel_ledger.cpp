@@ -33,26 +33,25 @@ double surface_depth(const Scene& scene, std::uint32_t seen, const glm::dvec3& d
 
 } // namespace
 
-PixelLedger pixel_ledger(const Tracer& tracer, const RegionLedger& region, const GroundTruth& truth,
-                         const ShadowDepths& depths, int x, int y) {
+void find_pixel_ledger(const Tracer& tracer, RegionLedger& region, const GroundTruth& truth,
+                       const ShadowDepths& depths, int x, int y, PixelLedger& ledger) {
     const Scene& scene = tracer.scene();
     const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
     const std::uint32_t seen = truth.triangle.at(x, y);
-    PixelLedger ledger;
     ledger.counts = {depths.at_eye, depths.at_near.at(x, y), depths.at_surface.at(x, y),
                      depths.at_far.at(x, y), depths.at_infinity.at(x, y)};
     ledger.surface = surface_depth(scene, seen, direction);
     region.crossings(direction, ledger.crossings);
     ledger.adds_up = sums(tracer, ledger, depths.far, seen) == ledger.counts;
-    return ledger;
 }
 
 PixelLedger pixel_ledger(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
                          int x, int y) {
-    const glm::dvec3 direction = ray_direction(tracer.scene().camera, x + 0.5, y + 0.5);
     const Silhouette silhouette(tracer);
-    const RegionLedger region(tracer, silhouette, {direction, direction, direction, direction});
-    return pixel_ledger(tracer, region, truth, depths, x, y);
+    RegionLedger region(tracer, silhouette, corner_rays(tracer.scene().camera, x, y, x + 1, y + 1));
+    PixelLedger ledger;
+    find_pixel_ledger(tracer, region, truth, depths, x, y, ledger);
+    return ledger;
 }
 
 } // namespace shadowproof

@@ -26,9 +26,9 @@ struct PixelLedger {
     bool adds_up = false; ///< the crossings' sums are the exact counts; else rounding moved some
 };
 
-/// The ledger at a pixel's centre. `region` must hold its ray.
-PixelLedger pixel_ledger(const Tracer& tracer, const RegionLedger& region, const GroundTruth& truth,
-                         const ShadowDepths& depths, int x, int y);
+/// Sets `ledger` to that at a pixel's centre. `region` must hold its ray.
+void find_pixel_ledger(const Tracer& tracer, RegionLedger& region, const GroundTruth& truth,
+                       const ShadowDepths& depths, int x, int y, PixelLedger& ledger);
 
 /// The same for a pixel alone.
 PixelLedger pixel_ledger(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,

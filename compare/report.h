@@ -118,8 +118,9 @@ public:
     ReportFolder(const ReportFolder&) = delete;
     ReportFolder& operator=(const ReportFolder&) = delete;
 
-    /// Writes pictures and data of a scene, which may then be dropped. threads 0: one per core.
-    void add_pictures(const SceneResult& scene, int threads = 0);
+    /// Writes pictures and data of a scene, which may then be dropped, and packs its cause maps.
+    /// threads 0: one per core.
+    void add_pictures(SceneResult& scene, int threads = 0);
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
 

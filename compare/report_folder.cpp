@@ -60,7 +60,7 @@ ReportFolder::~ReportFolder() {
     fs::remove_all(beside_, ignored);
 }
 
-void ReportFolder::add_pictures(const SceneResult& scene, int threads) {
+void ReportFolder::add_pictures(SceneResult& scene, int threads) {
     try {
         write_pictures(scene, beside_, threads);
     } catch (const fs::filesystem_error& error) {

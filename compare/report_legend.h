@@ -2,6 +2,7 @@
 // stay apart under all common forms of colour blindness; the words beside them carry the meaning.
 #pragma once
 
+#include "compare/png.h"
 #include "scenes/cause.h"
 #include "scenes/frame.h"
 
@@ -10,8 +11,6 @@
 #include <string_view>
 
 namespace shadowproof {
-
-using Rgb = std::array<std::uint8_t, 3>;
 
 /// A line a cause, in the order of all_causes. Okabe and Ito have eight colours, so causes that no
 /// technique has together share one: those of shadow maps with those of shadow volumes.

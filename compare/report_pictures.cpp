@@ -1,9 +1,6 @@
 #include "compare/report_pictures.h"
 
 #include "compare/report_data.h"
-#include "scenes/error.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,29 +13,35 @@ namespace shadowproof {
 
 namespace {
 
-void write_png_bytes(const std::filesystem::path& file, int width, int height, int channels,
-                     const void* bytes) {
-    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-    // These pictures are long runs of few values: level 1 is as small as need be, and quick.
-    spec.attribute("png:compressionLevel", 1);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    const auto fail = [&](const std::string& reason) {
-        throw Error(file.string(), "the picture cannot be written (" + reason + ")",
-                    "see that its folder is writable and has room");
-    };
-    if (!output) fail(OIIO::geterror());
-    if (!output->open(file.string(), spec) || !output->write_image(OIIO::TypeDesc::UINT8, bytes) ||
-        !output->close())
-        fail(output->geterror());
+/// The palette's first colours: the claim where nothing differs.
+enum Dimmed : std::uint8_t { dimmed_lit, dimmed_shadowed, dimmed_background, dimmed_count };
+
+std::uint8_t dimmed_index(Visibility claim) {
+    switch (claim) {
+    case Visibility::lit:
+        return dimmed_lit;
+    case Visibility::shadowed:
+        return dimmed_shadowed;
+    case Visibility::background:
+        break;
+    }
+    return dimmed_background;
 }
 
-template <class Color>
-Image<Rgb> marked(const Cell& cell, Color color) {
+/// The dimmed claim, and where it differs the colour number mark(i) of `marks`.
+template <class Colors, class ColorOf, class Mark>
+PalettePicture marked(const Cell& cell, const Colors& marks, ColorOf color_of, Mark mark) {
     const Image<Visibility>& claim = cell.frame.claim;
     const Image<std::uint8_t>& cause = cell.comparison.cause;
-    Image<Rgb> picture(claim.width, claim.height);
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-        picture.pixels[i] = cause.pixels[i] == no_difference ? dimmed(claim.pixels[i]) : color(i);
+    PalettePicture picture{
+        Image<std::uint8_t>(claim.width, claim.height),
+        {dimmed(Visibility::lit), dimmed(Visibility::shadowed), dimmed(Visibility::background)}};
+    for (const auto& each : marks) picture.palette.push_back(color_of(each));
+    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i)
+        picture.indices.pixels[i] =
+            cause.pixels[i] == no_difference
+                ? dimmed_index(claim.pixels[i])
+                : static_cast<std::uint8_t>(dimmed_count + static_cast<int>(mark(i)));
     return picture;
 }
 
@@ -87,36 +90,30 @@ std::string truth_path(const SceneResult& scene) {
     return folder_of(scene) + "/truth.png";
 }
 
-Image<Rgb> difference_picture(const GroundTruth& truth, const Cell& cell) {
-    return marked(cell, [&](std::size_t i) {
-        const Contradiction found =
-            contradiction(truth.visibility.pixels[i], cell.frame.claim.pixels[i]);
-        return all_contradictions[static_cast<std::size_t>(found)].color;
-    });
+PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell) {
+    return marked(
+        cell, all_contradictions, [](const ContradictionWords& words) { return words.color; },
+        [&](std::size_t i) {
+            return contradiction(truth.visibility.pixels[i], cell.frame.claim.pixels[i]);
+        });
 }
 
-Image<Rgb> cause_picture(const Cell& cell) {
-    return marked(cell,
-                  [&](std::size_t i) { return cause_colors[cell.comparison.cause.pixels[i]]; });
+PalettePicture cause_picture(const Cell& cell) {
+    return marked(
+        cell, cause_colors, [](const Rgb& color) { return color; },
+        [&](std::size_t i) { return cell.comparison.cause.pixels[i]; });
 }
 
-void write_png(const std::filesystem::path& file, const Image<Visibility>& classes) {
-    write_png_bytes(file, classes.width, classes.height, 1, classes.pixels.data());
-}
-
-void write_png(const std::filesystem::path& file, const Image<Rgb>& picture) {
-    write_png_bytes(file, picture.width, picture.height, 3, picture.pixels.data());
-}
-
-void write_pictures(const SceneResult& scene, const std::filesystem::path& report, int threads) {
+void write_pictures(SceneResult& scene, const std::filesystem::path& report, int threads) {
     if (!scene.error.empty()) return;
     std::vector<std::function<void()>> jobs;
     std::filesystem::create_directories((report / truth_path(scene)).parent_path());
     jobs.emplace_back([&] { write_png(report / truth_path(scene), scene.truth.visibility); });
     jobs.emplace_back(
         [&] { write_file(report / folder_of(scene) / "scene.js", scene_script(scene)); });
-    for (const Cell& cell : scene.cells) {
+    for (Cell& cell : scene.cells) {
         if (!cell.error.empty()) continue;
+        jobs.emplace_back([&cell] { cell.cause_map = packed_cause_map(cell.comparison); });
         const auto path = [&](const char* kind) {
             return report / picture_path(scene, cell, kind);
         };

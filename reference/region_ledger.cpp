@@ -100,6 +100,12 @@ Silhouette::Silhouette(const Tracer& tracer) {
         }
 }
 
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, int left, int top, int right,
+                                      int bottom) {
+    return {ray_direction(camera, left, top), ray_direction(camera, right, top),
+            ray_direction(camera, right, bottom), ray_direction(camera, left, bottom)};
+}
+
 RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                            const std::array<glm::dvec3, 4>& corners)
     : tracer_(tracer), silhouette_(silhouette) {
@@ -130,6 +136,29 @@ void RegionLedger::gather_sides(const std::array<glm::dvec3, 4>& corners) {
         const Signs beyond(corners, side.edge);
         if (eye < 0 ? !beyond.some_negative : !beyond.some_positive) continue;
         sides_.push_back(side);
+    }
+    number_vertices();
+}
+
+void RegionLedger::number_vertices() {
+    std::vector<std::uint32_t> used;
+    for (const Silhouette::Side& side : sides_) used.insert(used.end(), {side.p, side.q});
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::uint32_t vertex : used) {
+        const glm::dvec3& plane = silhouette_.vertices()[vertex].plane;
+        vertices_.x.push_back(plane.x);
+        vertices_.y.push_back(plane.y);
+        vertices_.z.push_back(plane.z);
+    }
+    behind_.resize(used.size());
+    const auto number = [&](std::uint32_t vertex) {
+        return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), vertex) -
+                                          used.begin());
+    };
+    for (Silhouette::Side& side : sides_) {
+        side.p = number(side.p);
+        side.q = number(side.q);
     }
 }
 
@@ -185,14 +214,15 @@ bool RegionLedger::Cap::is_met_by(const glm::dvec3& direction) const {
     return left(0) == left(1) && left(1) == left(2);
 }
 
-void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>& found) const {
+void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>& found) {
     const Tracer::State& state = tracer_.state();
     found.clear();
+    for (std::size_t i = 0; i < behind_.size(); ++i)
+        behind_[i] = direction.x * vertices_.x[i] + direction.y * vertices_.y[i] +
+                         direction.z * vertices_.z[i] <
+                     0;
     for (const Silhouette::Side& side : sides_) {
-        const auto behind = [&](std::uint32_t vertex) {
-            return glm::dot(direction, silhouette_.vertices()[vertex].plane) < 0;
-        };
-        if (behind(side.p) == behind(side.q)) continue;
+        if (behind_[side.p] == behind_[side.q]) continue;
         const double slope = glm::dot(direction, side.plane);
         const double eye = glm::dot(state.eye - state.light, side.plane);
         if (slope == 0 || (slope < 0) == (eye < 0)) continue;

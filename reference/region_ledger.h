@@ -39,6 +39,11 @@ private:
     std::vector<Side> sides_;
 };
 
+/// The corners of the pixels [left, right) x [top, bottom), with room to all sides of their
+/// centres.
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, int left, int top, int right,
+                                      int bottom);
+
 class RegionLedger {
 public:
     /// `corners`: directions of four rays of the picture whose rectangle holds all that are asked
@@ -50,7 +55,7 @@ public:
     /// precision with signs that neighbouring faces share, so that a closed volume is left as often
     /// as it is entered but where a product rounds to another sign: compare the sum with the exact
     /// counts.
-    void crossings(const glm::dvec3& direction, std::vector<Crossing>& found) const;
+    void crossings(const glm::dvec3& direction, std::vector<Crossing>& found);
 
 private:
     struct Cap {
@@ -63,12 +68,21 @@ private:
     };
 
     void gather_sides(const std::array<glm::dvec3, 4>& corners);
+    void number_vertices();
     void gather_caps(const std::array<glm::dvec3, 4>& corners);
     void gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners);
 
+    /// Vertices of the region's sides, their planes apart by component so that the compiler asks
+    /// for many at once.
+    struct Vertices {
+        std::vector<double> x, y, z;
+    };
+
     const Tracer& tracer_;
     const Silhouette& silhouette_;
-    std::vector<Silhouette::Side> sides_;
+    Vertices vertices_;
+    std::vector<Silhouette::Side> sides_; ///< p and q: indices into vertices_
+    std::vector<std::uint8_t> behind_;    ///< a flag a vertex, for the ray at hand
     std::vector<Cap> caps_;
 };
 

@@ -1,7 +1,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/truth_exr.h"
-#include "compare/report_pictures.h"
+#include "compare/png.h"
 #include "compare/write_file.h"
 #include "scenes/catalog.h"
 

@@ -79,7 +79,6 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
         const Stopwatch stopwatch;
-        cell.cause_map = packed_cause_map(cell.comparison);
         cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame, cell.comparison.cause);
         trial.report_milliseconds += stopwatch.milliseconds();

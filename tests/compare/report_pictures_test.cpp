@@ -23,7 +23,7 @@ double luminance(const Rgb& color) {
 
 TEST(ReportPictures, differing_pixels_alone_have_a_cause_s_colour) {
     const SceneResult scene = handmade_scene("x", Cause::unexplained, Verdict::unexplained);
-    const Image<Rgb> picture = cause_picture(scene.cells[0]);
+    const PalettePicture picture = cause_picture(scene.cells[0]);
     EXPECT_EQ(picture.at(2, 1), cause_colors[static_cast<std::size_t>(Cause::near_plane)]);
     EXPECT_EQ(picture.at(1, 2), cause_colors[static_cast<std::size_t>(Cause::edge)]);
     EXPECT_EQ(picture.at(3, 2), cause_colors[static_cast<std::size_t>(Cause::unexplained)]);
@@ -34,7 +34,7 @@ TEST(ReportPictures, differing_pixels_alone_have_a_cause_s_colour) {
 
 TEST(ReportPictures, the_difference_tells_false_light_from_false_shadow) {
     const SceneResult scene = handmade_scene("x", Cause::edge, Verdict::agrees);
-    const Image<Rgb> picture = difference_picture(scene.truth, scene.cells[0]);
+    const PalettePicture picture = difference_picture(scene.truth, scene.cells[0]);
     const auto color = [](Contradiction c) {
         return all_contradictions[static_cast<std::size_t>(c)].color;
     };

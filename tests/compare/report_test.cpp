@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_report(const Report& report, const fs::path& folder) {
+void write_report(Report report, const fs::path& folder) {
     ReportFolder pages(folder);
-    for (const SceneResult& scene : report.scenes) pages.add_pictures(scene);
+    for (SceneResult& scene : report.scenes) pages.add_pictures(scene);
     pages.finish(report);
 }
 
@@ -222,7 +222,8 @@ TEST(ReportFolder, one_that_is_dropped_leaves_the_older_report_and_nothing_else)
     const auto before = files_of(scratch.path);
     {
         ReportFolder folder(scratch.path / "report");
-        folder.add_pictures(handmade_report().scenes[0]);
+        SceneResult scene = handmade_report().scenes[0];
+        folder.add_pictures(scene);
     }
     EXPECT_EQ(files_of(scratch.path), before);
 }

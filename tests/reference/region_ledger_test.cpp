@@ -20,14 +20,9 @@ void for_regions(const Tracer& tracer, int step, const Visit& visit) {
     const Silhouette silhouette(tracer);
     for (int y = 0; y < camera.height; y += side * step)
         for (int x = 0; x < camera.width; x += side * step) {
-            const double right = std::min(x + side, camera.width) - 0.5;
-            const double bottom = std::min(y + side, camera.height) - 0.5;
-            visit(RegionLedger(tracer, silhouette,
-                               {ray_direction(camera, x + 0.5, y + 0.5),
-                                ray_direction(camera, right, y + 0.5),
-                                ray_direction(camera, right, bottom),
-                                ray_direction(camera, x + 0.5, bottom)}),
-                  x, y);
+            const int right = std::min(x + side, camera.width);
+            const int bottom = std::min(y + side, camera.height);
+            visit(RegionLedger(tracer, silhouette, corner_rays(camera, x, y, right, bottom)), x, y);
         }
 }
 
@@ -37,7 +32,7 @@ TEST_P(RegionLedgerTest, the_crossings_are_those_found_ray_by_ray) {
     const Scene scene = load_scene(GetParam(), {});
     const Tracer tracer(scene);
     std::vector<Crossing> found;
-    for_regions(tracer, 8, [&](const RegionLedger& region, int x0, int y0) {
+    for_regions(tracer, 8, [&](RegionLedger region, int x0, int y0) {
         for (int y = y0; y < y0 + side; y += 5)
             for (int x = x0; x < x0 + side; x += 5) {
                 const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
@@ -59,7 +54,7 @@ TEST_P(RegionLedgerTest, the_crossings_add_up_to_the_exact_counts_at_every_pixel
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
     std::vector<Crossing> found;
-    for_regions(tracer, 1, [&](const RegionLedger& region, int x0, int y0) {
+    for_regions(tracer, 1, [&](RegionLedger region, int x0, int y0) {
         for (int y = y0; y < std::min(y0 + side, scene.camera.height); ++y)
             for (int x = x0; x < std::min(x0 + side, scene.camera.width); ++x) {
                 region.crossings(ray_direction(scene.camera, x + 0.5, y + 0.5), found);

@@ -1,0 +1,44 @@
+#include "compare/png.h"
+
+#include "scenes/error.h"
+
+#include <png.h>
+
+#include <cassert>
+
+namespace shadowproof {
+
+namespace {
+
+/// By libpng's simplified interface (libpng manual, section V): `colormap` null for gray.
+void write(const std::filesystem::path& file, int width, int height, const void* bytes,
+           png_uint_32 format, const void* colormap, std::size_t colors) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = format;
+    // These pictures are long runs: the quick compression is as small as need be.
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    image.colormap_entries = static_cast<png_uint_32>(colors);
+    if (png_image_write_to_file(&image, file.c_str(), 0, bytes, 0, colormap) != 0) return;
+    const std::string reason = image.message;
+    png_image_free(&image);
+    throw Error(file.string(), "the picture cannot be written (" + reason + ")",
+                "see that its folder is writable and has room");
+}
+
+} // namespace
+
+void write_png(const std::filesystem::path& file, const Image<Visibility>& classes) {
+    write(file, classes.width, classes.height, classes.pixels.data(), PNG_FORMAT_GRAY, nullptr, 0);
+}
+
+void write_png(const std::filesystem::path& file, const PalettePicture& picture) {
+    static_assert(sizeof(Rgb) == 3);
+    assert(picture.palette.size() <= 256);
+    write(file, picture.indices.width, picture.indices.height, picture.indices.pixels.data(),
+          PNG_FORMAT_RGB_COLORMAP, picture.palette.data(), picture.palette.size());
+}
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+// PNG files of few values: gray, or with a palette of colours, which OpenImageIO does not write. A
+// third of the bytes to compress, and so of the time that a report's pictures take.
+#pragma once
+
+#include "scenes/frame.h"
+#include "scenes/image.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace shadowproof {
+
+using Rgb = std::array<std::uint8_t, 3>; ///< sRGB
+
+struct PalettePicture {
+    Image<std::uint8_t> indices; ///< into palette
+    std::vector<Rgb> palette;    ///< at most 256
+
+    const Rgb& at(int x, int y) const { return palette[indices.at(x, y)]; }
+};
+
+/// The same bytes for the same picture. Throws Error naming the file.
+void write_png(const std::filesystem::path& file, const Image<Visibility>& classes); ///< 8-bit gray
+void write_png(const std::filesystem::path& file, const PalettePicture& picture);
+
+} // namespace shadowproof
