@@ -36,32 +36,6 @@ std::string picture_block(const Image<Visibility>& picture) {
     return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
 }
 
-/// Pixels whose counter read back is not the predicted one, and what it is.
-struct Surprises {
-    std::vector<std::uint32_t> pixel;
-    std::vector<std::uint8_t> value;
-};
-Surprises find_surprises(const Cell& cell) {
-    Surprises surprises;
-    const std::vector<std::uint8_t>& predicted = cell.comparison.predicted.pixels;
-    const std::vector<std::uint8_t>& read_back = cell.frame.stencil.pixels;
-    for (std::size_t i = 0; i < read_back.size(); ++i) {
-        if (read_back[i] == predicted[i]) continue;
-        surprises.pixel.push_back(static_cast<std::uint32_t>(i));
-        surprises.value.push_back(read_back[i]);
-    }
-    return surprises;
-}
-
-/// Elsewhere the claim is the truth.
-std::vector<std::uint8_t> claims_where_differing(const Cell& cell) {
-    std::vector<std::uint8_t> claims;
-    for (std::size_t i = 0; i < cell.comparison.cause.pixels.size(); ++i)
-        if (cell.comparison.cause.pixels[i] != no_difference)
-            claims.push_back(static_cast<std::uint8_t>(cell.frame.claim.pixels[i]));
-    return claims;
-}
-
 std::string_view name_of(DepthModel::Projection projection) {
     switch (projection) {
     case DepthModel::Projection::finite:
@@ -114,12 +88,10 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
           {"near", depth.near},
           {"far", finite ? Json(depth.far) : Json(nullptr)}}}};
     const LedgerTable& ledgers = cell.ledgers;
-    const Surprises surprises = find_surprises(cell);
     return script("cell", folder_of(scene) + "/" + cell.technique, header,
-                  {{"predicted", block(cell.comparison.predicted.pixels)},
-                   {"surprise_pixel", block(surprises.pixel)},
-                   {"surprise_value", block(surprises.value)},
-                   {"claim", block(claims_where_differing(cell))},
+                  {{"claim", picture_block(cell.frame.claim)},
+                   {"predicted", block(cell.comparison.predicted.pixels)},
+                   {"read_back", block(cell.frame.stencil.pixels)},
                    {"seen", block(ledgers.seen)},
                    {"shown", block(ledgers.shown)},
                    {"exactness", block(ledgers.exactness)},
