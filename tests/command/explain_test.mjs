@@ -1,0 +1,62 @@
+// One pixel: the text, the JSON and the drawing are the same story.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+function explained(scene, pixel, more = []) {
+  const run = shadowproof(['explain', scene, '--pixel', pixel, '--json', 'pixel.json', '--svg',
+                           'pixel.svg', ...more]);
+  assert.equal(run.code, 0, run.err);
+  return {
+    text: run.out,
+    record: JSON.parse(readFileSync(join(scratch, 'pixel.json'), 'utf8')),
+    svg: readFileSync(join(scratch, 'pixel.svg'), 'utf8'),
+  };
+}
+
+test('every crossing of the record is a line of the text, with its running sum', () => {
+  const { text, record } = explained('near_plane', '229,103');
+  let inside = record.inside.eye;
+  for (const { depth, change, caster } of record.crossings) {
+    inside += change;
+    const line = text.split('\n').find((each) => each.includes(`triangle ${caster.triangle} of`) &&
+                                                 each.trim().startsWith(String(depth).slice(0, 7)));
+    assert.ok(line, `${depth} in\n${text}`);
+    assert.match(line, new RegExp(`\\${change > 0 ? '+' : '-'}1 +${inside} `));
+  }
+  assert.equal(inside, record.inside.infinity);
+});
+
+test('what a technique lost makes the difference between its counter and the right one', () => {
+  for (const [scene, pixel, technique, loss] of [
+    ['near_plane', '229,103', 'zpass', /before the near plane$/m],
+    ['far_plane', '340,99', 'zfail', /past the far plane$/m],
+    ['eye_inside', '369,84', 'zpass', /around the eye$/m],
+  ]) {
+    const { text, record } = explained(scene, pixel, ['--technique', technique]);
+    const [told] = record.techniques;
+    const counted = record.crossings.reduce((sum, { change }, i) =>
+      sum + (told.statuses[i] === 'counted' ? change : 0), 0);
+    const caps = told.dark_cap === 'counted' ? record.inside.infinity : 0;
+    assert.equal(told.test === 'depth_pass' ? counted : caps - counted, told.predicted);
+    assert.notEqual(told.predicted, record.inside.surface);
+    assert.match(text, loss);
+  }
+});
+
+test('the drawing is an SVG of the technique that differs, and says what it claims', () => {
+  const { svg } = explained('near_plane', '229,103');
+  assert.match(svg, /^<svg [^>]*xmlns="http:\/\/www\.w3\.org\/2000\/svg"/);
+  assert.match(svg, /<title>[^<]*zpass/);
+  assert.match(svg, /claims shadowed/);
+  assert.match(svg, /<\/svg>\s*$/);
+});
+
+test('a drawing that cannot be written is an error that names the file', () => {
+  const run = shadowproof(['explain', 'ordinary', '--pixel', '9,9', '--size', '32x32', '--svg',
+                           'missing/x.svg']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /missing\/x\.svg/);
+});
