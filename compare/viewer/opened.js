@@ -1,0 +1,99 @@
+// One cell with all that the report holds of its pixels. What could not be had is null and named
+// in `problems`; the pages say so, and never take it for agreement.
+
+const noDifference = 255;
+const noTriangle = 0xffffffff;
+const visibilityNames = { 0: 'background', 64: 'shadowed', 255: 'lit' };
+const exactnessNames = ['filtered', 'exact', 'degenerate'];
+const statusNames = ['counted', 'beyond', 'lost_near', 'lost_far', 'lost_cap'];
+
+/** The cause of each pixel; decoded when its cell is opened. */
+function causeMap(scene, cell, problems) {
+  const pixels = scene.width * scene.height;
+  const block = { type: 'u8', length: pixels, data: cell.cause_map };
+  return orProblem(decodedBlock(block).catch((error) => {
+    throw new Error(`results.js: cause_map of ${scene.folder}/${cell.name} ${error.message}`);
+  }), problems);
+}
+
+/** Indices of the pixels that differ, in rows from the top. */
+function differingPixels(causes) {
+  const found = [];
+  causes.forEach((cause, pixel) => { if (cause !== noDifference) found.push(pixel); });
+  return Uint32Array.from(found);
+}
+
+/** Where a sorted array holds a value, or -1. */
+function rankOf(sorted, value) {
+  let low = 0;
+  let high = sorted.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (sorted[middle] < value) low = middle + 1;
+    else high = middle;
+  }
+  return sorted[low] === value ? low : -1;
+}
+
+/** How often each value of 0..255 stands in an array. */
+function tallied(values) {
+  const counts = new Uint32Array(256);
+  for (const value of values) ++counts[value];
+  return counts;
+}
+
+function checkTruth(opened) {
+  const { scene, visibility, problems } = opened;
+  const counts = tallied(visibility);
+  const said = scene.reference;
+  if (counts[255] !== said.lit || counts[64] !== said.shadowed || counts[0] !== said.background)
+    problems.push(`${scene.folder}/scene.js does not belong to results.js: ` +
+                  `${grouped(counts[255])} pixels lit, where the results have ${grouped(said.lit)}`);
+}
+
+/** Files of two runs must not be taken for one. */
+function checkCell(opened) {
+  const { cell, id, causes, claim, visibility, problems } = opened;
+  const counts = tallied(causes);
+  const wrong = received.legend.causes.find(({ name }, i) => counts[i] !== (cell.causes[name] ?? 0));
+  if (wrong) problems.push(`results.js: cause_map of ${id} does not hold the pixels that are counted`);
+  if (claim && visibility &&
+      causes.some((cause, i) => cause === noDifference && claim[i] !== visibility[i]))
+    problems.push(`${id}/cell.js does not belong to results.js: pixels differ that have no cause there`);
+}
+
+const lengthsOfCell = (pixels, n) => ({
+  claim: pixels, predicted: pixels, read_back: pixels,
+  seen: n, shown: n, exactness: n, ledger: n,
+  ledger_start: null, ledger_counts: null, ledger_exact: null,
+  crossing_face: null, crossing_change: null, crossing_status: null,
+  face: null, triangle: null, vertex: null,
+});
+
+async function openCell(scene, cell) {
+  const problems = [];
+  const id = `${scene.folder}/${cell.name}`;
+  const pixels = scene.width * scene.height;
+  const [sceneFile, cellFile, causes] = await Promise.all([
+    orProblem(handedOver(`${scene.folder}/scene.js`), problems),
+    orProblem(handedOver(`${id}/cell.js`), problems),
+    causeMap(scene, cell, problems)]);
+  const truth = sceneFile && await decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
+                                                 { visibility: pixels }, problems);
+  const blocks = cellFile && await decodedBlocks(`${id}/cell.js`, cellFile.blocks,
+                                                 lengthsOfCell(pixels, cell.differing), problems);
+  const opened = {
+    scene, cell, id, problems, sceneFile, cellFile, causes,
+    width: scene.width, height: scene.height,
+    differing: causes ? differingPixels(causes) : new Uint32Array(0),
+    visibility: truth?.visibility ?? null,
+    claim: blocks?.claim ?? null,
+    predicted: blocks?.predicted ?? null,
+    readBack: blocks?.read_back ?? null,
+    blocks,
+    bits: cellFile?.counting?.stencil_bits ?? 8,
+  };
+  if (opened.visibility) checkTruth(opened);
+  if (causes) checkCell(opened);
+  return opened;
+}

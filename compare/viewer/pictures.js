@@ -1,0 +1,212 @@
+// The pictures of a cell: six panes that zoom and pan as one, or two in one pane that slide, blend
+// or toggle. A pane is a canvas that shows the picture's pixels as they are, by nearest sampling.
+
+const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back'];
+const pictureTitles = { truth: 'Truth', claim: 'Claim', difference: 'Difference', cause: 'Cause',
+                        predicted: 'Stencil predicted', read_back: 'Stencil read back' };
+const zooms = [0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
+const valueNames = { 0: 'back', 64: 'shadow', 255: 'lit' };
+
+/** A PNG of the report: { image } or { problem } in words. */
+function loadedImage(path, width, height) {
+  return new Promise((resolve) => {
+    const image = new Image();
+    image.onload = () => resolve(image.naturalWidth === width && image.naturalHeight === height
+      ? { image }
+      : { problem: `${path} is ${image.naturalWidth}×${image.naturalHeight} pixels; ` +
+                   `the results are of ${width}×${height}` });
+    image.onerror = () => resolve({ problem: `${path} is missing or damaged` });
+    image.src = path;
+  });
+}
+
+/** Colours of a signed counter: none dark, positive from blue to yellow, negative red. */
+function counterColor(count) {
+  const up = [[32, 92, 150], [76, 150, 190], [130, 190, 180], [190, 215, 140], [240, 228, 66]];
+  const down = [[213, 94, 0], [160, 52, 60], [204, 121, 167], [235, 180, 210]];
+  if (count === 0) return [22, 22, 28];
+  const colors = count > 0 ? up : down;
+  return colors[Math.min(Math.abs(count), colors.length) - 1];
+}
+
+function counterPicture(values, width, height, bits) {
+  const canvas = element('canvas', { width, height });
+  const context = canvas.getContext('2d');
+  const pixels = context.createImageData(width, height);
+  const colors = Array.from({ length: 256 }, (_, value) => counterColor(asCount(value, bits)));
+  values.forEach((value, i) => pixels.data.set([...colors[value], 255], 4 * i));
+  context.putImageData(pixels, 0, 0);
+  return canvas;
+}
+
+/** What a picture says of one pixel, in a word that fits into it. */
+function pixelWord(opened, name, pixel) {
+  const { visibility, claim, causes, predicted, readBack } = opened;
+  switch (name) {
+  case 'truth': return visibility ? valueNames[visibility[pixel]] : '';
+  case 'claim': return claim ? valueNames[claim[pixel]] : '';
+  case 'predicted': return predicted ? String(predicted[pixel]) : '';
+  case 'read_back': return readBack ? String(readBack[pixel]) : '';
+  case 'cause': return !causes || causes[pixel] === noDifference ? ''
+    : received.legend.causes[causes[pixel]].name;
+  default: return !visibility || !claim || claim[pixel] === visibility[pixel] ? ''
+    : received.legend.contradictions[contradictionOf(visibility[pixel], claim[pixel])].name;
+  }
+}
+
+async function loadedPictures(opened) {
+  const { scene, cell, width, height } = opened;
+  const paths = { truth: scene.images?.truth, ...cell.images };
+  const pictures = {};
+  await Promise.all(['truth', 'claim', 'difference', 'cause'].map(async (name) => {
+    pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
+                                 : { problem: `the results name no picture of the ${name}` };
+  }));
+  for (const [name, values] of [['predicted', opened.predicted], ['read_back', opened.readBack]])
+    pictures[name] = values ? { image: counterPicture(values, width, height, opened.bits) }
+      : { problem: opened.problems.find((text) => text.includes(`block ${name} `)) ??
+                   `${opened.id}/cell.js is missing or damaged` };
+  return pictures;
+}
+
+/** CSS pixels per picture pixel at which a pane shows the whole picture. */
+const fitZoom = (pane, opened) =>
+  Math.min(pane.clientWidth / opened.width, pane.clientHeight / opened.height) || 1;
+
+function visibleMiddle(look, opened) {
+  return look.zoom === null ? [opened.width / 2, opened.height / 2] : look.centre;
+}
+
+/** Draws one picture into a pane's canvas; `alpha` and `clip` (0..1 from, to) are for comparing. */
+function paintPicture(context, picture, view, { alpha = 1, clip = [0, 1] } = {}) {
+  const { canvas } = context;
+  if (!picture.image) return;
+  context.save();
+  context.beginPath();
+  context.rect(clip[0] * canvas.width, 0, (clip[1] - clip[0]) * canvas.width, canvas.height);
+  context.clip();
+  context.globalAlpha = alpha;
+  context.imageSmoothingEnabled = view.scale < 1;
+  context.imageSmoothingQuality = 'high';
+  const { left, top, right, bottom } = view.shown;
+  if (right > left && bottom > top)
+    context.drawImage(picture.image, left, top, right - left, bottom - top,
+                      view.toX(left), view.toY(top), (right - left) * view.scale,
+                      (bottom - top) * view.scale);
+  context.restore();
+}
+
+/** From picture to canvas: { scale, toX, toY, shown: the part of the picture in sight }. */
+function paneView(canvas, look, opened) {
+  const ratio = window.devicePixelRatio || 1;
+  const zoom = look.zoom ?? fitZoom(canvas, opened);
+  const [x, y] = visibleMiddle(look, opened);
+  const scale = zoom * ratio;
+  const left = x - canvas.width / 2 / scale;
+  const top = y - canvas.height / 2 / scale;
+  return {
+    scale, zoom, ratio,
+    toX: (at) => (at - left) * scale,
+    toY: (at) => (at - top) * scale,
+    fromX: (at) => left + at * ratio / scale,
+    fromY: (at) => top + at * ratio / scale,
+    shown: { left: Math.max(0, Math.floor(left)), top: Math.max(0, Math.floor(top)),
+             right: Math.min(opened.width, Math.ceil(left + canvas.width / scale)),
+             bottom: Math.min(opened.height, Math.ceil(top + canvas.height / scale)) },
+  };
+}
+
+function paintGrid(context, view) {
+  if (view.zoom < 10) return;
+  const { left, top, right, bottom } = view.shown;
+  context.strokeStyle = 'rgba(128, 128, 140, 0.55)';
+  context.lineWidth = 1;
+  context.beginPath();
+  for (let x = left; x <= right; ++x) {
+    const at = Math.round(view.toX(x)) + 0.5;
+    context.moveTo(at, view.toY(top));
+    context.lineTo(at, view.toY(bottom));
+  }
+  for (let y = top; y <= bottom; ++y) {
+    const at = Math.round(view.toY(y)) + 0.5;
+    context.moveTo(view.toX(left), at);
+    context.lineTo(view.toX(right), at);
+  }
+  context.stroke();
+}
+
+/** The words of the pixels, black on white rims, so that they are read on any colour. */
+function paintWords(context, view, opened, name) {
+  if (view.zoom < 24) return;
+  const { left, top, right, bottom } = view.shown;
+  context.textAlign = 'center';
+  context.textBaseline = 'middle';
+  context.lineJoin = 'round';
+  for (let y = top; y < bottom; ++y)
+    for (let x = left; x < right; ++x) {
+      const word = pixelWord(opened, name, y * opened.width + x);
+      const size = Math.min(13, view.zoom * 1.5 / Math.max(word.length, 3)) * view.ratio;
+      if (!word || size < 6.5 * view.ratio) continue;
+      context.font = `600 ${size}px system-ui, sans-serif`;
+      context.strokeStyle = 'rgba(255, 255, 255, 0.85)';
+      context.lineWidth = 2.5 * view.ratio;
+      context.fillStyle = '#000000';
+      context.strokeText(word, view.toX(x + 0.5), view.toY(y + 0.5));
+      context.fillText(word, view.toX(x + 0.5), view.toY(y + 0.5));
+    }
+}
+
+/** The inspected pixel: its outline, or a ring where it is too small for one. */
+function paintMark(context, view, pixel) {
+  if (!pixel) return;
+  const [x, y] = pixel;
+  const outline = (color, width, grow) => {
+    context.strokeStyle = color;
+    context.lineWidth = width * view.ratio;
+    context.beginPath();
+    if (view.zoom >= 8)
+      context.rect(view.toX(x) - grow, view.toY(y) - grow, view.scale + 2 * grow,
+                   view.scale + 2 * grow);
+    else
+      context.arc(view.toX(x + 0.5), view.toY(y + 0.5), 9 * view.ratio, 0, 2 * Math.PI);
+    context.stroke();
+  };
+  outline('#000000', 4.5, 1);
+  outline('#ffffff', 2, 1);
+}
+
+function paintSplit(context, at, ratio) {
+  const x = at * context.canvas.width;
+  context.fillStyle = '#000000';
+  context.fillRect(x - 2 * ratio, 0, 4 * ratio, context.canvas.height);
+  context.fillStyle = '#ffffff';
+  context.fillRect(x - ratio, 0, 2 * ratio, context.canvas.height);
+}
+
+/** Paints one pane: a picture of its own, or two compared as the view says. */
+function paintPane(canvas, name, look, opened, pictures) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = Math.max(1, Math.round(canvas.clientWidth * ratio));
+  canvas.height = Math.max(1, Math.round(canvas.clientHeight * ratio));
+  const context = canvas.getContext('2d');
+  const view = paneView(canvas, look, opened);
+  const [left, right] = look.of;
+  context.fillStyle = '#0c0c10';
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  if (name) {
+    paintPicture(context, pictures[name], view);
+  } else if (look.view === 'slide') {
+    paintPicture(context, pictures[left], view, { clip: [0, look.at] });
+    paintPicture(context, pictures[right], view, { clip: [look.at, 1] });
+  } else if (look.view === 'blend') {
+    paintPicture(context, pictures[left], view);
+    paintPicture(context, pictures[right], view, { alpha: look.at });
+  } else {
+    paintPicture(context, pictures[look.flipped ? right : left], view);
+  }
+  paintGrid(context, view);
+  const told = name ?? (look.view === 'toggle' ? look.of[look.flipped ? 1 : 0] : null);
+  if (told && pictures[told].image) paintWords(context, view, opened, told);
+  if (!name && look.view === 'slide') paintSplit(context, look.at, ratio);
+  paintMark(context, view, look.pixel);
+}

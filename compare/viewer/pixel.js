@@ -1,0 +1,173 @@
+// The record of one pixel, as `shadowproof explain --json` writes it, decoded from the blocks. The
+// arithmetic is that of the command, operation by operation, so that the numbers are the same bits.
+
+const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0],
+                         a[0] * b[1] - b[0] * a[1]];
+
+function rayDirection({ width, height, camera }, x, y) {
+  const across = camera.tan_half_height * width / height * (2 * (x + 0.5) / width - 1);
+  const upward = camera.tan_half_height * (1 - 2 * (y + 0.5) / height);
+  return [0, 1, 2].map((i) => (camera.forward[i] + across * camera.right[i]) + upward * camera.up[i]);
+}
+
+const isBefore = (a, b) =>
+  (a[0] !== b[0] ? a[0] < b[0] : (a[1] !== b[1] ? a[1] < b[1] : a[2] < b[2]));
+
+/** Depth at which the ray meets the plane through a triangle. */
+function depthOnTriangle(eye, direction, [a, b, c]) {
+  const plane = cross(minus(c, a), minus(b, a));
+  return -dot(minus(eye, a), plane) / dot(direction, plane);
+}
+
+/** Depth at which the ray meets the side of a volume over the edge p -> q. */
+function depthOnSide(eye, direction, light, [p, q]) {
+  const plane = isBefore(q, p) ? cross(minus(q, light), minus(p, q)).map((value) => -value)
+                               : cross(minus(p, light), minus(q, p));
+  return -dot(minus(eye, light), plane) / dot(direction, plane);
+}
+
+/** Where each triangle stands in the block of triangles. */
+function triangleRanks(opened) {
+  if (!opened.triangleRanks) {
+    opened.triangleRanks = new Map();
+    const { triangle } = opened.blocks;
+    for (let i = 0; i < triangle.length; i += 4) opened.triangleRanks.set(triangle[i], i);
+  }
+  return opened.triangleRanks;
+}
+
+/** Corners of a triangle that the blocks name. */
+function cornersOf(opened, triangle) {
+  const { triangle: triangles, vertex } = opened.blocks;
+  const rank = triangleRanks(opened).get(triangle);
+  if (rank === undefined)
+    throw new Error(`${opened.id}/cell.js: block triangle lacks triangle ${triangle}`);
+  return [1, 2, 3].map((k) => {
+    const at = 3 * triangles[rank + k];
+    return [vertex[at], vertex[at + 1], vertex[at + 2]];
+  });
+}
+
+function meshOf({ sceneFile }, triangle) {
+  const mesh = sceneFile.meshes.find(({ first, count }) =>
+    triangle >= first && triangle < first + count);
+  return mesh ? mesh.name : '';
+}
+
+const named = (opened, triangle) =>
+  (triangle === noTriangle ? null : { triangle, mesh: meshOf(opened, triangle) });
+
+function crossingsOf(opened, ledger, eye, direction, light) {
+  const { ledger_start: start, crossing_face: faces, crossing_change: changes, face } =
+    opened.blocks;
+  const crossings = [];
+  for (let i = start[ledger]; i < start[ledger + 1]; ++i) {
+    const triangle = face[2 * faces[i]];
+    const part = face[2 * faces[i] + 1];
+    const corners = cornersOf(opened, triangle);
+    const from = part === 3 ? corners : [corners[part], corners[(part + 1) % 3]];
+    crossings.push({
+      depth: part === 3 ? depthOnTriangle(eye, direction, from)
+                        : depthOnSide(eye, direction, light, from),
+      change: changes[i],
+      kind: part === 3 ? 'light cap' : 'side',
+      caster: named(opened, triangle),
+      from,
+    });
+  }
+  return crossings;
+}
+
+/** What became of the dark caps, which lie at infinity. */
+function darkCapStatus({ counting, depth }) {
+  if (counting.test === 'depth_pass') return 'beyond';
+  if (depth.projection === 'finite' && !counting.depth_clamp) return 'lost_far';
+  return counting.dark_cap ? 'counted' : 'lost_cap';
+}
+
+/** The counter before it wraps, from the shadow depths of the ledger. */
+function predictedCount(inside, { counting, depth }) {
+  const finite = depth.projection === 'finite';
+  const surface = inside.surface ?? (finite ? inside.far : inside.infinity);
+  if (counting.test === 'depth_pass')
+    return surface - (counting.depth_clamp ? inside.eye : inside.near);
+  if (finite && !counting.depth_clamp) return surface - inside.far;
+  return counting.dark_cap ? surface : surface - inside.infinity;
+}
+
+/** Pixels to the nearest centre whose truth is of another class; null where there is none. */
+function distanceToOtherClass({ visibility, width, height }, x, y) {
+  const own = visibility[y * width + x];
+  let nearest = Infinity;
+  const look = (row) => {
+    if (row < 0 || row >= height) return;
+    const down = (row - y) ** 2;
+    for (let column = 0; column < width; ++column) {
+      const squared = down + (column - x) ** 2;
+      if (squared < nearest && visibility[row * width + column] !== own) nearest = squared;
+    }
+  };
+  look(y);
+  for (let away = 1; away < height && away * away < nearest; ++away) {
+    look(y - away);
+    look(y + away);
+  }
+  return nearest === Infinity ? null : Math.sqrt(nearest);
+}
+
+function seenRecord(opened, triangle, eye, direction) {
+  if (triangle === noTriangle) return null;
+  const corners = cornersOf(opened, triangle);
+  const depth = depthOnTriangle(eye, direction, corners);
+  return { ...named(opened, triangle), depth, point: eye.map((e, i) => e + depth * direction[i]),
+           corners };
+}
+
+function marginDepth(seen, crossings) {
+  if (!seen || crossings.length === 0) return null;
+  return Math.min(...crossings.map(({ depth }) => Math.abs(seen.depth - depth)));
+}
+
+function insideOf({ blocks }, ledger, seen) {
+  const [eye, near, surface, far, infinity] =
+    blocks.ledger_counts.subarray(5 * ledger, 5 * ledger + 5);
+  return { eye, near, surface: seen ? surface : null, far, infinity };
+}
+
+/** The record of a pixel that differs. Throws an Error that names a block that is not there. */
+function pixelRecord(opened, x, y) {
+  const { scene, cell, sceneFile, cellFile, blocks, width } = opened;
+  if (!sceneFile || !cellFile) throw new Error(opened.problems[0]);
+  for (const [name, array] of Object.entries({ visibility: opened.visibility, ...blocks }))
+    if (!array) throw new Error(opened.problems.find((text) => text.includes(`block ${name} `)));
+  const pixel = y * width + x;
+  const rank = rankOf(opened.differing, pixel);
+  const { camera, light } = sceneFile;
+  const direction = rayDirection(sceneFile, x, y);
+  const ledger = blocks.ledger[rank];
+  const seen = seenRecord(opened, blocks.seen[rank], camera.eye, direction);
+  const crossings = crossingsOf(opened, ledger, camera.eye, direction, light.position);
+  const inside = insideOf(opened, ledger, seen);
+  const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
+  return {
+    schema: 'shadowproof/pixel/1', scene: scene.name, x, y, width, height: opened.height,
+    eye: camera.eye, direction, near: camera.near, far: sceneFile.far, light,
+    truth: visibilityNames[opened.visibility[pixel]],
+    exactness: exactnessNames[blocks.exactness[rank]],
+    seen,
+    margin: { depth: marginDepth(seen, crossings), pixels: distanceToOtherClass(opened, x, y) },
+    inside, crossings, adds_up: blocks.ledger_exact[ledger] === 1,
+    techniques: [{
+      name: cell.name, test: cellFile.counting.test,
+      predicted: predictedCount(inside, cellFile),
+      stored: blocks.predicted[pixel], read_back: blocks.read_back[pixel],
+      claim: visibilityNames[blocks.claim[pixel]],
+      shown: named(opened, blocks.shown[rank]),
+      cause: received.legend.causes[opened.causes[pixel]].name,
+      statuses: [...blocks.crossing_status.subarray(begin, end)].map((status) => statusNames[status]),
+      dark_cap: darkCapStatus(cellFile),
+    }],
+  };
+}

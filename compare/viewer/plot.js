@@ -1,0 +1,148 @@
+// Error against run time: each cell a small mark, each technique a labelled one at its median time
+// and worst error. Logarithmic axes; no error has a line of its own below 1.
+
+const plotShapes = {
+  agrees: (x, y) => `M${x - 4} ${y}a4 4 0 1 0 8 0a4 4 0 1 0-8 0z`,
+  fails_as_predicted: (x, y) => `M${x} ${y - 5}l5 9h-10z`,
+  defect: (x, y) => `M${x - 4} ${y - 4}h8v8h-8z`,
+  unexplained: (x, y) => `M${x} ${y - 6}l6 6l-6 6l-6-6z`,
+};
+
+function svgElement(tag, attributes, ...children) {
+  const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+const median = (values) => {
+  const sorted = [...values].sort((a, b) => a - b);
+  const middle = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+};
+
+/** A technique over all its scenes: { name, ms, beyond, scene of the worst error }. */
+function summarised(cells) {
+  const byName = new Map();
+  for (const each of cells) {
+    if (!byName.has(each.cell.name)) byName.set(each.cell.name, []);
+    byName.get(each.cell.name).push(each);
+  }
+  return [...byName].map(([name, own]) => {
+    const worst = own.reduce((a, b) => (beyondEdges(b.cell) > beyondEdges(a.cell) ? b : a));
+    return { name, ms: median(own.map(({ cell }) => cell.ms)), beyond: beyondEdges(worst.cell),
+             scene: worst.scene.name };
+  });
+}
+
+/** 1, 2, 5, 10, ... within a range. */
+function roundValues(low, high) {
+  const values = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power)
+    for (const digit of [1, 2, 5]) values.push(digit * 10 ** power);
+  const inside = values.filter((value) => value >= low * 0.999 && value <= high * 1.001);
+  return inside.length > 8 ? inside.filter((value) => /^1/.test(value.toPrecision(1))) : inside;
+}
+
+function plotScales(cells, width, height) {
+  const times = cells.map(({ cell }) => Math.max(cell.ms, 0.01));
+  const low = Math.min(...times) / 1.15;
+  const high = Math.max(...times) * 1.15;
+  const most = Math.max(10, ...cells.map(({ cell }) => beyondEdges(cell)));
+  const decades = Math.ceil(Math.log10(most));
+  const box = { left: 74, right: width - 16, top: 14, zero: height - 48, one: height - 82 };
+  return {
+    box, low, high, decades,
+    x: (ms) => box.left + 10 + (Math.log(Math.max(ms, 0.01) / low) / Math.log(high / low)) *
+                               (box.right - box.left - 20),
+    y: (count) => (count < 1 ? box.zero
+      : box.one - Math.log10(count) / decades * (box.one - box.top)),
+  };
+}
+
+function plotAxes({ box, low, high, decades, x, y }, width, height) {
+  const text = (at, words, anchor = 'middle') =>
+    svgElement('text', { x: at[0], y: at[1], 'text-anchor': anchor }, words);
+  const rule = (x1, y1, x2, y2) => svgElement('path', { d: `M${x1} ${y1}L${x2} ${y2}` });
+  const parts = [];
+  for (const ms of roundValues(low, high))
+    parts.push(rule(x(ms), box.top, x(ms), box.zero), text([x(ms), box.zero + 20], String(ms)));
+  for (let decade = 0; decade <= decades; ++decade)
+    parts.push(rule(box.left, y(10 ** decade), box.right, y(10 ** decade)),
+               text([box.left - 8, y(10 ** decade) + 4], grouped(10 ** decade), 'end'));
+  parts.push(rule(box.left, box.zero, box.right, box.zero), text([box.left - 8, box.zero + 4], '0', 'end'),
+             text([(box.left + box.right) / 2, height - 6], 'milliseconds to draw'));
+  const title = text([0, 0], 'pixels beyond edges');
+  title.setAttribute('transform', `translate(13 ${(box.top + box.zero) / 2}) rotate(-90)`);
+  return svgElement('g', { class: 'axes' }, ...parts, title);
+}
+
+/** Labels below one another where they would overlap. */
+function plotLabels(techniques, { x, y, box }) {
+  const places = techniques.map(({ ms, beyond }) => [x(ms), y(beyond)]);
+  const taken = places.map(([across, down]) => [across - 8, across + 8, down + 4]); // the rings
+  return techniques.map((technique, i) => {
+    const size = 7.4 * technique.name.length;
+    const at = places[i];
+    const left = at[0] + size + 14 > box.right;
+    const begin = left ? at[0] - 12 - size : at[0] + 12;
+    const free = (row) => taken.every(([a, b, other]) =>
+      begin > b || begin + size < a || Math.abs(row - other) > 13);
+    const row = Array.from({ length: 40 }, (_, k) => at[1] + 4 + (k % 2 ? -14 : 14) * ((k + 1) >> 1))
+      .find((each) => each > box.top + 8 && each < box.zero + 6 && free(each)) ?? at[1] + 4;
+    taken.push([begin, begin + size, row]);
+    const label = svgElement('text', { x: begin, y: row }, technique.name);
+    const ring = svgElement('circle', { cx: at[0], cy: at[1], r: 8 });
+    const leader = Math.abs(row - 4 - at[1]) > 6
+      ? [svgElement('path', { d: `M${at[0]} ${at[1]}L${left ? begin + size : begin - 2} ${row - 4}` })]
+      : [];
+    return svgElement('g', { class: 'technique' }, ...leader, ring, label);
+  });
+}
+
+function plotPicture(cells, techniques, width) {
+  const height = 330;
+  const scales = plotScales(cells, width, height);
+  const dots = cells.map(({ scene, cell }) => {
+    const verdict = verdictOf(cell);
+    const shape = svgElement('path', {
+      d: plotShapes[verdict](scales.x(cell.ms), scales.y(beyondEdges(cell))),
+      class: `dot ${verdict}` });
+    shape.append(svgElement('title', {}, `${scene.name} / ${cell.name}: ${milliseconds(cell.ms)}, ` +
+      `${counted(beyondEdges(cell), 'pixel')} beyond edges, ${verdicts[verdict].words}`));
+    shape.addEventListener('click', () => { location.hash = cellLink(scene, cell); });
+    return shape;
+  });
+  return svgElement('svg', { class: 'plot', role: 'img', viewBox: `0 0 ${width} ${height}`, width,
+                             height, 'aria-label': 'Pixels beyond edges against milliseconds; ' +
+                                                   'the same numbers stand in the table below' },
+    plotAxes(scales, width, height), ...dots, ...plotLabels(techniques, scales));
+}
+
+function plotTable(techniques) {
+  return element('details', {}, element('summary', {}, 'As a table'),
+    element('div', { class: 'scroll', role: 'region', tabindex: '0', 'aria-label': 'Techniques' },
+      element('table', { class: 'numbers' },
+        element('thead', {}, element('tr', {},
+          ['Technique', 'Median time', 'Most pixels beyond edges', 'On scene'].map((head) =>
+            element('th', { scope: 'col' }, head)))),
+        element('tbody', {}, techniques.map((each) => element('tr', {},
+          element('th', { scope: 'row' }, each.name), element('td', {}, milliseconds(each.ms)),
+          element('td', {}, grouped(each.beyond)),
+          element('td', {}, each.beyond ? each.scene : '–')))))));
+}
+
+/** Null where nothing ran. */
+function runTimePlot(results) {
+  const cells = allCells(results).filter(({ cell }) => !cell.error && Number.isFinite(cell.ms));
+  if (cells.length === 0) return null;
+  const techniques = summarised(cells);
+  const width = Math.max(340, Math.min(880, document.documentElement.clientWidth - 56));
+  return element('section', { 'aria-labelledby': 'plot-title' },
+    element('h2', { id: 'plot-title' }, 'Error against run time'),
+    element('p', { class: 'quiet' }, 'Each mark is a cell. A ring is a technique: its median time, ' +
+                                     'its worst scene.'),
+    element('div', { class: 'scroll', role: 'region', tabindex: '0', 'aria-labelledby': 'plot-title' },
+      plotPicture(cells, techniques, width)),
+    plotTable(techniques));
+}

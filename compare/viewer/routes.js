@@ -1,0 +1,37 @@
+// Links: the part of the address after # names a page, a cell, its view and pixel, so that it can
+// be pasted. "#near_plane/zpass?view=slide&pixel=212,340"
+
+function parsedRoute(hash) {
+  const text = decodeURIComponent(hash.replace(/^#/, ''));
+  const [path, query = ''] = text.split('?');
+  return { cell: path, params: new URLSearchParams(query) };
+}
+
+/** Commas and slashes are left readable. */
+function routeText(cell, params) {
+  const query = Object.entries(params)
+    .filter(([, value]) => value !== null && value !== undefined && value !== '')
+    .map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%2C/g, ',')}`);
+  return `#${cell}${query.length ? `?${query.join('&')}` : ''}`;
+}
+
+let pendingLink = null;
+
+/** Makes the address that of what is shown. Browsers limit how often that may be done. */
+function rememberLink(text) {
+  clearTimeout(pendingLink);
+  pendingLink = setTimeout(() => {
+    pendingLink = null;
+    if (location.hash !== text) history.replaceState(null, '', text);
+  }, 150);
+}
+
+function forgetLink() {
+  clearTimeout(pendingLink);
+  pendingLink = null;
+}
+
+const pairOf = (text) => {
+  const pair = (text ?? '').split(',').map(Number);
+  return pair.length === 2 && pair.every(Number.isFinite) ? pair : null;
+};

@@ -1,0 +1,72 @@
+// Words and marks, so that nothing is told by colour alone.
+
+const verdicts = {
+  unexplained: { mark: '?', words: 'unexplained', meaning: 'a difference that nothing predicts' },
+  defect: { mark: '✕', words: 'defect', meaning: 'a cause that is not known of the technique' },
+  error: { mark: '!', words: 'could not run', meaning: 'no result' },
+  fails_as_predicted: { mark: '≈', words: 'fails as predicted',
+                        meaning: 'only causes that technique and scene are known for' },
+  agrees: { mark: '✓', words: 'agrees', meaning: 'no difference beyond edges' },
+};
+const verdictNames = Object.keys(verdicts);
+
+const verdictOf = (cell) => (cell.error ? 'error' : cell.verdict);
+
+/** A cell that could not run fails under every gate. */
+const isFailing = (cell) => Boolean(cell.error) || cell.fails === true;
+
+const badge = (verdict) => element('span', { class: `badge ${verdict}` },
+  element('span', { 'aria-hidden': 'true' }, `${verdicts[verdict].mark} `),
+  verdicts[verdict].words);
+
+const beyondEdges = (cell) => (cell.error ? 0 : cell.differing - (cell.causes.edge ?? 0));
+
+/** Causes of a cell, [name, pixels], most pixels first but edges last. */
+const causesOf = (cell) => Object.entries(cell.causes ?? {}).sort(([a, m], [b, n]) =>
+  (a === 'edge') - (b === 'edge') || (b === 'unexplained') - (a === 'unexplained') || n - m);
+
+const causeLegend = (name) =>
+  received.legend.causes.find((cause) => cause.name === name) ??
+  { name, meaning: 'not in this report’s legend', color: '#888888' };
+
+/** "near_plane 67,769, edge 1". */
+const causeCounts = (cell) =>
+  causesOf(cell).map(([name, pixels]) => `${name} ${grouped(pixels)}`).join(', ');
+
+/** Why a cell is as it is, in one sentence. */
+function reasonOf(cell) {
+  if (cell.error) return cell.error;
+  const [worst] = causesOf(cell);
+  const counters = cell.ledger?.unexplained ?? 0;
+  const said = [];
+  if (counters > 0)
+    said.push(`The counter read back is not the one predicted at ${counted(counters, 'pixel')}`);
+  if (worst && worst[0] !== 'edge')
+    said.push(`${worst[0]} at ${counted(worst[1], 'pixel')}: ${causeLegend(worst[0]).meaning}`);
+  if (said.length === 0)
+    said.push(cell.differing > 0 ? 'Only edge pixels differ, within the rasterizer’s freedom'
+                                 : 'Every pixel agrees');
+  return `${said.join('. ')}.`;
+}
+
+const statusWords = {
+  counted: 'counted',
+  beyond: { depth_pass: 'behind the surface, not asked for',
+            depth_fail: 'in front of the surface, not asked for' },
+  lost_near: 'lost: in front of the near plane',
+  lost_far: 'lost: clipped at the far plane',
+  lost_cap: 'lost: the cap is missing',
+};
+const wordsOfStatus = (status, test) =>
+  (status === 'beyond' ? statusWords.beyond[test] : statusWords[status] ?? status);
+
+/** The same settings and technique, for one pixel. Gates and files do not concern it. */
+const explainCommand = (command, x, y) =>
+  `${command.replace(/^(\S*shadowproof) verify /, '$1 explain ')
+    .replace(/ --(gate|allow|baseline|junit|json|out) \S+/g, '')} --pixel ${x},${y}`;
+
+const contradictionOf = (truth, claim) => {
+  if (truth === claim) return -1;
+  if (truth === 0 || claim === 0) return 2;
+  return claim === 255 ? 0 : 1;
+};
