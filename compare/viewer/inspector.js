@@ -32,7 +32,7 @@ function pixelFacts(record) {
     ['Margin along the ray', margin.depth === null ? null
       : `${printed(margin.depth)} to the nearest crossing`],
     ['Margin in the picture', margin.pixels === null ? 'no other class'
-      : `${printed(margin.pixels)} pixels to another class`],
+      : `${printed(margin.pixels)} ${margin.pixels === 1 ? 'pixel' : 'pixels'} to another class`],
     ['Inside', `${inside.eye} at the eye, ${inside.near} at near ${printed(record.near)}, ` +
       (inside.surface === null ? '' : `${inside.surface} at the surface, `) +
       `${inside.far} at far ${printed(record.far)}, ${inside.infinity} at infinity`],

@@ -17,7 +17,7 @@ function roundedDigits(magnitude, digits) {
   return [mantissa.replace('.', ''), Number(exponent)];
 }
 
-const withoutZeros = (text) => text.includes('.') ? text.replace(/\.?0+$/, '') : text;
+const withoutZeros = (text) => text.includes('.') ? text.replace(/\.?0*$/, '') : text;
 
 /** The text of printf("%.9g"), which is that of C++ {:.9g}. */
 function printed(value, digits = 9) {

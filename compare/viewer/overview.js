@@ -151,7 +151,7 @@ function matrixEntry(scene, cell, filter, compact) {
 function matrixRow(scene, techniques, filter, compact) {
   const head = element('th', { scope: 'row' }, scene.name);
   if (scene.error)
-    return element('tr', {}, head, element('td', { class: 'error', colspan: techniques.length || 1 },
+    return element('tr', {}, head, element('td', { class: 'unread error', colspan: techniques.length || 1 },
       element('b', {}, '! could not be read'), element('span', {}, scene.error)));
   return element('tr', {}, head, techniques.map((name) =>
     matrixEntry(scene, scene.techniques.find((cell) => cell.name === name), filter, compact)));

@@ -5,7 +5,7 @@ const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'rea
 const pictureTitles = { truth: 'Truth', claim: 'Claim', difference: 'Difference', cause: 'Cause',
                         predicted: 'Stencil predicted', read_back: 'Stencil read back' };
 const zooms = [0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
-const valueNames = { 0: 'back', 64: 'shadow', 255: 'lit' };
+const valueNames = { 0: 'none', 64: 'dark', 255: 'lit' };
 
 /** A PNG of the report: { image } or { problem } in words. */
 function loadedImage(path, width, height) {
@@ -52,6 +52,24 @@ function pixelWord(opened, name, pixel) {
   default: return !visibility || !claim || claim[pixel] === visibility[pixel] ? ''
     : received.legend.contradictions[contradictionOf(visibility[pixel], claim[pixel])].name;
   }
+}
+
+const isDark = ([red, green, blue]) => 0.3 * red + 0.59 * green + 0.11 * blue < 120;
+const colorBytes = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
+
+/** Black or white, whichever is read on the pixel's own colour. */
+function pixelInk(opened, name, pixel) {
+  const { visibility, claim, causes, predicted, readBack, bits } = opened;
+  const colors = {
+    truth: () => [visibility[pixel], visibility[pixel], visibility[pixel]],
+    claim: () => [claim[pixel], claim[pixel], claim[pixel]],
+    predicted: () => counterColor(asCount(predicted[pixel], bits)),
+    read_back: () => counterColor(asCount(readBack[pixel], bits)),
+    cause: () => colorBytes(received.legend.causes[causes[pixel]].color),
+    difference: () => colorBytes(
+      received.legend.contradictions[contradictionOf(visibility[pixel], claim[pixel])].color),
+  };
+  return isDark(colors[name]()) ? '#ffffff' : '#000000';
 }
 
 async function loadedPictures(opened) {
@@ -135,24 +153,29 @@ function paintGrid(context, view) {
   context.stroke();
 }
 
-/** The words of the pixels, black on white rims, so that they are read on any colour. */
+/** A word in its pixel, a line for each part of it, as large as fits; nothing where none fits. */
+function paintWord(context, view, word, x, y) {
+  const lines = word.split(/[_ ]/);
+  const longest = Math.max(3, ...lines.map((line) => line.length));
+  const size = Math.min(13, view.zoom * 0.88 / (0.64 * longest), view.zoom * 0.8 / lines.length);
+  if (size < 6) return;
+  context.font = `600 ${size * view.ratio}px system-ui, sans-serif`;
+  lines.forEach((line, i) => context.fillText(line, view.toX(x + 0.5),
+    view.toY(y + 0.5) + (i - (lines.length - 1) / 2) * size * 1.1 * view.ratio));
+}
+
 function paintWords(context, view, opened, name) {
   if (view.zoom < 24) return;
   const { left, top, right, bottom } = view.shown;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
-  context.lineJoin = 'round';
   for (let y = top; y < bottom; ++y)
     for (let x = left; x < right; ++x) {
-      const word = pixelWord(opened, name, y * opened.width + x);
-      const size = Math.min(13, view.zoom * 1.5 / Math.max(word.length, 3)) * view.ratio;
-      if (!word || size < 6.5 * view.ratio) continue;
-      context.font = `600 ${size}px system-ui, sans-serif`;
-      context.strokeStyle = 'rgba(255, 255, 255, 0.85)';
-      context.lineWidth = 2.5 * view.ratio;
-      context.fillStyle = '#000000';
-      context.strokeText(word, view.toX(x + 0.5), view.toY(y + 0.5));
-      context.fillText(word, view.toX(x + 0.5), view.toY(y + 0.5));
+      const pixel = y * opened.width + x;
+      const word = pixelWord(opened, name, pixel);
+      if (!word) continue;
+      context.fillStyle = pixelInk(opened, name, pixel);
+      paintWord(context, view, word, x, y);
     }
 }
 

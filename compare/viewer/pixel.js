@@ -125,9 +125,13 @@ function seenRecord(opened, triangle, eye, direction) {
            corners };
 }
 
+/** Depth from the seen point to the nearest crossing, its own triangle's light cap not counted. */
 function marginDepth(seen, crossings) {
-  if (!seen || crossings.length === 0) return null;
-  return Math.min(...crossings.map(({ depth }) => Math.abs(seen.depth - depth)));
+  if (!seen) return null;
+  const others = crossings.filter(({ kind, caster }) =>
+    kind === 'side' || caster.triangle !== seen.triangle);
+  if (others.length === 0) return null;
+  return Math.min(...others.map(({ depth }) => Math.abs(seen.depth - depth)));
 }
 
 function insideOf({ blocks }, ledger, seen) {
