@@ -23,17 +23,15 @@ function lookOf(params, opened) {
   };
 }
 
-const short = (value) => String(Math.round(value * 100) / 100);
-
 function linkOf(opened, look) {
   const compared = look.view !== 'side';
   return routeText(opened.id, {
     view: compared ? look.view : null,
     of: compared ? look.of.join(',') : null,
-    at: look.view === 'slide' || look.view === 'blend' ? short(look.at) : null,
+    at: look.view === 'slide' || look.view === 'blend' ? look.at : null,
     flipped: look.view === 'toggle' && look.flipped ? 1 : null,
-    zoom: look.zoom === null ? null : short(look.zoom),
-    centre: look.zoom === null ? null : look.centre.map(short).join(','),
+    zoom: look.zoom,
+    centre: look.zoom === null ? null : look.centre.join(','),
     pixel: look.pixel ? look.pixel.join(',') : null,
     cause: look.cause,
   });

@@ -74,7 +74,7 @@ function makePage(opened, pictures, look) {
     announce(pictureTitles[look.of[side]]);
   };
   page.shift = (by) => {
-    look.at = Math.min(1, Math.max(0, Math.round((look.at + by) * 100) / 100));
+    look.at = hundredths(Math.min(1, Math.max(0, look.at + by)));
     page.repaint();
   };
   page.zoom = (steps) => {
@@ -89,7 +89,8 @@ function makePage(opened, pictures, look) {
   };
   page.zoomOnPixel = () => {
     look.zoom = 32;
-    look.centre = (look.pixel ?? [opened.width / 2, opened.height / 2]).map((v) => v + 0.5);
+    look.centre = look.pixel ? look.pixel.map((value) => value + 0.5)
+                             : [opened.width / 2, opened.height / 2];
     page.repaint();
   };
   page.pan = (dx, dy) => {

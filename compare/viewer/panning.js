@@ -11,14 +11,17 @@ function zoomTo(look, opened, pane, zoom, around = visibleMiddle(look, opened)) 
     look.centre = [opened.width / 2, opened.height / 2];
     return;
   }
-  look.zoom = Math.min(zoom, zooms[zooms.length - 1]);
+  look.zoom = hundredths(Math.min(zoom, zooms[zooms.length - 1]));
   look.centre = middle.map((value, i) => around[i] + (value - around[i]) * before / look.zoom);
   keepInside(look, opened);
 }
 
+/** What a link holds, so that it restores just what was seen. */
+const hundredths = (value) => Math.round(value * 100) / 100;
+
 function keepInside(look, opened) {
-  look.centre = [Math.min(Math.max(look.centre[0], 0), opened.width),
-                 Math.min(Math.max(look.centre[1], 0), opened.height)];
+  look.centre = [opened.width, opened.height].map((most, i) =>
+    hundredths(Math.min(Math.max(look.centre[i], 0), most)));
 }
 
 function zoomStep(look, opened, pane, steps, around) {
@@ -74,7 +77,7 @@ function listenToPane(pane, look, opened, { changed, inspect, hover }) {
       spread = wider;
     } else if (sliderGrabbed(before, pane, look)) {
       const box = pane.getBoundingClientRect();
-      look.at = Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
+      look.at = hundredths(Math.min(1, Math.max(0, (event.clientX - box.left) / box.width)));
     } else if (look.zoom !== null) {
       look.centre = [look.centre[0] - dx / look.zoom, look.centre[1] - dy / look.zoom];
       keepInside(look, opened);

@@ -1,0 +1,129 @@
+// What is missing or damaged is named, and never taken for agreement.
+import assert from 'node:assert/strict';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { before, test } from 'node:test';
+import { deflateSync } from 'node:zlib';
+import { copyOfReport, keepScreenshot, openReport, resultsOf, text, writeReport } from './browser.mjs';
+
+let folder;
+let copies = 0;
+before(() => { folder = writeReport('report', ['near_plane']); });
+
+const cellFile = 'near_plane/zpass/cell.js';
+const link = '#near_plane/zpass?pixel=66,33';
+
+/** A copy of the report after `damage(path)` was done to it, opened at a cell. */
+async function opened(damage, hash = link) {
+  const copy = copyOfReport(folder, `damaged-${++copies}`);
+  damage((path) => join(copy, path));
+  return openReport(copy, { hash });
+}
+
+function rewrite(path, change) {
+  const old = readFileSync(path, 'utf8');
+  const changed = change(old);
+  assert.notEqual(changed, old);
+  writeFileSync(path, changed);
+}
+
+const alerts = async (page) => (await page.locator('.alert, .broken').allInnerTexts()).join('\n');
+
+async function saysNothingAgrees(page) {
+  assert.doesNotMatch(await text(page, '.inspector'), /agree here/);
+}
+
+test('a missing picture is named in its place', async () => {
+  const { page } = await opened((path) => rmSync(path('near_plane/zpass/claim.png')));
+  assert.match(await alerts(page), /near_plane\/zpass\/claim\.png is missing or damaged/);
+  assert.equal(await page.locator('canvas[data-picture="claim"]').count(), 0);
+  assert.equal(await page.locator('canvas[data-picture="truth"]').count(), 1);
+  await page.locator('#view-slide').click();
+  assert.match(await text(page, '.stage'), /claim\.png is missing or damaged/);
+});
+
+test('a picture that ends early is named', async () => {
+  const { page } = await opened((path) => {
+    const bytes = readFileSync(path('near_plane/truth.png'));
+    writeFileSync(path('near_plane/truth.png'), bytes.subarray(0, 20));
+  });
+  assert.match(await alerts(page), /near_plane\/truth\.png is missing or damaged/);
+});
+
+test('a picture of another size is named with both sizes, never stretched', async () => {
+  const { page } = await opened((path) => writeFileSync(path('near_plane/zpass/cause.png'),
+    Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==', 'base64')));
+  assert.match(await alerts(page), /cause\.png is 1×1 pixels; the results are of 160×160/);
+});
+
+test('a missing script of a cell is named; a differing pixel keeps no ledger and does not agree', async () => {
+  const { page } = await opened((path) => rmSync(path(cellFile)));
+  assert.match(await alerts(page), /near_plane\/zpass\/cell\.js is missing/);
+  await saysNothingAgrees(page);
+  await keepScreenshot(page, 'damaged', { fullPage: true });
+  await page.locator('#goto').fill('0,0');
+  await page.locator('#goto').press('Enter');
+  await saysNothingAgrees(page);
+});
+
+test('a missing script of a scene is named', async () => {
+  const { page } = await opened((path) => rmSync(path('near_plane/scene.js')));
+  assert.match(await alerts(page), /near_plane\/scene\.js is missing/);
+  await saysNothingAgrees(page);
+});
+
+test('a script that ends early is damaged', async () => {
+  const { page } = await opened((path) => rewrite(path(cellFile), (old) => old.slice(0, 2000)));
+  assert.match(await alerts(page), /near_plane\/zpass\/cell\.js is damaged/);
+  await saysNothingAgrees(page);
+});
+
+for (const block of ['claim', 'read_back', 'ledger', 'crossing_change', 'vertex'])
+  test(`a damaged block is named: ${block}`, async () => {
+    const { page } = await opened((path) => rewrite(path(cellFile), (old) =>
+      old.replace(new RegExp(`("${block}":\\s*\\{[^}]*"data":\\s*")....`), '$1AAAA')));
+    assert.match(await alerts(page), new RegExp(`cell\\.js: block ${block} is damaged`));
+    await saysNothingAgrees(page);
+    assert.equal(await page.locator('.ledger').count(), 0);
+  });
+
+test('a block of another length is damaged', async () => {
+  const short = deflateSync(Buffer.alloc(100)).toString('base64');
+  const { page } = await opened((path) => rewrite(path('near_plane/scene.js'), (old) =>
+    old.replace(/("visibility":\s*\{[^}]*"data":\s*")[^"]*/, `$1${short}`)));
+  assert.match(await alerts(page),
+               /scene\.js: block visibility is damaged: 100 bytes where 25600 belong/);
+  await saysNothingAgrees(page);
+});
+
+test('a damaged cause map is named, and no pixel is said to agree', async () => {
+  const { page } = await opened((path) => rewrite(path('results.js'), (old) =>
+    old.replace(/("cause_map":\s*")..../, '$1AAAA')));
+  assert.match(await alerts(page), /cause_map of near_plane\/zpass is damaged/);
+  await saysNothingAgrees(page);
+});
+
+test('a cell of another run is not taken for one of this', async () => {
+  const { page } = await opened((path) => {
+    const other = readFileSync(path('near_plane/zfail/cell.js'), 'utf8');
+    writeFileSync(path(cellFile), other.replace('near_plane/zfail', 'near_plane/zpass'));
+  });
+  assert.match(await alerts(page), /zpass\/cell\.js/);
+  assert.equal(await page.locator('.ledger').count(), 0);
+});
+
+test('a blank truth is named', async () => {
+  const { page } = await opened((path) => {
+    const results = resultsOf(path('.'));
+    Object.assign(results.scenes[0].reference, { lit: 0, shadowed: 0, background: 25600 });
+    writeFileSync(path('results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+  });
+  assert.match(await alerts(page), /The truth is blank: no pixel sees a surface/);
+});
+
+test('without its results the report says so', async () => {
+  const { page } = await opened((path) => rmSync(path('results.js')), '');
+  assert.match(await alerts(page), /results\.js is missing or damaged/);
+  const damaged = await opened((path) => rewrite(path('results.js'), (old) => old.slice(0, 500)), '');
+  assert.match(await alerts(damaged.page), /results\.js is missing or damaged/);
+});
