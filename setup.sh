@@ -11,7 +11,7 @@ build_packages=(
     libosmesa6-dev libegl-dev libegl1
     libcli11-dev libfmt-dev duktape-dev
 )
-test_packages=(libgtest-dev libbenchmark-dev clang-format assimp-testmodels)
+test_packages=(libgtest-dev libbenchmark-dev clang-format assimp-testmodels chromium fonts-dejavu-core)
 
 case ${1:-} in
 build) wanted=("${build_packages[@]}") ;;
@@ -56,7 +56,8 @@ if [ ${#missing[@]} -gt 0 ]; then
     "${apt[@]}" install --yes --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-# The Khronos glTF validator and a JSON Schema validator, at the versions of the lock file.
+# The Khronos glTF validator, a JSON Schema validator and the browser's driver and judge of
+# accessibility, at the versions of the lock file.
 if [ "$1" = test ] && ! cmp -s tests/package-lock.json tests/node_modules/.installed; then
     npm ci --prefix tests --no-audit --no-fund --loglevel=error
     cp tests/package-lock.json tests/node_modules/.installed

@@ -77,7 +77,7 @@ function zoomButtons(page) {
     button('zoom-in', '+', () => page.zoom(1), { 'aria-label': 'Zoom in' }),
     button('zoom-fit', 'Fit', () => page.fit()),
     button('zoom-pixel', '1 pixel', () => page.zoomOnPixel(),
-           { 'aria-label': 'Zoom to the pixel that is inspected' }));
+           { title: 'Zoom to the pixel that is inspected' }));
 }
 
 function stepControls(page) {

@@ -15,7 +15,11 @@ var cutaway = (function () {
       .replace(/"/g, '&quot;');
   }
   function px(value) { return String(Math.round(value * 10) / 10); }
-  function short(value) { return String(parseFloat(value.toPrecision(4))); }
+  function short(value) {
+    var size = Math.abs(value);
+    return size !== 0 && (size < 1e-3 || size >= 1e5)
+      ? value.toExponential(2).replace(/\.?0*e\+?/, 'e') : String(parseFloat(value.toPrecision(4)));
+  }
   function signed(value) { return value > 0 ? '+' + value : value < 0 ? '\u2212' + -value : '0'; }
   function clamp(value, low, high) { return Math.max(low, Math.min(high, value)); }
   /** Room that a text takes in the widest of the fonts. */
@@ -119,28 +123,36 @@ var cutaway = (function () {
     return events;
   }
 
+  /** Room of a column of the strip, in columns of one event. */
+  function breadth(column) { return column.length > 1 ? 1.4 : 1; }
+  function breadthOf(columns) {
+    return columns.reduce(function (sum, column) { return sum + breadth(column); }, 0);
+  }
+
+  /** The longest run of columns of crossings that share one fate: [begin, end), or null. */
+  function longestRun(columns) {
+    var best = null, begin = 0, end;
+    while (begin < columns.length) {
+      end = begin + 1;
+      while (end < columns.length && columns[begin][0].kind === 'crossing' &&
+             columns[end][0].kind === 'crossing' &&
+             columns[end][0].status === columns[begin][0].status) ++end;
+      if (end - begin > 1 && (!best || end - begin > best[1] - best[0])) best = [begin, end];
+      begin = end;
+    }
+    return best;
+  }
+
   /** Columns of the strip: an event each, or a run of crossings of one fate where there are many. */
   function columnsOf(events, most) {
     var columns = events.map(function (event) { return [event]; });
-    function longestRun() {
-      var best = null, begin = 0, end;
-      while (begin < columns.length) {
-        end = begin + 1;
-        while (end < columns.length && columns[begin][0].kind === 'crossing' &&
-               columns[end][0].kind === 'crossing' &&
-               columns[end][0].status === columns[begin][0].status) ++end;
-        if (end - begin > 1 && (!best || end - begin > best[1] - best[0])) best = [begin, end];
-        begin = end;
-      }
-      return best;
-    }
-    var run = columns.length > most ? longestRun() : null;
-    while (run && columns.length > most) {
+    var run = longestRun(columns), keep, grouped;
+    while (run && breadthOf(columns) > most) {
       // The ends of a run stay, where there is room for them: they lie beside what decides.
-      var keep = run[1] - run[0] > 4 && columns.length - (run[1] - run[0]) + 3 <= most ? 1 : 0;
-      var grouped = [].concat.apply([], columns.slice(run[0] + keep, run[1] - keep));
+      keep = run[1] - run[0] > 4 && breadthOf(columns) - (run[1] - run[0]) + 3.4 <= most ? 1 : 0;
+      grouped = [].concat.apply([], columns.slice(run[0] + keep, run[1] - keep));
       columns.splice(run[0] + keep, run[1] - run[0] - 2 * keep, grouped);
-      run = longestRun();
+      run = longestRun(columns);
     }
     return columns;
   }
@@ -462,19 +474,19 @@ var cutaway = (function () {
               { 'font-weight': '700' }) +
         struck(event.status, at, 13, 13);
     }
-    text = [entries ? entries + '\u00d7+1' : '', exits ? exits + '\u00d7\u22121' : '']
-      .filter(Boolean).join(' ');
-    half = room(text, 10.5) / 2 + 4;
-    return tag('rect', { x: at[0] - half, y: at[1] - 10, width: 2 * half, height: 20, rx: 10,
+    text = [entries ? entries + '\u00d7+1' : '', exits ? exits + '\u00d7\u22121' : ''].filter(Boolean);
+    half = Math.max(room(text[0], 10), room(text[text.length - 1], 10)) / 2 + 4;
+    return tag('rect', { x: at[0] - half, y: at[1] - 14, width: 2 * half, height: 28, rx: 8,
                          'stroke-width': '1.4', 'class': 'cut-stroke-shade cut-fill-paper',
                          stroke: colors.shade, fill: colors.paper }) +
-      words([at[0], at[1] + 4], text, 'ink', 10.5) +
-      struck(event.status, at, half, 7);
+      text.map(function (row, i) {
+        return words([at[0], at[1] + (text.length === 1 ? 4 : i === 0 ? -2 : 10)], row, 'ink', 10);
+      }).join('') + struck(event.status, at, half, 12);
   }
 
   function columnName(column) {
-    if (column[0].kind === 'crossing') return column.length > 1 ? column.length + ' crossings' : '';
-    return column[0].kind;
+    if (column[0].kind !== 'crossing') return column[0].kind;
+    return short(column[0].depth) + (column.length > 1 ? '\u2026' : '');
   }
 
   /** Steps of the shadow depth between the columns: how many volumes the ray is inside of. */
@@ -588,17 +600,20 @@ var cutaway = (function () {
     width = Math.max(320, width || 760);
     var plane = planeOf(record), events = eventsOf(record, technique);
     events.forEach(function (event, i) { event.index = i; });
-    var columns = columnsOf(events, Math.max(8, Math.floor((width - 16) / 42)));
-    var step = (width - 16) / columns.length;
-    var spot = [];
-    columns.forEach(function (column, i) {
+    var columns = columnsOf(events, (width - 16) / 42);
+    var step = (width - 16) / breadthOf(columns);
+    var centres = [], spot = [], before = 8;
+    columns.forEach(function (column) {
+      var half = breadth(column) * step / 2;
+      centres.push(before + half);
       column.forEach(function (event, j) {
-        spot[event.index] = 8 + step * (i + 0.5) +
-          (column.length > 1 ? (j / (column.length - 1) - 0.5) * step * 0.7 : 0);
+        spot[event.index] = before + half +
+          (column.length > 1 ? (j / (column.length - 1) - 0.5) * half * 1.4 : 0);
       });
+      before += 2 * half;
     });
     function columnX(i) { return spot[i]; }
-    function columnCentre(i) { return 8 + step * (i + 0.5); }
+    function columnCentre(i) { return centres[i]; }
 
     var casters = events.map(function (event) {
       if (event.kind !== 'crossing' || event.crossing.kind !== 'side' || plane.degenerate ||
@@ -628,8 +643,7 @@ var cutaway = (function () {
     columns.forEach(function (column, i) {
       var at = [columnCentre(i), marks], depth = column[0].depth;
       text += mark(column, technique, at, record.inside) +
-        words([at[0], marks + 27], columnName(column) ||
-              (column.length === 1 ? short(depth) : ''), 'ink', 10.5) +
+        words([at[0], marks + 27], columnName(column), 'ink', 10.5) +
         (column[0].kind === 'crossing' ? '' :
           words([at[0], marks + 40], isFinite(depth) ? short(depth) : 'at infinity', 'quiet', 10.5));
     });

@@ -139,13 +139,11 @@ function matrixEntry(scene, cell, filter, compact) {
   const why = pixels > 0 ? `${grouped(pixels)}${compact ? '' : ` ${worst[0]}`}` : '';
   const since = sinceWords(cell);
   return element('td', { class: `${verdict}${isFailing(cell) ? ' failing' : ''}` },
-    element('a', { href: cellLink(scene, cell), title: `${scene.name} / ${cell.name}: ${words}`,
-                   'aria-label': `${scene.name}, ${cell.name}: ${words}` +
-                     (beyond ? `, ${counted(beyond, 'pixel')} beyond edges, ${worst[0]}` : '') +
-                     (since ? `, since the baseline ${since}` : '') },
-      element('b', {}, `${mark} ${compact ? '' : words}`),
+    element('a', { href: cellLink(scene, cell), title: `${scene.name} / ${cell.name}: ${words}` },
+      element('b', {}, mark, compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
       element('span', {}, why || ' '),
-      since ? element('span', { class: 'since' }, `Δ ${since}`) : null));
+      since ? element('span', { class: 'since' }, `Δ ${since}`) : null,
+      element('i', { class: 'unseen' }, `, ${scene.name}, ${cell.name}`)));
 }
 
 function matrixRow(scene, techniques, filter, compact) {
@@ -231,7 +229,7 @@ function showOverview(results, params) {
   const filter = Object.fromEntries(['cause', 'find', 'verdict'].map((key) =>
     [key, params.get(key) ?? '']));
   const table = element('div', { class: 'scroll', role: 'region', tabindex: '0',
-                                 'aria-labelledby': 'matrix-title' });
+                                 'aria-label': 'Matrix' });
   const controls = element('div', {});
   const draw = (all) => {
     table.replaceChildren(matrix(results, filter));

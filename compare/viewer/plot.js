@@ -142,7 +142,7 @@ function runTimePlot(results) {
     element('h2', { id: 'plot-title' }, 'Error against run time'),
     element('p', { class: 'quiet' }, 'Each mark is a cell. A ring is a technique: its median time, ' +
                                      'its worst scene.'),
-    element('div', { class: 'scroll', role: 'region', tabindex: '0', 'aria-labelledby': 'plot-title' },
+    element('div', { class: 'scroll', role: 'region', tabindex: '0', 'aria-label': 'Plot' },
       plotPicture(cells, techniques, width)),
     plotTable(techniques));
 }

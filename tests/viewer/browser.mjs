@@ -11,8 +11,9 @@ import { scratch, shadowproof } from '../command/shadowproof.mjs';
 export const size = '160x160';
 
 /** Writes a report of the bundled scenes into a new folder of the scratch, and gives its path. */
-export function writeReport(name, scenes = ['near_plane', 'far_plane', 'eye_inside', 'ordinary']) {
-  const run = shadowproof(['verify', ...scenes, '--size', size, '--out', name, '-q']);
+export function writeReport(name, scenes = ['near_plane', 'far_plane', 'eye_inside', 'ordinary'],
+                            pixels = size) {
+  const run = shadowproof(['verify', ...scenes, '--size', pixels, '--out', name, '-q']);
   assert.ok([0, 1].includes(run.code), run.out + run.err);
   return join(scratch, name);
 }
@@ -97,3 +98,10 @@ export async function keepScreenshot(page, name, options = {}) {
 }
 
 export const text = (page, selector) => page.locator(selector).innerText();
+
+/** A page of its own for what is no report. */
+export async function emptyPage() {
+  const page = await (await startedBrowser()).newPage({ viewport: { width: 1180, height: 760 } });
+  await page.setContent('<!doctype html><body style="margin:0"></body>');
+  return page;
+}

@@ -6,17 +6,18 @@ import { join } from 'node:path';
 import { before, test } from 'node:test';
 import { inflateSync } from 'node:zlib';
 import { scratch, shadowproof } from '../command/shadowproof.mjs';
-import { cellsOf, openReport, resultsOf, shown, size, text, writeReport } from './browser.mjs';
+import { cellsOf, openReport, resultsOf, shown, text, writeReport } from './browser.mjs';
 import { randomNumbers, seed } from './random.mjs';
 import { named } from './scripts.mjs';
 
 const { printed, printedPoint } = named(['numbers.js'], ['printed', 'printedPoint']);
+const size = '300x256'; // large enough for edges, and no square
 const scenes = ['near_plane', 'far_plane', 'eye_inside', 'ordinary'];
 
 let folder;
 let cells;
 before(() => {
-  folder = writeReport('report', scenes);
+  folder = writeReport('report', scenes, size);
   cells = cellsOf(resultsOf(folder));
 });
 

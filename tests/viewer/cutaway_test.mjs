@@ -1,0 +1,162 @@
+// The drawing under hard circumstances: it stays a picture, its words stay apart and inside, and
+// the command and the browser draw the same.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { scratch, shadowproof } from '../command/shadowproof.mjs';
+import { emptyPage, keepScreenshot } from './browser.mjs';
+import { randomNumbers, seed } from './random.mjs';
+import { named } from './scripts.mjs';
+
+const { cutaway } = named(['cutaway.js'], ['cutaway']);
+
+let page;
+before(async () => { page = await emptyPage(); });
+
+/** A side of a volume that the ray along -z meets at `depth`, from an edge across the drawing. */
+function side(depth, change, { mesh = 'caster', light = [0, 4, -6], along = 0.6 } = {}) {
+  const on = [0, 0, -depth];
+  const edge = light.map((value, i) => value + along * (on[i] - value));
+  return { depth, change, kind: 'side', caster: { triangle: 7, mesh },
+           from: [[edge[0] - 1, edge[1], edge[2]], [edge[0] + 1, edge[1], edge[2]]] };
+}
+
+const surfaceAt = (depth, mesh = 'floor') => ({
+  triangle: 3, mesh, depth, point: [0, 0, -depth],
+  corners: [[-5, -1, -depth + 2], [5, -1, -depth + 2], [0, 2, -depth - 4]] });
+
+/** A record of the eye at the origin that looks along -z, counted by z-pass. */
+function recordOf(crossings, changes = {}, technique = {}) {
+  const sum = crossings.reduce((inside, { change }) => inside + change, 0);
+  return {
+    schema: 'shadowproof/pixel/1', scene: 'made <by> "hand" & eye', x: 1, y: 2, width: 8, height: 8,
+    eye: [0, 0, 0], direction: [0, 0, -1], near: 0.5, far: 40,
+    light: { name: 'lamp', position: [0, 4, -6] }, truth: 'lit', exactness: 'filtered',
+    seen: surfaceAt(10), margin: { depth: 1, pixels: 2 },
+    inside: { eye: 0, near: 0, surface: 0, far: sum, infinity: sum },
+    crossings, adds_up: true, ...changes,
+    techniques: [{
+      name: 'zpass', test: 'depth_pass', predicted: 0, stored: 0, read_back: 0, claim: 'lit',
+      shown: null, cause: 'near_plane',
+      statuses: crossings.map(({ depth }) =>
+        (depth < 0.5 ? 'lost_near' : depth > 10 ? 'beyond' : 'counted')),
+      dark_cap: 'beyond', ...technique }],
+  };
+}
+
+function manyCrossings(count) {
+  const random = randomNumbers();
+  return Array.from({ length: count }, () => 0.1 + 15 * random()).sort((a, b) => a - b)
+    .map((depth, i) => side(depth, i % 2 ? -1 : 1, { mesh: `leaf ${i % 7}`, along: random() }));
+}
+
+const pair = [side(2, 1), side(4, -1)];
+const cases = {
+  plain: recordOf(pair),
+  nothing: recordOf([]),
+  background: recordOf(pair, { seen: null, truth: 'background' }),
+  'nothing at all': recordOf([], { seen: null, truth: 'background' }),
+  'light behind the eye': recordOf([side(2, 1, { light: [0, 3, 5] }), side(4, -1, { light: [0, 3, 5] })],
+                                   { light: { name: 'lamp', position: [0, 3, 5] } }),
+  'light far behind the eye': recordOf([side(2, 1, { light: [0, 30, 500] })],
+                                       { light: { name: 'lamp', position: [0, 30, 500] } }),
+  'light far above': recordOf([side(2, 1, { light: [0, 900, -6], along: 0.999 })],
+                              { light: { name: 'lamp', position: [0, 900, -6] } }),
+  'light on the ray': recordOf(pair, { light: { name: 'lamp', position: [0, 0, -20] } }),
+  'light next to the ray': recordOf([side(2, 1, { light: [0, 1e-3, -20] })],
+                                    { light: { name: 'lamp', position: [0, 1e-3, -20] } }),
+  'light at the eye': recordOf([], { light: { name: 'lamp', position: [0, 0, 0] } }),
+  'crossings in one spot': recordOf([side(0.49999, 1), side(0.50001, -1), side(0.50002, 1),
+                                     side(0.50003, -1)]),
+  'depths of every size': recordOf([side(1e-3, 1), side(1e-2, -1), side(0.6, 1), side(9e5, -1)],
+                                   { near: 1e-4, far: 1e7, seen: surfaceAt(1e6) }),
+  'eye inside': recordOf([side(3, -1)], { inside: { eye: 2, near: 2, surface: 1, far: 1, infinity: 1 } },
+                         { predicted: -1, stored: 255, read_back: 255, claim: 'shadowed' }),
+  'no finite far plane': recordOf(pair, { far: null }),
+  'far plane in front of crossings': recordOf([side(12, 1), side(50, -1)], {},
+    { test: 'depth_fail', statuses: ['counted', 'lost_far'], dark_cap: 'lost_far', predicted: -1,
+      stored: 255, read_back: 255 }),
+  'dark caps': recordOf([side(12, 1)], {}, { test: 'depth_fail', statuses: ['counted'],
+                                            dark_cap: 'counted' }),
+  'dark caps that are missing': recordOf([side(12, 1)], {}, { test: 'depth_fail',
+    statuses: ['counted'], dark_cap: 'lost_cap', predicted: -1, stored: 255, read_back: 255 }),
+  'every fate at once': recordOf([side(0.2, 1), side(0.3, -1), side(2, 1), side(11, -1), side(12, 1)],
+    {}, { statuses: ['lost_near', 'lost_cap', 'counted', 'beyond', 'lost_far'] }),
+  'a crossing lost by rounding': recordOf(pair, { adds_up: false }, { predicted: 1, stored: 1 }),
+  'another counter read back': recordOf(pair, {}, { read_back: 3, claim: 'shadowed',
+                                                    cause: 'unexplained' }),
+  'fifteen crossings': recordOf(manyCrossings(15)),
+  'eighty crossings': recordOf(manyCrossings(80)),
+  'four hundred crossings': recordOf(manyCrossings(400)),
+  'light cap and surface at one depth': recordOf([{ ...side(10, 1), kind: 'light cap',
+                                                    from: surfaceAt(10).corners }, side(12, -1)]),
+};
+
+/** Texts of a drawing that overlap or leave it, and whether it is a picture at all. */
+function flaws(svg) {
+  return page.evaluate((source) => {
+    const parsed = new DOMParser().parseFromString(source, 'image/svg+xml');
+    if (parsed.querySelector('parsererror')) return ['no XML'];
+    if (/NaN|undefined|Infinity[^<]*"/.test(source.replace(/<(title|desc|text)[^]*?<\/\1>/g, '')))
+      return ['numbers that are none'];
+    document.body.innerHTML = source;
+    const drawing = document.querySelector('svg');
+    const box = drawing.getBoundingClientRect();
+    const texts = [...drawing.querySelectorAll('text')].map((node) =>
+      ({ words: node.textContent, box: node.getBoundingClientRect() }));
+    const said = [];
+    texts.forEach(({ words, box: own }, i) => {
+      if (own.left < box.left - 1 || own.right > box.right + 1 || own.bottom > box.bottom + 1)
+        said.push(`"${words}" leaves the drawing`);
+      for (const other of texts.slice(i + 1)) {
+        const across = Math.min(own.right, other.box.right) - Math.max(own.left, other.box.left);
+        const down = Math.min(own.bottom, other.box.bottom) - Math.max(own.top, other.box.top);
+        // Boxes of text hold room above and below the letters.
+        if (across > 1 && down > 4) said.push(`"${words}" lies on "${other.words}"`);
+      }
+    });
+    return said;
+  }, svg);
+}
+
+for (const [name, record] of Object.entries(cases))
+  test(`words stay apart and inside at every width: ${name}`, async () => {
+    for (const width of [340, 520, 760, 1100])
+      assert.deepEqual(await flaws(cutaway(record, 0, width)), [], `width ${width}`);
+    await keepScreenshot(page, `cutaway-${name.replaceAll(' ', '-')}`);
+  });
+
+test('what is not counted is struck through with its reason, and the sum is a sentence', () => {
+  const svg = cutaway(cases['every fate at once'], 0);
+  for (const words of ['lost: in front of the near plane', 'lost: the cap is missing', 'counted',
+                       'behind the surface: not asked for', 'lost: clipped at the far plane',
+                       'Counted +1; exactly 0'])
+    assert.ok(svg.includes(words), words);
+});
+
+test('the drawing says whether it is to scale', () => {
+  assert.match(cutaway(cases.plain, 0), />to scale</);
+  assert.match(cutaway(cases['depths of every size'], 0), />not to scale: depths in their order only</);
+  assert.match(cutaway(cases['light next to the ray'], 0), />not to scale: heights × [\d.e+]+</);
+});
+
+test('names from a scene cannot become markup', () => {
+  const svg = cutaway(recordOf([side(2, 1, { mesh: '<script>"&' })]), 0);
+  assert.ok(!svg.includes('<script>'));
+  assert.ok(svg.includes('&lt;script&gt;&quot;&amp;'));
+});
+
+test(`the command, which runs the script by another engine, draws the same (seed ${seed})`, () => {
+  for (const [scene, pixel] of [['near_plane', '66,33'], ['far_plane', '106,31'], ['eye_inside', '100,60'],
+                                ['ordinary', '5,5']]) {
+    const run = shadowproof(['explain', scene, '--technique', 'zfail,zpass', '--size', '160x160',
+                             '--pixel', pixel, '--json', 'pixel.json', '--svg', 'pixel.svg']);
+    assert.equal(run.code, 0, run.err);
+    const record = JSON.parse(readFileSync(join(scratch, 'pixel.json'), 'utf8'));
+    const svg = readFileSync(join(scratch, 'pixel.svg'), 'utf8');
+    assert.ok([0, 1].some((k) => cutaway(record, k) === svg), scene);
+  }
+});
+
+after(() => page?.context().close());
