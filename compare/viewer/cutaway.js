@@ -191,7 +191,7 @@ var cutaway = (function () {
       'Counted ' + terms.join(' ') + (terms.length > 1 || sum > 1 || sum < -1 || up + down > 1
         ? ' = ' + signed(sum) : '');
     if (sum !== technique.predicted)
-      text += '; exactly ' + signed(technique.predicted) + ', as rounding lost a crossing here';
+      text += '; the exact count is ' + signed(technique.predicted);
     if (technique.stored !== technique.predicted) text += ', stored as ' + technique.stored;
     text += '; read back ' + technique.read_back +
       (technique.read_back === technique.stored ? '' : ', not ' + technique.stored) +
@@ -212,6 +212,7 @@ var cutaway = (function () {
     if (isFinite(record.far) && record.far !== null && record.far <= 1.4 * last)
       last = Math.max(last, record.far * 1.03);
     var first = 0, light = plane.light;
+    if (depths.length <= 2) last = Math.max(last, 8 * record.near, light[0]); // only eye and near
     var lightIn = !plane.degenerate && light[0] > -0.6 * last && light[0] < 1.7 * last &&
       light[1] < 3 * last;
     if (lightIn) {
@@ -221,7 +222,7 @@ var cutaway = (function () {
     var highest = casters.reduce(function (height, caster) {
       return caster ? Math.max(height, caster[1]) : height;
     }, 0) * 1.2;
-    var reach = lightIn ? light[1] : highest > 0 ? Math.min(highest, 3 * last) : 0.3 * last;
+    var reach = lightIn ? light[1] : highest > 0 ? Math.min(highest, 3 * last) : 0.06 * last;
     var scaleX = (width - left - right) / (last - first);
     var shrunk = Math.min(1, most / (reach * scaleX));
     if (shrunk >= 0.6) scaleX *= shrunk;

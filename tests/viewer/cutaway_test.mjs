@@ -131,7 +131,7 @@ test('what is not counted is struck through with its reason, and the sum is a se
   const svg = cutaway(cases['every fate at once'], 0);
   for (const words of ['lost: in front of the near plane', 'lost: the cap is missing', 'counted',
                        'behind the surface: not asked for', 'lost: clipped at the far plane',
-                       'Counted +1; exactly 0'])
+                       'Counted +1; the exact count is 0'])
     assert.ok(svg.includes(words), words);
 });
 

@@ -1,0 +1,69 @@
+// How large a report of sixty cells is, and how soon it can be used in a browser.
+//   SHADOWPROOF=build/release/shadowproof node tests/bench/viewer_bench.mjs [RUNS]
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const runs = Number(process.argv[2] ?? 5);
+const folder = mkdtempSync(join(tmpdir(), 'shadowproof-bench-'));
+const scenes = ['near_plane', 'far_plane', 'eye_inside', 'ordinary'];
+
+const bytesBelow = (path) => (statSync(path).isDirectory()
+  ? readdirSync(path).reduce((sum, name) => sum + bytesBelow(join(path, name)), 0)
+  : statSync(path).size);
+
+const median = (values) => [...values].sort((a, b) => a - b)[values.length >> 1];
+
+/** Milliseconds from asking for the address until the page has what `isThere` looks for. */
+async function opened(browser, hash, isThere) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true });
+  const page = await context.newPage();
+  const begin = performance.now();
+  await page.goto(pathToFileURL(join(folder, 'index.html')).href + hash, { waitUntil: 'commit' });
+  await page.waitForFunction(isThere, null, { polling: 'raf' });
+  const ms = performance.now() - begin;
+  await context.close();
+  return ms;
+}
+
+/** Milliseconds from a click on a cell of the open overview until its pixel is inspected. */
+async function clicked(browser, isThere) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, offline: true });
+  const page = await context.newPage();
+  await page.goto(pathToFileURL(join(folder, 'index.html')).href);
+  const link = page.locator('.matrix td a').first();
+  await link.waitFor();
+  const begin = performance.now();
+  await link.click();
+  await page.waitForFunction(isThere, null, { polling: 'raf' });
+  const ms = performance.now() - begin;
+  await context.close();
+  return ms;
+}
+
+const verify = spawnSync(process.env.SHADOWPROOF,
+                         ['verify', ...scenes, ...scenes, ...scenes, '--out', folder, '-q'],
+                         { encoding: 'utf8' });
+if (verify.status > 1) throw new Error(verify.stderr);
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+});
+const overview = () => document.querySelectorAll('.matrix td a').length === 60 &&
+  document.querySelector('.plot');
+const cell = () => document.querySelector('#cutaway svg') &&
+  document.querySelectorAll('canvas.pane').length === 6;
+const times = { overview: [], 'a link to a cell': [], 'a click on a cell': [] };
+for (let i = 0; i < runs; ++i) {
+  times.overview.push(await opened(browser, '', overview));
+  times['a link to a cell'].push(await opened(browser, '#near_plane/zpass', cell));
+  times['a click on a cell'].push(await clicked(browser, cell));
+}
+await browser.close();
+console.log(`60 cells at 512x512: ${(bytesBelow(folder) / 2 ** 20).toFixed(1)} MiB`);
+for (const [what, ms] of Object.entries(times))
+  console.log(`${what.padEnd(20)} median ${median(ms).toFixed(0)} ms, worst ${Math.max(...ms).toFixed(0)} ms`);
+rmSync(folder, { recursive: true });
