@@ -28,9 +28,11 @@ std::string draw_cutaway(const std::string& record, std::size_t technique) {
     const std::unique_ptr<duk_context, DestroyHeap> heap(duk_create_heap_default());
     if (!heap) throw std::bad_alloc();
     duk_context* context = heap.get();
-    const std::string_view script = viewer_file("cutaway.js");
-    check(context, duk_peval_lstring(context, script.data(), script.size()));
-    duk_pop(context);
+    for (const char* name : {"cutaway_geometry.js", "cutaway_words.js", "cutaway.js"}) {
+        const std::string_view script = viewer_file(name);
+        check(context, duk_peval_lstring(context, script.data(), script.size()));
+        duk_pop(context);
+    }
     check(context, duk_peval_string(
                        context, "(function (text, k) { return cutaway(JSON.parse(text), k); })"));
     duk_push_lstring(context, record.data(), record.size());

@@ -105,7 +105,7 @@ function pane(page, name) {
     style: `aspect-ratio:${page.opened.width}/${page.opened.height}`,
     'aria-label': `${title} of ${scene.name} by ${cell.name}` });
   if (problem)
-    return element('figure', { class: 'broken-pane' }, element('figcaption', {}, element('b', {}, title)),
+    return element('figure', {}, element('figcaption', {}, element('b', {}, title)),
                    element('p', { class: 'broken' }, problem));
   listenToPane(canvas, page.look, page.opened, {
     changed: () => page.repaint(),
@@ -160,7 +160,8 @@ function valueRows({ visibility, claim }) {
   const truth = visibility && tallied(visibility);
   const said = claim && tallied(claim);
   return [255, 64, 0].map((value) => element('tr', {},
-    element('th', { scope: 'row' }, swatch(`rgb(${value},${value},${value})`), visibilityNames[value]),
+    element('th', { scope: 'row' }, swatch(`rgb(${value},${value},${value})`),
+            visibilityNames[value]),
     element('td', { class: 'number' }, truth ? grouped(truth[value]) : '?'),
     element('td', { class: 'number' }, said ? grouped(said[value]) : '?')));
 }
@@ -246,12 +247,15 @@ function cellHead(results, scene, cell) {
   const at = cells.findIndex((each) => each.cell === cell);
   const link = (step, id, words) => {
     const other = cells[at + step];
-    return other ? element('a', { id, href: cellLink(other.scene, other.cell),
-                                  title: `${other.scene.name} / ${other.cell.name}` }, words) : null;
+    return other ? element('a', {
+      id, href: cellLink(other.scene, other.cell),
+      title: `${other.scene.name} / ${other.cell.name}`,
+    }, words) : null;
   };
   const since = sinceWords(cell);
   return element('header', { class: `cell-head ${verdictOf(cell)}` },
-    element('nav', { 'aria-label': 'Cells' }, element('a', { href: '#', id: 'to-overview' }, '← Overview'),
+    element('nav', { 'aria-label': 'Cells' },
+            element('a', { href: '#', id: 'to-overview' }, '← Overview'),
             link(-1, 'cell-before', '‹ Previous cell'), link(1, 'cell-after', 'Next cell ›')),
     element('h1', {}, `${scene.name} / ${cell.name} `, badge(verdictOf(cell))),
     cell.error ? null : element('p', {},

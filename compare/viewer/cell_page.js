@@ -63,6 +63,7 @@ function makePage(opened, pictures, look) {
     page.blinking = null;
   };
   page.blink = () => {
+    if (look.view !== 'toggle') return;
     if (page.blinking !== null) page.stopBlinking();
     else page.blinking = setInterval(page.flip, 500);
     page.update();

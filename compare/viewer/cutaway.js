@@ -1,10 +1,13 @@
 // The drawing of one pixel: a side view in the plane of the eye ray and the light, after the
 // cutaways of the shadow volume papers, and below it the ray's events in order, which stay legible
 // where the picture to scale puts them onto one spot. ECMAScript 5 without a DOM, because the
-// command runs this very file too. Colours are attributes, so that the picture stands alone; the
+// command runs these very files too. Colours are attributes, so that the picture stands alone; the
 // report's style sheet overrides them by class.
 var cutaway = (function () {
   'use strict';
+
+  var geometry = cutawayGeometry, say = cutawayWords;
+  var clamp = geometry.clamp, short = say.short, signed = say.signed, room = say.room;
 
   var font = 'system-ui, -apple-system, Segoe UI, DejaVu Sans, sans-serif';
   var colors = { paper: '#ffffff', ink: '#1b1b1f', quiet: '#55555e', line: '#b4b4be',
@@ -15,15 +18,6 @@ var cutaway = (function () {
       .replace(/"/g, '&quot;');
   }
   function px(value) { return String(Math.round(value * 10) / 10); }
-  function short(value) {
-    var size = Math.abs(value);
-    return size !== 0 && (size < 1e-3 || size >= 1e5)
-      ? value.toExponential(2).replace(/\.?0*e\+?/, 'e') : String(parseFloat(value.toPrecision(4)));
-  }
-  function signed(value) { return value > 0 ? '+' + value : value < 0 ? '\u2212' + -value : '0'; }
-  function clamp(value, low, high) { return Math.max(low, Math.min(high, value)); }
-  /** Room that a text takes in the widest of the fonts. */
-  function room(text, size) { return 0.6 * size * text.length; }
 
   function tag(name, attributes, content) {
     var text = '<' + name, key, value;
@@ -52,244 +46,10 @@ var cutaway = (function () {
       'class': 'cut-fill-' + color, fill: colors[color], 'fill-opacity': String(opacity) });
   }
 
-  function minus(a, b) { return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]; }
-  function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  function cross(a, b) {
-    return [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
-  }
-
-  /**
-   * The plane of the drawing: `at(point)` is [depth, height towards the light in units of depth],
-   * `normal` stands on it. A light on the ray's line leaves no plane: `degenerate`.
-   */
-  function planeOf(record) {
-    var d = record.direction, length = Math.sqrt(dot(d, d));
-    var toLight = minus(record.light.position, record.eye);
-    var along = dot(toLight, d) / dot(d, d);
-    var up = [0, 1, 2].map(function (i) { return toLight[i] - along * d[i]; });
-    var height = Math.sqrt(dot(up, up));
-    var degenerate = !(height > 1e-6 * Math.sqrt(dot(toLight, toLight)));
-    if (!degenerate) up = up.map(function (value) { return value / height; });
-    return {
-      degenerate: degenerate,
-      light: [along, height / length],
-      normal: cross(d, up),
-      at: function (point) {
-        var relative = minus(point, record.eye);
-        return [dot(relative, d) / dot(d, d), dot(relative, up) / length];
-      }
-    };
-  }
-
-  /** Where segment p q meets the plane of the drawing; the nearer end where it just does not. */
-  function cutPoint(plane, eye, p, q) {
-    var side = dot(plane.normal, minus(p, eye)), other = dot(plane.normal, minus(q, eye));
-    var along = side === other ? 0.5 : clamp(side / (side - other), 0, 1);
-    return plane.at([0, 1, 2].map(function (i) { return p[i] + along * (q[i] - p[i]); }));
-  }
-
-  /** The stretch of a triangle in the plane of the drawing, or null. */
-  function cutTriangle(plane, eye, corners) {
-    var ends = [], k, p, q;
-    for (k = 0; k < 3; ++k) {
-      p = corners[k];
-      q = corners[(k + 1) % 3];
-      if ((dot(plane.normal, minus(p, eye)) > 0) !== (dot(plane.normal, minus(q, eye)) > 0))
-        ends.push(cutPoint(plane, eye, p, q));
-    }
-    return ends.length === 2 ? ends : null;
-  }
-
-  /** What lies along the ray, by depth; of equal depths the surface stands before a crossing. */
-  function eventsOf(record, technique) {
-    var events = record.crossings.map(function (crossing, i) {
-      return { kind: 'crossing', depth: crossing.depth, rank: 2, crossing: crossing,
-               status: technique.statuses[i] };
-    });
-    events.push({ kind: 'near', depth: record.near, rank: 0 });
-    if (record.seen) events.push({ kind: 'surface', depth: record.seen.depth, rank: 1 });
-    if (record.far !== null && isFinite(record.far))
-      events.push({ kind: 'far', depth: record.far, rank: 3 });
-    events = events.map(function (event, i) { event.order = i; return event; })
-      .sort(function (a, b) { return a.depth - b.depth || a.rank - b.rank || a.order - b.order; });
-    events.unshift({ kind: 'eye', depth: 0 });
-    if (technique.test === 'depth_fail' && record.inside.infinity !== 0)
-      events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap });
-    var inside = record.inside.eye;
-    events.forEach(function (event) {
-      if (event.kind === 'crossing') inside += event.crossing.change;
-      event.inside = inside; // after it
-    });
-    return events;
-  }
-
-  /** Room of a column of the strip, in columns of one event. */
-  function breadth(column) { return column.length > 1 ? 1.4 : 1; }
-  function breadthOf(columns) {
-    return columns.reduce(function (sum, column) { return sum + breadth(column); }, 0);
-  }
-
-  /** The longest run of columns of crossings that share one fate: [begin, end), or null. */
-  function longestRun(columns) {
-    var best = null, begin = 0, end;
-    while (begin < columns.length) {
-      end = begin + 1;
-      while (end < columns.length && columns[begin][0].kind === 'crossing' &&
-             columns[end][0].kind === 'crossing' &&
-             columns[end][0].status === columns[begin][0].status) ++end;
-      if (end - begin > 1 && (!best || end - begin > best[1] - best[0])) best = [begin, end];
-      begin = end;
-    }
-    return best;
-  }
-
-  /** Columns of the strip: an event each, or a run of crossings of one fate where there are many. */
-  function columnsOf(events, most) {
-    var columns = events.map(function (event) { return [event]; });
-    var run = longestRun(columns), keep, grouped;
-    while (run && breadthOf(columns) > most) {
-      // The ends of a run stay, where there is room for them: they lie beside what decides.
-      keep = run[1] - run[0] > 4 && breadthOf(columns) - (run[1] - run[0]) + 3.4 <= most ? 1 : 0;
-      grouped = [].concat.apply([], columns.slice(run[0] + keep, run[1] - keep));
-      columns.splice(run[0] + keep, run[1] - run[0] - 2 * keep, grouped);
-      run = longestRun(columns);
-    }
-    return columns;
-  }
-
-  /** How a technique counts a crossing: behind the surface an exit adds and an entry takes. */
-  function contribution(technique, crossing) {
-    return technique.test === 'depth_fail' ? -crossing.change : crossing.change;
-  }
-
-  function fateWords(status, test) {
-    if (status === 'beyond')
-      return test === 'depth_pass' ? 'behind the surface: not asked for'
-                                   : 'in front of the surface: not asked for';
-    return { counted: 'counted', lost_near: 'lost: in front of the near plane',
-             lost_far: 'lost: clipped at the far plane',
-             lost_cap: 'lost: the cap is missing' }[status] || String(status);
-  }
-
-  /** "counted +1 -1 = 0; read back 0: claims lit". */
-  function sentenceOf(record, technique) {
-    var terms = [], sum = 0, up = 0, down = 0;
-    record.crossings.forEach(function (crossing, i) {
-      if (technique.statuses[i] !== 'counted') return;
-      var value = contribution(technique, crossing);
-      terms.push(signed(value));
-      sum += value;
-      if (value > 0) ++up; else ++down;
-    });
-    if (terms.length > 10) terms = [up + ' times +1, ' + down + ' times \u22121'];
-    if (technique.test === 'depth_fail' && technique.dark_cap === 'counted' &&
-        record.inside.infinity !== 0) {
-      terms.push('dark caps ' + signed(record.inside.infinity));
-      sum += record.inside.infinity;
-    }
-    var text = terms.length === 0 ? 'Counted nothing: 0' :
-      'Counted ' + terms.join(' ') + (terms.length > 1 || sum > 1 || sum < -1 || up + down > 1
-        ? ' = ' + signed(sum) : '');
-    if (sum !== technique.predicted)
-      text += '; the exact count is ' + signed(technique.predicted);
-    if (technique.stored !== technique.predicted) text += ', stored as ' + technique.stored;
-    text += '; read back ' + technique.read_back +
-      (technique.read_back === technique.stored ? '' : ', not ' + technique.stored) +
-      ': claims ' + technique.claim + '. The truth is ' + record.truth + '.';
-    return text;
-  }
-
-  /**
-   * Where depths and heights go, inside a panel `width` wide: to scale where that is readable;
-   * else heights are squeezed, or depths stand only in their order at `columnX`.
-   */
-  function layout(record, plane, events, casters, width, columnX) {
-    var left = 34, right = 18, most = 250, least = 96, top = 26;
-    var depths = events.filter(function (event) {
-      return isFinite(event.depth) && event.kind !== 'far';
-    }).map(function (event) { return event.depth; });
-    var last = Math.max.apply(null, depths) * 1.06 || 1;
-    if (isFinite(record.far) && record.far !== null && record.far <= 1.4 * last)
-      last = Math.max(last, record.far * 1.03);
-    var first = 0, light = plane.light;
-    if (depths.length <= 2) last = Math.max(last, 8 * record.near, light[0]); // only eye and near
-    var lightIn = !plane.degenerate && light[0] > -0.6 * last && light[0] < 1.7 * last &&
-      light[1] < 3 * last;
-    if (lightIn) {
-      first = Math.min(0, light[0] - 0.02 * last);
-      last = Math.max(last, light[0] * 1.02);
-    }
-    var highest = casters.reduce(function (height, caster) {
-      return caster ? Math.max(height, caster[1]) : height;
-    }, 0) * 1.2;
-    var reach = lightIn ? light[1] : highest > 0 ? Math.min(highest, 3 * last) : 0.06 * last;
-    var scaleX = (width - left - right) / (last - first);
-    var shrunk = Math.min(1, most / (reach * scaleX));
-    if (shrunk >= 0.6) scaleX *= shrunk;
-    var tall = clamp(reach * scaleX, least, most);
-    var scaleY = reach * scaleX < 40 || reach * scaleX > most * 1.001 ? tall / reach : scaleX;
-    var margin = left + (width - left - right - (last - first) * scaleX) / 2;
-    var ray = top + tall;
-    function linear(depth) { return margin + (depth - first) * scaleX; }
-    var gaps = 0, close = 0;
-    depths.forEach(function (depth, i) {
-      if (i === 0) return;
-      ++gaps;
-      if (linear(depth) - linear(depths[i - 1]) < 4) ++close;
-    });
-    var ordinal = gaps > 2 && close > 0.5 * gaps || linear(record.near) - linear(0) < 1.5 &&
-      gaps > 3 && close > 1;
-    var between = ordinal ? interpolation(events, columnX) : linear;
-    var lightAt = [between(light[0]), ray - light[1] * scaleY];
-    if (ordinal) {
-      lightAt = [clamp(between(light[0]), left + 20, width - 60), top + 14];
-      lightIn = !plane.degenerate;
-      tall = 190;
-      ray = top + tall;
-    }
-    return {
-      ray: ray, bottom: ray + 62, ordinal: ordinal, lightIn: lightIn, light: lightAt,
-      scale: ordinal ? null : scaleY / scaleX, top: top,
-      right: ordinal ? width - right : linear(last),
-      x: function (depth) { return isFinite(depth) ? between(depth) : width - right; },
-      point: function (at) { return [between(at[0]), ray - at[1] * scaleY]; }
-    };
-  }
-
-  /** Depth to x by the places of the columns, straight in between. */
-  function interpolation(events, columnX) {
-    var knots = events.map(function (event, i) { return [event.depth, columnX(i)]; })
-      .filter(function (knot) { return isFinite(knot[0]); });
-    return function (depth) {
-      var i = 1, a, b;
-      while (i < knots.length - 1 && knots[i][0] < depth) ++i;
-      a = knots[i - 1];
-      b = knots[i];
-      return b[0] === a[0] ? b[1] : a[1] + (depth - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
-    };
-  }
-
-  /** Points of the drawing for one crossing: on the ray, at the caster, and how far beyond. */
-  function crossingPoints(place, plane, caster, depth) {
-    var on = [place.x(depth), place.ray];
-    var along = 0.5;
-    if (caster) {
-      var whole = Math.sqrt(Math.pow(depth - plane.light[0], 2) + Math.pow(plane.light[1], 2));
-      var part = Math.sqrt(Math.pow(caster[0] - plane.light[0], 2) +
-                           Math.pow(caster[1] - plane.light[1], 2));
-      along = whole > 0 ? clamp(part / whole, 0, 1) : 0.5;
-    }
-    var from = place.light;
-    var beyond = (place.bottom - on[1]) / Math.max(on[1] - from[1], 1e-6);
-    return { on: on,
-             caster: [from[0] + along * (on[0] - from[0]), from[1] + along * (on[1] - from[1])],
-             away: [on[0] + beyond * (on[0] - from[0]), place.bottom] };
-  }
-
   /** The volumes between an entry and its exit, darker where they overlap. */
   function shadowsDrawn(events, points, place) {
     var open = [], text = '', i;
-    var start = crossingPoints(place, { light: [0, 1] }, null, 0);
+    var start = geometry.crossingPoints(place, { light: [0, 1] }, null, 0);
     function wedge(a, b) {
       var outline = [a.on, b.on, b.away, a.away];
       if (a.side && b.side) outline = [a.caster, b.caster].concat([b.on, b.away, a.away, a.on]);
@@ -301,7 +61,7 @@ var cutaway = (function () {
       if (event.crossing.change > 0) open.push(points[k]);
       else if (open.length > 0) wedge(open.pop(), points[k]);
     });
-    var end = crossingPoints(place, { light: [0, 1] }, null, 0);
+    var end = geometry.crossingPoints(place, { light: [0, 1] }, null, 0);
     end.on = [place.right, place.ray];
     end.away = [place.right + (place.bottom - place.ray) / Math.max(place.ray - place.light[1], 1) *
                 (place.right - place.light[0]), place.bottom];
@@ -324,22 +84,10 @@ var cutaway = (function () {
     return text;
   }
 
-  /** A short stroke where a triangle meets the plane of the drawing, through the ray. */
-  function strokeOf(record, plane, place, corners, depth, least) {
-    var on = [place.x(depth), place.ray];
-    var ends = plane.degenerate || place.ordinal ? null : cutTriangle(plane, record.eye, corners);
-    if (!ends) return [[on[0] - 5, on[1] - least], [on[0] + 5, on[1] + least]];
-    return ends.map(place.point).map(function (end) {
-      var x = end[0] - on[0], y = end[1] - on[1], far = Math.sqrt(x * x + y * y);
-      if (far >= least) return end;
-      return far < 0.01 ? on : [on[0] + x / far * least, on[1] + y / far * least];
-    });
-  }
-
   function capsDrawn(record, events, plane, place) {
     return events.map(function (event) {
       if (event.kind !== 'crossing' || event.crossing.kind !== 'light cap') return '';
-      var ends = strokeOf(record, plane, place, event.crossing.from, event.depth, 9);
+      var ends = geometry.strokeOf(record, plane, place, event.crossing.from, event.depth, 9);
       return line(ends[0], ends[1], 'ink', 1.6, { 'stroke-opacity': '0.6' });
     }).join('');
   }
@@ -403,16 +151,6 @@ var cutaway = (function () {
                         onLeft ? 'end' : 'start');
   }
 
-  /** Where the light is, in words, when the drawing cannot hold it. */
-  function lightWords(plane, place) {
-    if (plane.degenerate)
-      return 'The light lies on the line of the ray: the sides of the volumes run along it.';
-    if (place.lightIn) return null;
-    return 'The light is outside the drawing, ' + short(Math.abs(plane.light[0])) +
-      (plane.light[0] < 0 ? ' behind the eye' : ' along the ray') + ' and ' +
-      short(plane.light[1]) + ' beside it.';
-  }
-
   function planesDrawn(events, place, width) {
     return events.map(function (event) {
       if (event.kind !== 'near' && event.kind !== 'far') return '';
@@ -430,7 +168,7 @@ var cutaway = (function () {
 
   function surfaceDrawn(record, plane, place) {
     if (!record.seen) return '';
-    var ends = strokeOf(record, plane, place, record.seen.corners, record.seen.depth, 15);
+    var ends = geometry.strokeOf(record, plane, place, record.seen.corners, record.seen.depth, 15);
     return line(ends[0], ends[1], 'ink', 3.6, { 'stroke-linecap': 'round' });
   }
 
@@ -475,7 +213,8 @@ var cutaway = (function () {
               { 'font-weight': '700' }) +
         struck(event.status, at, 13, 13);
     }
-    text = [entries ? entries + '\u00d7+1' : '', exits ? exits + '\u00d7\u22121' : ''].filter(Boolean);
+    text = [entries ? entries + '\u00d7+1' : '', exits ? exits + '\u00d7\u22121' : '']
+      .filter(Boolean);
     half = Math.max(room(text[0], 10), room(text[text.length - 1], 10)) / 2 + 4;
     return tag('rect', { x: at[0] - half, y: at[1] - 14, width: 2 * half, height: 28, rx: 8,
                          'stroke-width': '1.4', 'class': 'cut-stroke-shade cut-fill-paper',
@@ -483,11 +222,6 @@ var cutaway = (function () {
       text.map(function (row, i) {
         return words([at[0], at[1] + (text.length === 1 ? 4 : i === 0 ? -2 : 10)], row, 'ink', 10);
       }).join('') + struck(event.status, at, half, 12);
-  }
-
-  function columnName(column) {
-    if (column[0].kind !== 'crossing') return column[0].kind;
-    return short(column[0].depth) + (column.length > 1 ? '\u2026' : '');
   }
 
   /** Steps of the shadow depth between the columns: how many volumes the ray is inside of. */
@@ -519,7 +253,7 @@ var cutaway = (function () {
     });
     runs.forEach(function (run) {
       var begin = columnCentre(run.begin) - step * 0.42, end = columnCentre(run.end) + step * 0.42;
-      var good = run.status === 'counted', label = fateWords(run.status, technique.test);
+      var good = run.status === 'counted', label = say.fateWords(run.status, technique.test);
       var color = good ? 'ink' : run.status === 'beyond' ? 'quiet' : 'bad';
       var half = room(label, 11.5) / 2;
       var middle = clamp((begin + end) / 2, half + 6, width - half - 6), row = 0;
@@ -527,30 +261,14 @@ var cutaway = (function () {
       rows[row] = middle + half;
       lowest = Math.max(lowest, row);
       text += line([begin, at], [end, at], color, good ? 2.4 : 1.6) +
-        line([begin, at - 4], [begin, at], color, 1.4) + line([end, at - 4], [end, at], color, 1.4) +
+        line([begin, at - 4], [begin, at], color, 1.4) +
+        line([end, at - 4], [end, at], color, 1.4) +
         (row > 0 ? line([clamp((begin + end) / 2, middle - half, middle + half), at],
                         [clamp((begin + end) / 2, middle - half, middle + half), at + 4 + 15 * row],
                         color, 0.8) : '') +
         words([middle, at + 15 + 15 * row], label, color, 11.5);
     });
     return { text: text, height: runs.length ? 22 + 15 * lowest : 0 };
-  }
-
-  /** Lines of at most `most` characters. */
-  function wrapped(text, most) {
-    var lines = [''];
-    text.split(' ').forEach(function (word) {
-      var last = lines[lines.length - 1];
-      if (last && last.length + word.length + 1 > most) lines.push(word);
-      else lines[lines.length - 1] = last ? last + ' ' + word : word;
-    });
-    return lines;
-  }
-
-  function scaleWords(place) {
-    if (place.ordinal) return 'not to scale: depths in their order only';
-    if (Math.abs(place.scale - 1) < 0.01) return 'to scale';
-    return 'not to scale: heights \u00d7 ' + short(place.scale);
   }
 
   /** Names of what stands in the geometry, each where it hides no other. */
@@ -563,7 +281,8 @@ var cutaway = (function () {
       if (p.side) taken.push([p.caster[0] - 3, p.caster[1] - 3, p.caster[0] + 3, p.caster[1] + 3]);
     });
     function put(at, label, size, color) {
-      var half = room(label, size) / 2, tries = [[0, 0], [0, -14], [0, 14], [half, -6], [-half, -6]];
+      var half = room(label, size) / 2;
+      var tries = [[0, 0], [0, -14], [0, 14], [half, -6], [-half, -6]];
       var box, k, free;
       for (k = 0; k < tries.length; ++k) {
         var x = clamp(at[0] + tries[k][0], half + 2, width - half - 2), y = at[1] + tries[k][1];
@@ -599,13 +318,13 @@ var cutaway = (function () {
   function cutaway(record, k, width) {
     var technique = record.techniques[k];
     width = Math.max(320, width || 760);
-    var plane = planeOf(record), events = eventsOf(record, technique);
+    var plane = geometry.planeOf(record), events = geometry.eventsOf(record, technique);
     events.forEach(function (event, i) { event.index = i; });
-    var columns = columnsOf(events, (width - 16) / 42);
-    var step = (width - 16) / breadthOf(columns);
+    var columns = geometry.columnsOf(events, (width - 16) / 42);
+    var step = (width - 16) / geometry.breadthOf(columns);
     var centres = [], spot = [], before = 8;
     columns.forEach(function (column) {
-      var half = breadth(column) * step / 2;
+      var half = geometry.breadth(column) * step / 2;
       centres.push(before + half);
       column.forEach(function (event, j) {
         spot[event.index] = before + half +
@@ -619,11 +338,11 @@ var cutaway = (function () {
     var casters = events.map(function (event) {
       if (event.kind !== 'crossing' || event.crossing.kind !== 'side' || plane.degenerate ||
           !event.crossing.from) return null;
-      return cutPoint(plane, record.eye, event.crossing.from[0], event.crossing.from[1]);
+      return geometry.cutPoint(plane, record.eye, event.crossing.from[0], event.crossing.from[1]);
     });
-    var place = layout(record, plane, events, casters, width, columnX);
+    var place = geometry.layout(record, plane, events, casters, width, columnX);
     var points = events.map(function (event, i) {
-      var p = crossingPoints(place, plane, casters[i], event.depth);
+      var p = geometry.crossingPoints(place, plane, casters[i], event.depth);
       p.side = casters[i] !== null;
       return p;
     });
@@ -638,22 +357,23 @@ var cutaway = (function () {
     var text = tag('svg', { x: 0, y: 0, width: width, height: place.bottom }, panel) +
       eyeDrawn([place.x(0), place.ray]) + lightDrawn(record, place, width) +
       labelsDrawn(record, events, points, place, width) +
-      words([width - 8, 13], scaleWords(place), 'quiet', 11.5, 'end') +
+      words([width - 8, 13], say.scaleWords(place), 'quiet', 11.5, 'end') +
       leadersDrawn(columns, columnX, place, fan, strip + 4, width);
 
     columns.forEach(function (column, i) {
       var at = [columnCentre(i), marks], depth = column[0].depth;
       text += mark(column, technique, at, record.inside) +
-        words([at[0], marks + 27], columnName(column), 'ink', 10.5) +
+        words([at[0], marks + 27], say.columnName(column), 'ink', 10.5) +
         (column[0].kind === 'crossing' ? '' :
-          words([at[0], marks + 40], isFinite(depth) ? short(depth) : 'at infinity', 'quiet', 10.5));
+          words([at[0], marks + 40], isFinite(depth) ? short(depth) : 'at infinity', 'quiet',
+                10.5));
     });
     var steps = marks + 48;
     text += depthSteps(columns, columnCentre, steps, width);
     var fates = fatesDrawn(columns, columnCentre, technique, steps + 28, step, width);
     text += fates.text;
 
-    var notes = [lightWords(plane, place)];
+    var notes = [say.lightWords(plane, place)];
     if (technique.test === 'depth_fail' && crossings > 0)
       notes.push('Counted behind the surface, where an exit adds one and an entry takes one.');
     if (technique.test === 'depth_pass' && record.inside.eye !== 0)
@@ -665,13 +385,13 @@ var cutaway = (function () {
     if (!record.adds_up)
       notes.push('Rounding lost a crossing: those drawn do not add up to the exact counts.');
     var y = steps + 28 + fates.height + 22, most = Math.floor((width - 16) / 7.6);
-    var sentence = sentenceOf(record, technique);
-    wrapped(sentence, most).forEach(function (row) {
+    var sentence = say.sentenceOf(record, technique);
+    say.wrapped(sentence, most).forEach(function (row) {
       text += words([8, y], row, 'ink', 13, 'start', { 'font-weight': '600' });
       y += 18;
     });
     notes.filter(Boolean).forEach(function (note) {
-      wrapped(note, Math.floor(most * 1.08)).forEach(function (row) {
+      say.wrapped(note, Math.floor(most * 1.08)).forEach(function (row) {
         text += words([8, y], row, 'quiet', 12, 'start');
         y += 16;
       });
@@ -679,11 +399,12 @@ var cutaway = (function () {
     var height = y - 2;
     var title = 'Pixel (' + record.x + ', ' + record.y + ') of ' + record.scene + ', ' +
       technique.name;
-    var description = 'Side view along the eye ray, ' + scaleWords(place) + '. ' + crossings +
+    var description = 'Side view along the eye ray, ' + say.scaleWords(place) + '. ' + crossings +
       (crossings === 1 ? ' crossing' : ' crossings') + ' of shadow volumes. ' + sentence;
     return '<svg xmlns="http://www.w3.org/2000/svg" role="img" viewBox="0 0 ' + px(width) + ' ' +
       px(height) + '" width="' + px(width) + '" height="' + px(height) + '" font-family="' + font +
-      '" class="cutaway">' + tag('title', {}, escaped(title)) + tag('desc', {}, escaped(description)) +
+      '" class="cutaway">' + tag('title', {}, escaped(title)) +
+      tag('desc', {}, escaped(description)) +
       tag('rect', { x: 0, y: 0, width: width, height: height, 'class': 'cut-fill-paper',
                     fill: colors.paper }) + text + '</svg>\n';
   }

@@ -56,7 +56,8 @@ async function decodedBlock(block, length = block?.length) {
   try {
     bytes = await inflated(block.data);
   } catch (error) {
-    throw new Error(/inflate;/.test(error.message) ? error.message : 'is damaged: it does not decode');
+    throw new Error(/inflate;/.test(error.message) ? error.message
+                                                   : 'is damaged: it does not decode');
   }
   if (bytes.byteLength !== length * Type.BYTES_PER_ELEMENT)
     throw new Error(`is damaged: ${bytes.byteLength} bytes where ` +

@@ -25,8 +25,8 @@ function pixelFacts(record) {
   const [technique] = record.techniques;
   const { inside, seen, margin } = record;
   return facts([
-    ['Sees', seen ? `${triangleWords(seen)} at ${printedPoint(seen.point)}, depth ${printed(seen.depth)}`
-                  : 'background'],
+    ['Sees', triangleWords(seen) +
+      (seen ? ` at ${printedPoint(seen.point)}, depth ${printed(seen.depth)}` : '')],
     ['Shown', triangleWords(technique.shown)],
     ['Decided', record.exactness],
     ['Margin along the ray', margin.depth === null ? null
@@ -109,7 +109,8 @@ function counterLine(technique, bits) {
     'Predicted ', element('b', { id: 'predicted' }, String(technique.predicted)), ', stored ',
     element('b', { id: 'stored' }, String(technique.stored)), ', read back ',
     element('b', { id: 'read-back' }, String(technique.read_back)),
-    equal ? '.' : `: not what the pixel’s centre predicts (${counterWords(technique.read_back, bits)}).`);
+    equal ? '.'
+          : `: not what the pixel’s centre predicts (${counterWords(technique.read_back, bits)}).`);
 }
 
 /** The drawing as wide as there is room. */
@@ -164,8 +165,9 @@ function otherPixel({ opened }, pixel) {
            : alertLine('Truth and claim differ here, and the results have no cause for it.'),
     counters ? element('p', { class: predicted[pixel] === readBack[pixel] ? 'counter'
                                                                           : 'counter unequal' },
-      'Stored counter: predicted ', element('b', { id: 'stored' }, counterWords(predicted[pixel], bits)),
-      ', read back ', element('b', { id: 'read-back' }, counterWords(readBack[pixel], bits)),
+      'Stored counter: predicted ',
+      element('b', { id: 'stored' }, counterWords(predicted[pixel], bits)), ', read back ',
+      element('b', { id: 'read-back' }, counterWords(readBack[pixel], bits)),
       predicted[pixel] === readBack[pixel] ? '.' : ': not what the pixel’s centre predicts.')
       : alertLine('The counters cannot be shown.'),
     element('p', { class: 'quiet' }, 'The ledger of pixels that agree is printed by the command.')];
@@ -192,8 +194,8 @@ function pixelForm(page) {
     const pixel = pairOf(found('goto').value);
     if (pixel && isInside(pixel, opened)) page.inspect(...pixel.map(Math.floor));
     else announce('No such pixel');
-  } }, element('label', {}, 'Pixel ', element('input', { id: 'goto', value, size: 8, inputmode: 'text',
-                                                        autocomplete: 'off' })),
+  } }, element('label', {}, 'Pixel ',
+               element('input', { id: 'goto', value, size: 8, autocomplete: 'off' })),
      element('button', { type: 'submit' }, 'Go'),
      button('copy-link', 'Copy link', () => copyAndSay(
        location.href.replace(/#.*/, '') + linkOf(opened, look), 'the link')));
@@ -219,6 +221,5 @@ function showPixel(page) {
                                       explainCommand(opened.cell.command, x, y)) : '');
   if (focused) found(focused)?.focus({ preventScroll: true });
   drawCutaway(page);
-  const words = page.record ? `, ${page.record.techniques[0].cause}` : '';
-  announce(hoverWords(opened, [x, y]).trim() + (words && ''));
+  announce(hoverWords(opened, [x, y]));
 }

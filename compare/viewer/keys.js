@@ -2,13 +2,13 @@
 
 const pressed = (id) => () => found(id)?.click();
 const focusOn = (id) => () => { found(id)?.focus(); found(id)?.select?.(); };
-const onPage = (act) => () => { if (openPage) act(openPage); };
+const on = (act) => () => { if (openPage) act(openPage); };
 
 /** { keys, words, act }: `keys` as KeyboardEvent.key has them, Shift named where it matters. */
 const overviewKeys = [
   { keys: ['/'], words: 'Find scenes, techniques and causes', act: focusOn('filter-find') },
   { keys: ['c'], words: 'Filter by cause', act: focusOn('filter-cause') },
-  { keys: ['f'], words: 'Open the first cell that failed, else the first', act: () => openFirstCell() },
+  { keys: ['f'], words: 'Open the first cell that failed, else the first', act: openFirstCell },
   { keys: ['ArrowRight'], words: 'Matrix: the next cell', act: () => moveInMatrix(0, 1) },
   { keys: ['ArrowLeft'], words: 'Matrix: the cell before', act: () => moveInMatrix(0, -1) },
   { keys: ['ArrowDown'], words: 'Matrix: the scene below', act: () => moveInMatrix(1, 0) },
@@ -16,34 +16,34 @@ const overviewKeys = [
 ];
 
 const cellKeys = [
-  { keys: ['n'], words: 'Next differing pixel', act: onPage((page) => page.step(1)) },
-  { keys: ['p'], words: 'Previous differing pixel', act: onPage((page) => page.step(-1)) },
-  { keys: ['f'], words: 'First differing pixel', act: onPage((page) => page.stepToFirst()) },
-  { keys: ['c'], words: 'Step through the next cause only', act: onPage((page) => page.nextCause()) },
-  { keys: ['ArrowRight'], words: 'Inspect the pixel to the right', act: onPage((page) => page.moveBy(1, 0)) },
-  { keys: ['ArrowLeft'], words: 'Inspect the pixel to the left', act: onPage((page) => page.moveBy(-1, 0)) },
-  { keys: ['ArrowDown'], words: 'Inspect the pixel below', act: onPage((page) => page.moveBy(0, 1)) },
-  { keys: ['ArrowUp'], words: 'Inspect the pixel above', act: onPage((page) => page.moveBy(0, -1)) },
+  { keys: ['n'], words: 'Next differing pixel', act: on((p) => p.step(1)) },
+  { keys: ['p'], words: 'Previous differing pixel', act: on((p) => p.step(-1)) },
+  { keys: ['f'], words: 'First differing pixel', act: on((p) => p.stepToFirst()) },
+  { keys: ['c'], words: 'Step through the next cause only', act: on((p) => p.nextCause()) },
+  { keys: ['ArrowRight'], words: 'Inspect the pixel to the right', act: on((p) => p.moveBy(1, 0)) },
+  { keys: ['ArrowLeft'], words: 'Inspect the pixel to the left', act: on((p) => p.moveBy(-1, 0)) },
+  { keys: ['ArrowDown'], words: 'Inspect the pixel below', act: on((p) => p.moveBy(0, 1)) },
+  { keys: ['ArrowUp'], words: 'Inspect the pixel above', act: on((p) => p.moveBy(0, -1)) },
   { keys: ['g'], words: 'Go to a pixel by its numbers', act: focusOn('goto') },
   { keys: ['i'], words: 'Go to the inspector', act: focusOn('inspector') },
-  { keys: ['1'], words: 'Side by side', act: onPage((page) => page.setView('side')) },
-  { keys: ['2'], words: 'Slide', act: onPage((page) => page.setView('slide')) },
-  { keys: ['3'], words: 'Blend', act: onPage((page) => page.setView('blend')) },
-  { keys: ['4'], words: 'Toggle', act: onPage((page) => page.setView('toggle')) },
-  { keys: ['a'], words: 'Compare: another left picture', act: onPage((page) => page.choose(0)) },
-  { keys: ['b'], words: 'Compare: another right picture', act: onPage((page) => page.choose(1)) },
-  { keys: [','], words: 'Slide or blend to the left', act: onPage((page) => page.shift(-0.05)) },
-  { keys: ['.'], words: 'Slide or blend to the right', act: onPage((page) => page.shift(0.05)) },
-  { keys: ['x'], words: 'Toggle: flip the pictures', act: onPage((page) => page.flip()) },
-  { keys: ['y'], words: 'Toggle: blink, or stop', act: onPage((page) => { page.look.view === 'toggle' && page.blink(); }) },
-  { keys: ['+', '='], words: 'Zoom in', act: onPage((page) => page.zoom(1)) },
-  { keys: ['-'], words: 'Zoom out', act: onPage((page) => page.zoom(-1)) },
-  { keys: ['0'], words: 'Show the whole picture', act: onPage((page) => page.fit()) },
-  { keys: ['z'], words: 'Zoom to the inspected pixel', act: onPage((page) => page.zoomOnPixel()) },
-  { keys: ['L'], words: 'Pan right', act: onPage((page) => page.pan(1, 0)) },
-  { keys: ['H'], words: 'Pan left', act: onPage((page) => page.pan(-1, 0)) },
-  { keys: ['J'], words: 'Pan down', act: onPage((page) => page.pan(0, 1)) },
-  { keys: ['K'], words: 'Pan up', act: onPage((page) => page.pan(0, -1)) },
+  { keys: ['1'], words: 'Side by side', act: on((p) => p.setView('side')) },
+  { keys: ['2'], words: 'Slide', act: on((p) => p.setView('slide')) },
+  { keys: ['3'], words: 'Blend', act: on((p) => p.setView('blend')) },
+  { keys: ['4'], words: 'Toggle', act: on((p) => p.setView('toggle')) },
+  { keys: ['a'], words: 'Compare: another left picture', act: on((p) => p.choose(0)) },
+  { keys: ['b'], words: 'Compare: another right picture', act: on((p) => p.choose(1)) },
+  { keys: [','], words: 'Slide or blend to the left', act: on((p) => p.shift(-0.05)) },
+  { keys: ['.'], words: 'Slide or blend to the right', act: on((p) => p.shift(0.05)) },
+  { keys: ['x'], words: 'Toggle: flip the pictures', act: on((p) => p.flip()) },
+  { keys: ['y'], words: 'Toggle: blink, or stop', act: on((p) => p.blink()) },
+  { keys: ['+', '='], words: 'Zoom in', act: on((p) => p.zoom(1)) },
+  { keys: ['-'], words: 'Zoom out', act: on((p) => p.zoom(-1)) },
+  { keys: ['0'], words: 'Show the whole picture', act: on((p) => p.fit()) },
+  { keys: ['z'], words: 'Zoom to the inspected pixel', act: on((p) => p.zoomOnPixel()) },
+  { keys: ['L'], words: 'Pan right', act: on((p) => p.pan(1, 0)) },
+  { keys: ['H'], words: 'Pan left', act: on((p) => p.pan(-1, 0)) },
+  { keys: ['J'], words: 'Pan down', act: on((p) => p.pan(0, 1)) },
+  { keys: ['K'], words: 'Pan up', act: on((p) => p.pan(0, -1)) },
   { keys: ['l'], words: 'Copy a link to this view', act: pressed('copy-link') },
   { keys: ['r'], words: 'Copy the command that reproduces the cell', act: pressed('copy-command') },
   { keys: ['e'], words: 'Copy the command that explains the pixel', act: pressed('copy-explain') },
@@ -55,8 +55,8 @@ const cellKeys = [
 
 const everywhereKeys = [
   { keys: ['d'], words: 'Dark or light', act: pressed('theme') },
-  { keys: ['?'], words: 'This help', act: () => toggleHelp() },
-  { keys: ['Escape'], words: 'Close this help, or leave a field', act: () => leaveField() },
+  { keys: ['?'], words: 'This help', act: toggleHelp },
+  { keys: ['Escape'], words: 'Close this help, or leave a field', act: leaveField },
 ];
 
 const keyNames = { ArrowRight: '→', ArrowLeft: '←', ArrowDown: '↓', ArrowUp: '↑', Escape: 'Esc' };
@@ -84,12 +84,13 @@ function toggleHelp() {
   dialog.replaceChildren(
     element('div', { class: 'dialog-head' }, element('h2', { id: 'keys-title' }, 'Keys'),
             button('close-keys', 'Close', () => dialog.close())),
-    element('div', { class: 'key-columns', tabindex: '0', role: 'region', 'aria-label': 'List of keys' },
+    element('div', { class: 'key-columns', tabindex: '0', role: 'region',
+                     'aria-label': 'All keys' },
             keyTable('On a cell', cellKeys), keyTable('On the overview', overviewKeys),
             keyTable('Everywhere', everywhereKeys),
             element('section', {}, element('h3', {}, 'Pointer'),
-                    element('p', {}, 'Click a pixel to inspect it. Turn the wheel or pinch to zoom, ' +
-                                     'drag to pan; all pictures follow.'))));
+                    element('p', {}, 'Click a pixel to inspect it. Turn the wheel or pinch to ' +
+                                     'zoom, drag to pan; all pictures follow.'))));
   dialog.showModal();
 }
 

@@ -27,8 +27,8 @@ function printed(value, digits = 9) {
   if (value === 0) return `${sign}0`;
   const [all, exponent] = roundedDigits(Math.abs(value), digits);
   if (exponent < -4 || exponent >= digits) {
-    const power = String(Math.abs(exponent)).padStart(2, '0');
-    return `${sign}${withoutZeros(`${all[0]}.${all.slice(1)}`)}e${exponent < 0 ? '-' : '+'}${power}`;
+    const power = (exponent < 0 ? '-' : '+') + String(Math.abs(exponent)).padStart(2, '0');
+    return `${sign}${withoutZeros(`${all[0]}.${all.slice(1)}`)}e${power}`;
   }
   if (exponent < 0) return sign + withoutZeros(`0.${'0'.repeat(-exponent - 1)}${all}`);
   return sign + withoutZeros(`${all.slice(0, exponent + 1)}.${all.slice(exponent + 1)}`);

@@ -48,18 +48,19 @@ function checkTruth(opened) {
   const said = scene.reference;
   if (counts[255] !== said.lit || counts[64] !== said.shadowed || counts[0] !== said.background)
     problems.push(`${scene.folder}/scene.js does not belong to results.js: ` +
-                  `${grouped(counts[255])} pixels lit, where the results have ${grouped(said.lit)}`);
+                  `${grouped(counts[255])} pixels are lit, the results have ${grouped(said.lit)}`);
 }
 
 /** Files of two runs must not be taken for one. */
 function checkCell(opened) {
   const { cell, id, causes, claim, visibility, problems } = opened;
   const counts = tallied(causes);
-  const wrong = received.legend.causes.find(({ name }, i) => counts[i] !== (cell.causes[name] ?? 0));
-  if (wrong) problems.push(`results.js: cause_map of ${id} does not hold the pixels that are counted`);
+  if (received.legend.causes.some(({ name }, i) => counts[i] !== (cell.causes[name] ?? 0)))
+    problems.push(`results.js: cause_map of ${id} does not hold the pixels that are counted`);
   if (claim && visibility &&
       causes.some((cause, i) => cause === noDifference && claim[i] !== visibility[i]))
-    problems.push(`${id}/cell.js does not belong to results.js: pixels differ that have no cause there`);
+    problems.push(`${id}/cell.js does not belong to results.js: ` +
+                  'pixels differ that have no cause there');
 }
 
 const lengthsOfCell = (pixels, n) => ({

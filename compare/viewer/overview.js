@@ -10,7 +10,8 @@ const sceneFails = (scene) => Boolean(scene.error) || (scene.no_longer_provoked 
 
 const severity = (cell) => (isFailing(cell) ? 10 : 0) + 5 - verdictNames.indexOf(verdictOf(cell));
 
-const worstOf = (scene) => (scene.error ? 20 : Math.max(0, ...(scene.techniques ?? []).map(severity)));
+const worstOf = (scene) =>
+  (scene.error ? 20 : Math.max(0, ...(scene.techniques ?? []).map(severity)));
 
 /** Failures first, otherwise as they were run. */
 const scenesInOrder = (results) => [...results.scenes].sort((a, b) =>
@@ -81,11 +82,12 @@ function failureCard({ scene, cell }) {
     cell.images ? element('a', { href, class: 'thumb', tabindex: '-1', 'aria-hidden': 'true' },
                           thumbnail(cell.images.cause, '')) : null,
     element('div', {},
-      element('h3', {}, element('a', { href }, `${scene.name} / ${cell.name}`), ' ', badge(verdict)),
+      element('h3', {}, element('a', { href }, `${scene.name} / ${cell.name}`), ' ',
+              badge(verdict)),
       element('p', {}, reasonOf(cell)),
-      first ? element('p', {}, element('a', { href: cellLink(scene, cell,
-                                                { pixel: `${first.x},${first.y}`, zoom: 16 }) },
-                                       `First pixel (${first.x}, ${first.y}): ${first.cause}`)) : null,
+      first ? element('p', {}, element('a', {
+        href: cellLink(scene, cell, { pixel: `${first.x},${first.y}`, zoom: 16 }),
+      }, `First pixel (${first.x}, ${first.y}): ${first.cause}`)) : null,
       sinceWords(cell) ? element('p', { class: 'since' }, `Since the baseline: ${sinceWords(cell)}`)
                        : null));
 }
@@ -140,7 +142,8 @@ function matrixEntry(scene, cell, filter, compact) {
   const since = sinceWords(cell);
   return element('td', { class: `${verdict}${isFailing(cell) ? ' failing' : ''}` },
     element('a', { href: cellLink(scene, cell), title: `${scene.name} / ${cell.name}: ${words}` },
-      element('b', {}, mark, compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
+      element('b', {}, mark,
+              compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
       element('span', {}, why || ' '),
       since ? element('span', { class: 'since' }, `Δ ${since}`) : null,
       element('i', { class: 'unseen' }, `, ${scene.name}, ${cell.name}`)));
@@ -149,8 +152,9 @@ function matrixEntry(scene, cell, filter, compact) {
 function matrixRow(scene, techniques, filter, compact) {
   const head = element('th', { scope: 'row' }, scene.name);
   if (scene.error)
-    return element('tr', {}, head, element('td', { class: 'unread error', colspan: techniques.length || 1 },
-      element('b', {}, '! could not be read'), element('span', {}, scene.error)));
+    return element('tr', {}, head, element('td', {
+      class: 'unread error', colspan: techniques.length || 1,
+    }, element('b', {}, '! could not be read'), element('span', {}, scene.error)));
   return element('tr', {}, head, techniques.map((name) =>
     matrixEntry(scene, scene.techniques.find((cell) => cell.name === name), filter, compact)));
 }
@@ -204,7 +208,7 @@ function filterControls(results, filter, choose) {
        causesIn(results).map(({ name, pixels }) => element('option', {
          value: name, selected: filter.cause === name }, `${name} (${grouped(pixels)})`)))),
     element('label', {}, 'Find ', element('input', {
-      type: 'search', id: 'filter-find', value: filter.find ?? '', placeholder: 'scene, technique…',
+      type: 'search', id: 'filter-find', value: filter.find, placeholder: 'scene, technique…',
       oninput: (event) => choose({ find: event.target.value }) })));
 }
 

@@ -58,7 +58,8 @@ function listenToPane(pane, look, opened, { changed, inspect, hover }) {
     down.set(event.pointerId, event);
     moved = 0;
     if (down.size === 2) spread = distance();
-    if (look.zoom !== null || sliderGrabbed(event, pane, look)) pane.setPointerCapture(event.pointerId);
+    if (look.zoom !== null || sliderGrabbed(event, pane, look))
+      pane.setPointerCapture(event.pointerId);
   });
   pane.addEventListener('pointermove', (event) => {
     const before = down.get(event.pointerId);

@@ -9,7 +9,8 @@ const cross = (a, b) => [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0],
 function rayDirection({ width, height, camera }, x, y) {
   const across = camera.tan_half_height * width / height * (2 * (x + 0.5) / width - 1);
   const upward = camera.tan_half_height * (1 - 2 * (y + 0.5) / height);
-  return [0, 1, 2].map((i) => (camera.forward[i] + across * camera.right[i]) + upward * camera.up[i]);
+  return [0, 1, 2].map((i) =>
+    (camera.forward[i] + across * camera.right[i]) + upward * camera.up[i]);
 }
 
 const isBefore = (a, b) =>
@@ -170,7 +171,7 @@ function pixelRecord(opened, x, y) {
       claim: visibilityNames[blocks.claim[pixel]],
       shown: named(opened, blocks.shown[rank]),
       cause: received.legend.causes[opened.causes[pixel]].name,
-      statuses: [...blocks.crossing_status.subarray(begin, end)].map((status) => statusNames[status]),
+      statuses: Array.from(blocks.crossing_status.subarray(begin, end), (i) => statusNames[i]),
       dark_cap: darkCapStatus(cellFile),
     }],
   };

@@ -70,7 +70,8 @@ function plotAxes({ box, low, high, decades, x, y }, width, height) {
   for (let decade = 0; decade <= decades; ++decade)
     parts.push(rule(box.left, y(10 ** decade), box.right, y(10 ** decade)),
                text([box.left - 8, y(10 ** decade) + 4], grouped(10 ** decade), 'end'));
-  parts.push(rule(box.left, box.zero, box.right, box.zero), text([box.left - 8, box.zero + 4], '0', 'end'),
+  parts.push(rule(box.left, box.zero, box.right, box.zero),
+             text([box.left - 8, box.zero + 4], '0', 'end'),
              text([(box.left + box.right) / 2, height - 6], 'milliseconds to draw'));
   const title = text([0, 0], 'pixels beyond edges');
   title.setAttribute('transform', `translate(13 ${(box.top + box.zero) / 2}) rotate(-90)`);
@@ -88,15 +89,17 @@ function plotLabels(techniques, { x, y, box }) {
     const begin = left ? at[0] - 12 - size : at[0] + 12;
     const free = (row) => taken.every(([a, b, other]) =>
       begin > b || begin + size < a || Math.abs(row - other) > 13);
-    const row = Array.from({ length: 40 }, (_, k) => at[1] + 4 + (k % 2 ? -14 : 14) * ((k + 1) >> 1))
+    const row = Array.from({ length: 40 },
+                           (_, k) => at[1] + 4 + (k % 2 ? -14 : 14) * ((k + 1) >> 1))
       .find((each) => each > box.top + 8 && each < box.zero + 6 && free(each)) ?? at[1] + 4;
     taken.push([begin, begin + size, row]);
     const label = svgElement('text', { x: begin, y: row }, technique.name);
     const ring = svgElement('circle', { cx: at[0], cy: at[1], r: 8 });
     const leader = Math.abs(row - 4 - at[1]) > 6
-      ? [svgElement('path', { d: `M${at[0]} ${at[1]}L${left ? begin + size : begin - 2} ${row - 4}` })]
-      : [];
-    return svgElement('g', { class: 'technique' }, ...leader, ring, label);
+      ? svgElement('path', {
+        d: `M${at[0]} ${at[1]}L${left ? begin + size : begin - 2} ${row - 4}` })
+      : '';
+    return svgElement('g', { class: 'technique' }, leader, ring, label);
   });
 }
 
@@ -108,7 +111,8 @@ function plotPicture(cells, techniques, width) {
     const shape = svgElement('path', {
       d: plotShapes[verdict](scales.x(cell.ms), scales.y(beyondEdges(cell))),
       class: `dot ${verdict}` });
-    shape.append(svgElement('title', {}, `${scene.name} / ${cell.name}: ${milliseconds(cell.ms)}, ` +
+    shape.append(svgElement('title', {},
+      `${scene.name} / ${cell.name}: ${milliseconds(cell.ms)}, ` +
       `${counted(beyondEdges(cell), 'pixel')} beyond edges, ${verdicts[verdict].words}`));
     shape.addEventListener('click', () => { location.hash = cellLink(scene, cell); });
     return shape;
@@ -140,8 +144,8 @@ function runTimePlot(results) {
   const width = Math.max(340, Math.min(880, document.documentElement.clientWidth - 56));
   return element('section', { 'aria-labelledby': 'plot-title' },
     element('h2', { id: 'plot-title' }, 'Error against run time'),
-    element('p', { class: 'quiet' }, 'Each mark is a cell. A ring is a technique: its median time, ' +
-                                     'its worst scene.'),
+    element('p', { class: 'quiet' },
+            'Each mark is a cell. A ring is a technique: its median time, its worst scene.'),
     element('div', { class: 'scroll', role: 'region', tabindex: '0', 'aria-label': 'Plot' },
       plotPicture(cells, techniques, width)),
     plotTable(techniques));

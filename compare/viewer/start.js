@@ -50,7 +50,8 @@ async function follow(results) {
 function sayUnreadable() {
   document.title = 'shadowproof: damaged report';
   found('main').replaceChildren(element('h1', {}, 'This report cannot be shown'),
-    alertLine('results.js is missing or damaged. It lies beside index.html; make the report again.'));
+    alertLine('results.js, which lies beside index.html, is missing or damaged. ' +
+              'Make the report again.'));
 }
 
 function start() {
