@@ -252,7 +252,6 @@ function cellHead(results, scene, cell) {
       title: `${other.scene.name} / ${other.cell.name}`,
     }, words) : null;
   };
-  const since = sinceWords(cell);
   return element('header', { class: `cell-head ${verdictOf(cell)}` },
     element('nav', { 'aria-label': 'Cells' },
             element('a', { href: '#', id: 'to-overview' }, '← Overview'),
@@ -261,5 +260,5 @@ function cellHead(results, scene, cell) {
     cell.error ? null : element('p', {},
       element('b', {}, `${grouped(cell.differing)} of ${counted(cell.pixels, 'pixel')} differ. `),
       reasonOf(cell)),
-    since ? element('p', { class: 'since' }, `Since the baseline: ${since}.`) : null);
+    sinceLine(scene, cell) ?? '');
 }

@@ -59,6 +59,17 @@ function sinceWords(cell) {
     .map((kind) => `${grouped(since[kind])} ${kind}`).join(', ');
 }
 
+/** Where a cell first left the baseline, as a link to that pixel. Null where it did not. */
+function sinceLine(scene, cell) {
+  const words = sinceWords(cell);
+  if (!words) return null;
+  const { first } = cell.since;
+  return element('p', { class: 'since' }, `Since the baseline: ${words}`, first ? [', first at ',
+    element('a', { href: cellLink(scene, cell, { pixel: `${first.x},${first.y}`, zoom: 16 }) },
+            `(${first.x}, ${first.y})`),
+    `: ${first.cause ?? 'no difference'}, was ${first.was ?? 'no difference'}`] : null);
+}
+
 function baselineLine(results) {
   if (!results.baseline) return null;
   const changed = allCells(results).filter(({ cell }) => sinceWords(cell)).length;
@@ -88,8 +99,7 @@ function failureCard({ scene, cell }) {
       first ? element('p', {}, element('a', {
         href: cellLink(scene, cell, { pixel: `${first.x},${first.y}`, zoom: 16 }),
       }, `First pixel (${first.x}, ${first.y}): ${first.cause}`)) : null,
-      sinceWords(cell) ? element('p', { class: 'since' }, `Since the baseline: ${sinceWords(cell)}`)
-                       : null));
+      sinceLine(scene, cell)));
 }
 
 function sceneCard(scene) {

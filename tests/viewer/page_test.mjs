@@ -50,7 +50,7 @@ test('failures stand first, with the reason; nothing fails without being named',
   results.passed = false;
   results.baseline = { file: 'before.json', passed: true };
   Object.assign(cell('far_plane', 'zfail'), { verdict: 'defect', fails: true, since:
-    { new: 12, gone: 3, changed: 0 } });
+    { new: 12, gone: 3, changed: 0, first: { x: 3, y: 4, cause: 'far_plane', was: null } } });
   const ordinary = results.scenes.find(({ name }) => name === 'ordinary');
   ordinary.techniques[4] = { name: 'zfail_reversed', error: 'no glClipControl', fails: true };
   results.scenes.push({ name: 'torn', file: 'torn.gltf', error: 'torn.gltf: ends early' });
@@ -59,7 +59,7 @@ test('failures stand first, with the reason; nothing fails without being named',
   assert.match(await text(page, 'h1'), /Failed: 2 of 20 cells/);
   const failures = await text(page, '.failures');
   for (const words of [/far_plane \/ zfail/, /defect/, /the far plane cuts a shadow volume/,
-                       /no glClipControl/, /torn\.gltf: ends early/, /12 new, 3 gone/])
+                       /no glClipControl/, /torn\.gltf: ends early/, /12 new, 3 gone, first at \(3, 4\): far_plane, was no difference/])
     assert.match(failures, words);
   assert.match(await text(page, '.matrix'), /could not be read/);
   assert.match(await text(page, '.banner'), /before\.json: 1 cell changed/);
