@@ -133,8 +133,9 @@ test('the drawing is saved as a picture that stands alone', async () => {
 });
 
 test('pictures for people: overview, cell, inspector, drawing, in both themes', async () => {
+  const large = writeReport('large', undefined, '512x512');
   for (const theme of ['light', 'dark']) {
-    const { page, open, said } = await openReport(folder, { theme });
+    const { page, open, said } = await openReport(large, { theme });
     await keepScreenshot(page, `overview-${theme}`, { fullPage: true });
     await open('#near_plane/zpass');
     await keepScreenshot(page, `cell-${theme}`);

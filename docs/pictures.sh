@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Makes the README's pictures anew: they are screenshots that the test of the report's pages keeps.
+# Needs what ./test.sh sets up, and build/dev.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+SHADOWPROOF_SCREENSHOTS=$folder ctest --test-dir build/dev --tests-regex '^viewer_page$' \
+    --output-on-failure
+for picture in overview cell; do cp "$folder/$picture-light.png" "docs/$picture.png"; done
