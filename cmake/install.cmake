@@ -1,9 +1,11 @@
 # cmake --install: the command, the libraries with their headers in the folders of the house, the
-# bundled scenes, and a CMake package: find_package(shadowproof), target shadowproof::compare.
+# bundled scenes, and a CMake package: find_package(shadowproof), targets shadowproof::compare and
+# shadowproof::shadowproof, function shadowproof_add_test.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/shadowproof)
+set(scenes_folder ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes)
 
-install(TARGETS shadowproof RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS shadowproof EXPORT shadowproof RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS shadowproof_scenes shadowproof_reference shadowproof_raster shadowproof_compare
     EXPORT shadowproof ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT shadowproof NAMESPACE shadowproof:: DESTINATION ${package_folder}
@@ -14,14 +16,16 @@ foreach(room scenes reference raster compare)
         PATTERN bundled EXCLUDE PATTERN command EXCLUDE PATTERN viewer EXCLUDE
         PATTERN glsl EXCLUDE PATTERN techniques EXCLUDE)
 endforeach()
-install(DIRECTORY scenes/bundled/ DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes
+install(DIRECTORY scenes/bundled/ DESTINATION ${scenes_folder}
     FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "*.bin" PATTERN author EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof)
 
 configure_package_config_file(cmake/shadowproof-config.cmake.in
-    ${CMAKE_BINARY_DIR}/shadowproof-config.cmake INSTALL_DESTINATION ${package_folder})
+    ${CMAKE_BINARY_DIR}/shadowproof-config.cmake INSTALL_DESTINATION ${package_folder}
+    PATH_VARS scenes_folder)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/shadowproof-config-version.cmake
     COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/shadowproof-config.cmake
-    ${CMAKE_BINARY_DIR}/shadowproof-config-version.cmake DESTINATION ${package_folder})
+    ${CMAKE_BINARY_DIR}/shadowproof-config-version.cmake
+    cmake/shadowproof_add_test.cmake DESTINATION ${package_folder})

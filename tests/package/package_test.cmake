@@ -1,0 +1,142 @@
+# Installs the build to a folder, moves it, and lets a project that knows only that folder build,
+# link and test. The folder stays where something failed, for people to look at.
+set(OUTSIDE ${CMAKE_CURRENT_LIST_DIR}/outside)
+set(PREFIX ${WORK}/prefix)
+# Whoever runs this may have set it; the scenes are to be those of the prefix.
+unset(ENV{SHADOWPROOF_SCENES})
+
+# run(EXPECTED COMMAND...): expects an exit code (or "refused": any but 0); output lands in `output`.
+function(run EXPECTED)
+    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text)
+    if(NOT code STREQUAL EXPECTED AND NOT (EXPECTED STREQUAL refused AND NOT code EQUAL 0))
+        list(JOIN ARGN " " command)
+        message(NOTICE "${text}") # by itself, because CMake breaks the lines of its errors
+        message(FATAL_ERROR "ended with ${code}, not ${EXPECTED}: ${command}")
+    endif()
+    set(output "${text}" PARENT_SCOPE)
+endfunction()
+
+function(expect_in TEXT WORDS)
+    # CMake breaks the lines of its messages.
+    string(REGEX REPLACE "[ \n]+" " " flat "${TEXT}")
+    string(FIND "${flat}" "${WORDS}" place)
+    if(place EQUAL -1)
+        message(NOTICE "${TEXT}")
+        message(FATAL_ERROR "'${WORDS}' is not in it")
+    endif()
+endfunction()
+
+function(expect_same ACTUAL EXPECTED)
+    if(NOT ACTUAL STREQUAL EXPECTED)
+        message(FATAL_ERROR "is not as expected\n  ${ACTUAL}\n  ${EXPECTED}")
+    endif()
+endfunction()
+
+function(configure EXPECTED FOLDER)
+    run(${EXPECTED} ${CMAKE_COMMAND} -S ${OUTSIDE} -B ${FOLDER} -G ${GENERATOR}
+        -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -DCMAKE_BUILD_TYPE=${CONFIG}
+        -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${COMPILER_FLAGS}
+        -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_PREFIX_PATH=${PREFIX})
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# The package may be moved: nothing in it names the folder of the installation.
+function(install_and_move)
+    run(0 ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${WORK}/installed)
+    file(RENAME ${WORK}/installed ${PREFIX})
+endfunction()
+
+function(outside_project_builds_and_its_tests_pass)
+    configure(0 ${WORK}/build)
+    run(0 ${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIG})
+    run(0 ${CTEST} --test-dir ${WORK}/build -C ${CONFIG} --output-on-failure)
+    expect_in("${output}" "0 tests failed out of 5")
+    run(0 ${CTEST} --test-dir ${WORK}/build -C ${CONFIG} -N -L shadowproof)
+    expect_in("${output}" "Total Tests: 5")
+endfunction()
+
+# CTest is content with any failure; it has to be this one.
+function(the_test_that_fails_does_so_for_its_shadows)
+    file(READ ${WORK}/build/shadowproof/differs/results.json results)
+    string(JSON passed GET "${results}" passed)
+    expect_same("${passed}" OFF)
+    string(JSON cause GET "${results}" scenes 0 techniques 0 first cause)
+    expect_same("${cause}" near_plane)
+    foreach(folder shadowproof/ordinary shadowproof/excused "the report")
+        file(READ "${WORK}/build/${folder}/results.json" results)
+        string(JSON passed GET "${results}" passed)
+        expect_same("${passed}" ON)
+    endforeach()
+endfunction()
+
+function(every_argument_reaches_the_command)
+    run(0 ${CTEST} --test-dir ${WORK}/build -C ${CONFIG} --show-only=json-v1)
+    string(JSON count LENGTH "${output}" tests)
+    math(EXPR last "${count} - 1")
+    foreach(test RANGE ${last})
+        string(JSON name GET "${output}" tests ${test} name)
+        if(NOT name STREQUAL every_argument)
+            continue()
+        endif()
+        set(words)
+        string(JSON length LENGTH "${output}" tests ${test} command)
+        math(EXPR end "${length} - 1")
+        foreach(word RANGE ${end})
+            string(JSON text GET "${output}" tests ${test} command ${word})
+            list(APPEND words "${text}")
+        endforeach()
+        string(JSON properties GET "${output}" tests ${test} properties)
+    endforeach()
+    expect_same("${words}" "${PREFIX}/${BIN}/shadowproof;verify;${OUTSIDE}/scenes/court.glb;\
+--technique;zpass,zfail;--size;96x64;--camera;from above;--light;1;--time;1.5;\
+--gate;differences;--allow;near_plane=12;--allow;precision;\
+--baseline;${OUTSIDE}/expected/results.json;--out;${WORK}/build/reports/court")
+    string(REGEX REPLACE "[ \n]+" " " properties "${properties}")
+    expect_in("${properties}" "\"SKIP_RETURN_CODE\", \"value\" : 77")
+endfunction()
+
+function(refuses CALL WORDS)
+    file(GLOB_RECURSE file ${PREFIX}/*/shadowproof_add_test.cmake)
+    run(refused ${CMAKE_COMMAND} -DFILE=${file} -DCALL=${CALL}
+        -P ${CMAKE_CURRENT_LIST_DIR}/wrong_call.cmake)
+    expect_in("${output}" "${WORDS}")
+endfunction()
+
+function(wrong_calls_are_refused_by_name)
+    refuses("SCENE ordinary" "NAME is missing; write")
+    refuses("NAME one" "shadowproof_add_test(one): SCENE is missing; write")
+    refuses("NAME one SCENE" "SCENE is missing; write")
+    refuses("NAME one SCENE ordinary TOLERANCE 3" "'TOLERANCE 3' is not known; it takes")
+    refuses("NAME one SCENE ordinary far_plane" "'far_plane' is not known; it takes")
+    refuses("NAME one SCENE ordinary SIZE ALLOW" "no value follows ALLOW, SIZE; give one")
+    refuses("NAME one SCENE ordinary GATE all" "GATE 'all' is not known; give defects or")
+endfunction()
+
+function(a_missing_dependency_is_named)
+    set(ENV{PKG_CONFIG_LIBDIR} ${WORK}/nothing)
+    configure(refused ${WORK}/without_dependency)
+    unset(ENV{PKG_CONFIG_LIBDIR})
+    expect_in("${output}" "pkg-config does not find OpenImageIO, which shadowproof links; install")
+endfunction()
+
+# A scene of the prefix is changed, and the command's answer with it: it looks there, and not in
+# the sources, which have a scene of that name too.
+function(the_command_finds_its_scenes_beside_itself)
+    set(render ${PREFIX}/${BIN}/shadowproof render --size 96x64)
+    run(0 ${render} ordinary -o ${WORK}/ordinary.png)
+    run(0 ${render} near_plane -o ${WORK}/near_plane.png)
+    file(COPY_FILE ${PREFIX}/${SCENES}/near_plane.gltf ${PREFIX}/${SCENES}/ordinary.gltf)
+    run(0 ${render} ordinary -o ${WORK}/changed.png)
+    run(0 ${CMAKE_COMMAND} -E compare_files ${WORK}/changed.png ${WORK}/near_plane.png)
+    run(1 ${CMAKE_COMMAND} -E compare_files ${WORK}/changed.png ${WORK}/ordinary.png)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+install_and_move()
+outside_project_builds_and_its_tests_pass()
+the_test_that_fails_does_so_for_its_shadows()
+every_argument_reaches_the_command()
+wrong_calls_are_refused_by_name()
+a_missing_dependency_is_named()
+the_command_finds_its_scenes_beside_itself()
+file(REMOVE_RECURSE ${WORK})
