@@ -95,7 +95,7 @@ std::string to_json(const Report& report) {
                 {"stencil_bits", report.gl.stencil_bits}}},
               {"embree", report.embree},
               {"arguments", report.arguments},
-              {"gate", report.gate == Gate::defects ? "defects" : "differences"},
+              {"gate", name_of(report.gate.on)},
               {"passed", report.passed},
               {"ms", report.milliseconds},
               {"report_ms", report.report_milliseconds},

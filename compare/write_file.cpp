@@ -1,10 +1,8 @@
 #include "compare/write_file.h"
 
 #include "compare/report.h"
+#include "compare/unfinished.h"
 #include "scenes/error.h"
-
-#include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -24,19 +22,22 @@ namespace {
 } // namespace
 
 void write_beside(const fs::path& file, const std::function<void(const fs::path&)>& write) {
-    const fs::path beside = fmt::format("{}.writing-{}", file.string(), getpid());
+    const auto lock = hold_unfinished();
+    const Unfinished beside(file);
+    write(beside.path());
     std::error_code error;
-    try {
-        write(beside);
-    } catch (...) {
-        fs::remove(beside, error);
-        throw;
-    }
-    fs::rename(beside, file, error);
-    if (!error) return;
-    const std::string reason = error.message();
-    fs::remove(beside, error);
-    throw_unwritable(file, reason);
+    fs::rename(beside.path(), file, error);
+    if (error) throw_unwritable(file, error.message());
+}
+
+void check_writable(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw_unwritable(file, "it is a folder");
+    const auto lock = hold_unfinished();
+    const Unfinished beside(file);
+    errno = 0;
+    if (!std::ofstream(beside.path(), std::ios::binary))
+        throw_unwritable(file, std::strerror(errno));
 }
 
 void write_file(const fs::path& file, const std::string& text) {
