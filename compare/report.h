@@ -25,8 +25,8 @@ struct Cell {
     std::string error;   ///< not empty: the cell could not run; the rest is then meaningless
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
-    std::vector<Cause> excused;  ///< causes found that technique and scene excuse
-    std::optional<Since> since;  ///< against the same cell of a baseline
+    std::vector<Cause> excused;                   ///< causes found that technique and scene excuse
+    std::optional<Since> since;                   ///< against the same cell of a baseline
     std::optional<FirstDifference> first_failing; ///< the first pixel that fails the gate
     Comparison comparison;
     std::string cause_map; ///< of the comparison, packed as results.json holds it
@@ -145,8 +145,5 @@ private:
     std::filesystem::path folder_;
     Unfinished beside_;
 };
-
-/// Writes text beside `file` and renames it into place. Throws Error naming the file.
-void write_file(const std::filesystem::path& file, const std::string& text);
 
 } // namespace shadowproof

@@ -3,6 +3,7 @@
 #include "compare/report_page.h"
 #include "compare/report_pictures.h"
 #include "compare/unfinished.h"
+#include "compare/write_file.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>
@@ -68,10 +69,10 @@ void ReportFolder::add_pictures(SceneResult& scene, int threads) {
 
 void ReportFolder::finish(const Report& report) {
     const auto lock = hold_unfinished();
-    write_file(beside_.path() / "index.html", report_page());
+    write_text(beside_.path() / "index.html", report_page());
     const std::string results = to_json(report);
-    write_file(beside_.path() / "results.json", results);
-    write_file(beside_.path() / "results.js", results_script(results));
+    write_text(beside_.path() / "results.json", results);
+    write_text(beside_.path() / "results.js", results_script(results));
     check_replaceable(folder_);
     try {
         // A folder that is not empty cannot be renamed over: the older one steps aside first, so

@@ -1,6 +1,5 @@
 #include "compare/write_file.h"
 
-#include "compare/report.h"
 #include "compare/unfinished.h"
 #include "scenes/error.h"
 
@@ -17,6 +16,15 @@ namespace {
 [[noreturn]] void throw_unwritable(const fs::path& file, const std::string& reason) {
     throw Error(file.string(), "cannot be written (" + reason + ")",
                 "name a file in a folder that exists and is writable");
+}
+
+/// `file` is what errors name.
+void write_to(const fs::path& place, const fs::path& file, const std::string& text) {
+    errno = 0;
+    std::ofstream stream(place, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw_unwritable(file, errno != 0 ? std::strerror(errno) : "a short write");
 }
 
 } // namespace
@@ -40,14 +48,12 @@ void check_writable(const fs::path& file) {
         throw_unwritable(file, std::strerror(errno));
 }
 
+void write_text(const fs::path& file, const std::string& text) {
+    write_to(file, file, text);
+}
+
 void write_file(const fs::path& file, const std::string& text) {
-    write_beside(file, [&](const fs::path& beside) {
-        errno = 0;
-        std::ofstream stream(beside, std::ios::binary);
-        stream << text;
-        stream.close();
-        if (!stream) throw_unwritable(file, errno != 0 ? std::strerror(errno) : "a short write");
-    });
+    write_beside(file, [&](const fs::path& beside) { write_to(beside, file, text); });
 }
 
 } // namespace shadowproof
