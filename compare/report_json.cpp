@@ -116,6 +116,12 @@ std::string to_json(const Report& report) {
               {"ms", report.milliseconds},
               {"report_ms", report.report_milliseconds},
               {"scenes", Json::array()}};
+    for (const Allowance& allowance : report.gate.allow)
+        json["allow"].push_back(words_of(allowance));
+    if (report.baseline)
+        json["baseline"] = {{"file", report.baseline->file},
+                            {"passed", report.baseline->passed},
+                            {"notes", report.baseline->notes}};
     for (const SceneResult& scene : report.scenes)
         json["scenes"].push_back(scene_of(report, scene));
     // A file name need not be UTF-8; what is not is shown as U+FFFD.
