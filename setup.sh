@@ -11,7 +11,7 @@ build_packages=(
     libosmesa6-dev libegl-dev libegl1
     libcli11-dev libfmt-dev duktape-dev
 )
-test_packages=(libgtest-dev libbenchmark-dev clang-format assimp-testmodels chromium fonts-dejavu-core)
+test_packages=(libgtest-dev libbenchmark-dev libxml2-utils clang-format assimp-testmodels chromium fonts-dejavu-core)
 
 case ${1:-} in
 build) wanted=("${build_packages[@]}") ;;

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "compare/classify.h"
+#include "compare/gate.h"
 #include "compare/ledger_table.h"
+#include "compare/since.h"
+#include "compare/unfinished.h"
 #include "compare/verdict.h"
 #include "reference/trace.h"
 #include "scenes/frame.h"
@@ -22,6 +25,9 @@ struct Cell {
     std::string error;   ///< not empty: the cell could not run; the rest is then meaningless
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
+    std::vector<Cause> excused;                   ///< causes found that technique and scene excuse
+    std::optional<Since> since;                   ///< against the same cell of a baseline
+    std::optional<FirstDifference> first_failing; ///< the first pixel that fails the gate
     Comparison comparison;
     std::string cause_map; ///< of the comparison, packed as results.json holds it
     Frame frame;
@@ -51,10 +57,11 @@ struct SceneResult {
     std::vector<Cell> cells;
 };
 
-/// What a run is failed for.
-enum class Gate : std::uint8_t {
-    defects,     ///< a verdict of defect or unexplained
-    differences, ///< any differing pixel whose cause is not edge
+/// The earlier run that this one was compared with.
+struct Baseline {
+    std::string file;
+    bool passed = false;
+    std::vector<std::string> notes; ///< what could not be compared, or differs beside pixels
 };
 
 struct Report {
@@ -63,17 +70,13 @@ struct Report {
     std::string embree;
     std::vector<std::string> arguments; ///< the settings that reproduce a cell: without the
                                         ///< program, the subcommand, scene, technique and outputs
-    Gate gate = Gate::defects;
+    Gate gate;
+    std::optional<Baseline> baseline;
     std::vector<SceneResult> scenes;
     bool passed = false;
     double milliseconds = 0;        ///< the whole run until the results are written
     double report_milliseconds = 0; ///< of them, ledgers, pictures and data of the report
 };
-
-/// Does this cell fail the run? One that could not run does.
-bool fails(const Cell& cell, Gate gate);
-/// Does the scene: an error, a cause no longer provoked, or a failing cell?
-bool fails(const SceneResult& scene, Gate gate);
 
 /// One line a cell, as the console prints it, without colour: "zpass  near_plane  agrees  ...",
 /// its first three columns padded to the widths given.
@@ -85,13 +88,25 @@ struct ColumnWidths {
 std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths = {});
 
 /// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
-std::string cause_counts(const Comparison& comparison);
+std::string cause_counts(const CausePixels& causes);
+
+/// What a person needs to hear of a cell that fails or could not run: "edge 31, near_plane 1,173;
+/// first (212,340) near_plane; ...", without how to reproduce it.
+std::string why_it_fails(const Cell& cell, const Gate& gate);
 
 /// "1,204"
 std::string grouped(std::uint64_t number);
 
+/// "1 cell", "1,204 cells"
+std::string counted(std::uint64_t number, std::string_view thing);
+
 /// The command that runs this cell alone, quoted for a POSIX shell.
 std::string reproducing_command(const Report& report, const SceneResult& scene, const Cell& cell);
+/// The same for the whole scene, with every technique.
+std::string reproducing_command(const Report& report, const SceneResult& scene);
+
+/// "no technique shows near_plane any more, which the scene declares"
+std::string no_longer_provoked_words(const SceneResult& scene);
 
 /// The scene's folder in the report: its name in characters that every file system and URL takes.
 std::string folder_of(const SceneResult& scene);
@@ -104,8 +119,13 @@ std::string truth_path(const SceneResult& scene);
 
 /// results.json of schema shadowproof/results/1.
 std::string to_json(const Report& report);
-/// JUnit XML: a suite a scene, a case a cell.
-std::string to_junit(const Report& report);
+/// JUnit XML: a suite a scene, a case a cell; valid by Ant's schema and by Jenkins'. `timestamp`:
+/// when the run began, "2024-01-31T23:59:59".
+std::string to_junit(const Report& report, const std::string& timestamp);
+/// For GitHub Actions: a line `::error title=...::...` for each cell and scene that fails.
+std::string to_workflow_commands(const Report& report);
+/// For GitHub's step summary: the cells as a table in Markdown, failures first.
+std::string to_step_summary(const Report& report);
 
 /// The folder with index.html, results.json and pictures while it is being written: beside its
 /// place under a name of its own, and renamed into place by finish(). Dropped before, it leaves
@@ -114,9 +134,6 @@ class ReportFolder {
 public:
     /// Throws Error where `folder` exists and is not a report, or cannot be written.
     explicit ReportFolder(const std::filesystem::path& folder);
-    ~ReportFolder();
-    ReportFolder(const ReportFolder&) = delete;
-    ReportFolder& operator=(const ReportFolder&) = delete;
 
     /// Writes pictures and data of a scene, which may then be dropped, and packs its cause maps.
     /// threads 0: one per core.
@@ -126,10 +143,7 @@ public:
 
 private:
     std::filesystem::path folder_;
-    std::filesystem::path beside_;
+    Unfinished beside_;
 };
-
-/// Writes text beside `file` and renames it into place. Throws Error naming the file.
-void write_file(const std::filesystem::path& file, const std::string& text);
 
 } // namespace shadowproof

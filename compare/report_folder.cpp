@@ -2,6 +2,8 @@
 #include "compare/report_data.h"
 #include "compare/report_page.h"
 #include "compare/report_pictures.h"
+#include "compare/unfinished.h"
+#include "compare/write_file.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>
@@ -46,33 +48,31 @@ fs::path without_trailing_slash(const fs::path& folder) {
 
 } // namespace
 
-ReportFolder::ReportFolder(const fs::path& folder) : folder_(without_trailing_slash(folder)) {
+ReportFolder::ReportFolder(const fs::path& folder)
+    : folder_(without_trailing_slash(folder)), beside_(folder_) {
     check_replaceable(folder_);
-    beside_ = fmt::format("{}.writing-{}", folder_.string(), getpid());
+    const auto lock = hold_unfinished();
     std::error_code error;
-    fs::remove_all(beside_, error);
-    fs::create_directories(beside_, error);
+    fs::remove_all(beside_.path(), error);
+    fs::create_directories(beside_.path(), error);
     if (error) throw_unwritable(folder_, error.message());
 }
 
-ReportFolder::~ReportFolder() {
-    std::error_code ignored;
-    fs::remove_all(beside_, ignored);
-}
-
 void ReportFolder::add_pictures(SceneResult& scene, int threads) {
+    const auto lock = hold_unfinished();
     try {
-        write_pictures(scene, beside_, threads);
+        write_pictures(scene, beside_.path(), threads);
     } catch (const fs::filesystem_error& error) {
         throw_unwritable(folder_, error.code().message());
     }
 }
 
 void ReportFolder::finish(const Report& report) {
-    write_file(beside_ / "index.html", report_page());
+    const auto lock = hold_unfinished();
+    write_text(beside_.path() / "index.html", report_page());
     const std::string results = to_json(report);
-    write_file(beside_ / "results.json", results);
-    write_file(beside_ / "results.js", results_script(results));
+    write_text(beside_.path() / "results.json", results);
+    write_text(beside_.path() / "results.js", results_script(results));
     check_replaceable(folder_);
     try {
         // A folder that is not empty cannot be renamed over: the older one steps aside first, so
@@ -80,7 +80,7 @@ void ReportFolder::finish(const Report& report) {
         const fs::path older = fmt::format("{}.older-{}", folder_.string(), getpid());
         const bool replaces = fs::exists(folder_);
         if (replaces) fs::rename(folder_, older);
-        fs::rename(beside_, folder_);
+        fs::rename(beside_.path(), folder_);
         if (replaces) fs::remove_all(older);
     } catch (const fs::filesystem_error& error) {
         throw_unwritable(folder_, error.code().message());

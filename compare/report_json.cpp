@@ -20,6 +20,20 @@ Json causes_of(const Comparison& comparison) {
     return causes;
 }
 
+Json cause_of(const std::optional<Cause>& cause) {
+    return cause ? Json(name_of(*cause)) : Json(nullptr);
+}
+
+Json since_of(const Since& since) {
+    Json json{{"new", since.appeared}, {"gone", since.gone}, {"changed", since.changed}};
+    if (const std::optional<PixelChange> first = first_of(since))
+        json["first"] = {{"x", first->x},
+                         {"y", first->y},
+                         {"cause", cause_of(first->cause)},
+                         {"was", cause_of(first->was)}};
+    return json;
+}
+
 Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     Json json{{"name", cell.technique},
               {"summary", cell.summary},
@@ -46,6 +60,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     for (const char* kind : {"claim", "difference", "cause"})
         json["images"][kind] = picture_path(scene, cell, kind);
     json["cause_map"] = cell.cause_map;
+    if (cell.since) json["since"] = since_of(*cell.since);
     return json;
 }
 
@@ -95,11 +110,18 @@ std::string to_json(const Report& report) {
                 {"stencil_bits", report.gl.stencil_bits}}},
               {"embree", report.embree},
               {"arguments", report.arguments},
-              {"gate", report.gate == Gate::defects ? "defects" : "differences"},
+              {"gate", name_of(report.gate.on)},
+              {"allow", Json::array()},
               {"passed", report.passed},
               {"ms", report.milliseconds},
               {"report_ms", report.report_milliseconds},
               {"scenes", Json::array()}};
+    for (const Allowance& allowance : report.gate.allow)
+        json["allow"].push_back(words_of(allowance));
+    if (report.baseline)
+        json["baseline"] = {{"file", report.baseline->file},
+                            {"passed", report.baseline->passed},
+                            {"notes", report.baseline->notes}};
     for (const SceneResult& scene : report.scenes)
         json["scenes"].push_back(scene_of(report, scene));
     // A file name need not be UTF-8; what is not is shown as U+FFFD.

@@ -1,94 +1,113 @@
+#include "compare/escape.h"
 #include "compare/report.h"
-#include "compare/report_template.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace shadowproof {
 
 namespace {
 
-std::string element(std::string_view name, std::string_view type, const std::string& message) {
-    return fmt::format("      <{} type=\"{}\" message=\"{}\"/>\n", name, type, escaped(message));
-}
-
-std::string case_of(const Report& report, const SceneResult& scene, const Cell& cell) {
-    std::string body;
-    if (!cell.error.empty()) {
-        body = element("error", "could_not_run", cell.error);
-    } else if (fails(cell, report.gate)) {
-        const Comparison& comparison = cell.comparison;
-        std::string message =
-            comparison.differing == 0 ? "no pixel of the claim differs" : cause_counts(comparison);
-        if (comparison.first)
-            message += fmt::format("; first ({},{}) {}", comparison.first->x, comparison.first->y,
-                                   name_of(comparison.first->cause));
-        if (comparison.ledger.unexplained > 0)
-            message += fmt::format("; counter unexplained at {} pixels",
-                                   grouped(comparison.ledger.unexplained));
-        body = element("failure", name_of(cell.verdict),
-                       message + "; reproduce: " + reproducing_command(report, scene, cell));
-    }
-    return fmt::format("    <testcase classname=\"shadowproof.{}\" name=\"{}\" time=\"{:.6f}\"{}\n",
-                       escaped(scene.name), escaped(cell.technique), cell.milliseconds / 1000,
-                       body.empty() ? "/>" : ">\n" + body + "    </testcase>");
-}
-
 struct Suite {
     std::size_t tests = 0;
     std::size_t failures = 0;
     std::size_t errors = 0;
+    double seconds = 0;
     std::string cases;
+    std::string lines; ///< as the console prints them
 };
+
+struct Outcome {
+    std::string element; ///< failure or error; empty: passed
+    std::string type;
+    std::string message;
+    std::string reproduce;
+};
+
+void add_case(Suite& suite, const std::string& scene, std::string_view name, double seconds,
+              const Outcome& outcome) {
+    ++suite.tests;
+    suite.seconds += seconds;
+    if (outcome.element == "failure") ++suite.failures;
+    if (outcome.element == "error") ++suite.errors;
+    suite.cases +=
+        fmt::format("      <testcase classname=\"shadowproof.{}\" name=\"{}\" time=\"{:.6f}\"",
+                    escaped(scene), escaped(name), seconds);
+    if (outcome.element.empty()) {
+        suite.cases += "/>\n";
+        return;
+    }
+    suite.cases +=
+        fmt::format(">\n        <{0} type=\"{1}\" message=\"{2}\">{2}\n{3}</{0}>\n      </testcase>\n",
+                    outcome.element, outcome.type, escaped(outcome.message),
+                    escaped("reproduce: " + outcome.reproduce));
+}
+
+Outcome outcome_of(const Report& report, const SceneResult& scene, const Cell& cell) {
+    if (!fails(cell, report.gate)) return {};
+    const bool ran = cell.error.empty();
+    return {.element = ran ? "failure" : "error",
+            .type = std::string(ran ? name_of(cell.verdict) : "could_not_run"),
+            .message = why_it_fails(cell, report.gate),
+            .reproduce = reproducing_command(report, scene, cell)};
+}
 
 Suite suite_of(const Report& report, const SceneResult& scene) {
     Suite suite;
     // What concerns the scene as a whole is a case of its own.
-    if (!scene.error.empty() || !scene.no_longer_provoked.empty()) {
-        ++(scene.error.empty() ? suite.failures : suite.errors);
-        ++suite.tests;
-        std::string causes;
-        for (const std::string& cause : scene.no_longer_provoked)
-            causes += (causes.empty() ? "" : ", ") + cause;
-        suite.cases += fmt::format(
-            "    <testcase classname=\"shadowproof.{0}\" name=\"scene\" time=\"0\">\n{1}"
-            "    </testcase>\n",
-            escaped(scene.name),
-            scene.error.empty()
-                ? element("failure", "no_longer_provoked", "the scene no longer provokes " + causes)
-                : element("error", "could_not_run", scene.error));
-    }
+    if (!scene.error.empty())
+        add_case(suite, scene.name, "scene", 0,
+                 {"error", "could_not_run", scene.error, reproducing_command(report, scene)});
+    if (!scene.no_longer_provoked.empty())
+        add_case(suite, scene.name, "scene", 0,
+                 {"failure", "no_longer_provoked", no_longer_provoked_words(scene),
+                  reproducing_command(report, scene)});
     for (const Cell& cell : scene.cells) {
-        ++suite.tests;
-        if (!cell.error.empty()) {
-            ++suite.errors;
-        } else if (fails(cell, report.gate)) {
-            ++suite.failures;
-        }
-        suite.cases += case_of(report, scene, cell);
+        add_case(suite, scene.name, cell.technique, cell.milliseconds / 1000,
+                 outcome_of(report, scene, cell));
+        suite.lines += cell_line(scene, cell) + "\n";
     }
     return suite;
 }
 
+std::string properties_of(const Report& report, const SceneResult& scene) {
+    std::string allowed;
+    for (const Allowance& allowance : report.gate.allow)
+        allowed += (allowed.empty() ? "" : ",") + words_of(allowance);
+    std::string properties;
+    const auto add = [&](std::string_view name, std::string_view value) {
+        properties += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name,
+                                  escaped(value));
+    };
+    add("file", scene.file);
+    add("size", fmt::format("{}x{}", scene.width, scene.height));
+    add("version", report.version);
+    add("gl.version", report.gl.version);
+    add("gl.renderer", report.gl.renderer);
+    add("embree", report.embree);
+    add("gate", name_of(report.gate.on));
+    add("allow", allowed);
+    if (report.baseline) add("baseline", report.baseline->file);
+    return properties;
+}
+
 } // namespace
 
-std::string to_junit(const Report& report) {
-    Suite all;
+std::string to_junit(const Report& report, const std::string& timestamp) {
+    // Ant's schema gives <testsuites> no attributes; the sums are for its readers to make.
+    std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+    int id = 0;
     for (const SceneResult& scene : report.scenes) {
         const Suite suite = suite_of(report, scene);
-        all.tests += suite.tests;
-        all.failures += suite.failures;
-        all.errors += suite.errors;
-        all.cases += fmt::format(
-            "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\">\n{}"
-            "  </testsuite>\n",
-            escaped(scene.name), suite.tests, suite.failures, suite.errors, suite.cases);
+        xml += fmt::format("    <testsuite id=\"{}\" package=\"shadowproof\" name=\"{}\" "
+                           "timestamp=\"{}\" hostname=\"localhost\" tests=\"{}\" failures=\"{}\" "
+                           "errors=\"{}\" time=\"{:.6f}\">\n      <properties>\n{}"
+                           "      </properties>\n{}      <system-out>{}</system-out>\n"
+                           "      <system-err></system-err>\n    </testsuite>\n",
+                           id++, escaped(scene.name), timestamp, suite.tests, suite.failures,
+                           suite.errors, suite.seconds, properties_of(report, scene), suite.cases,
+                           escaped(suite.lines));
     }
-    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                       "<testsuites name=\"shadowproof\" tests=\"{}\" failures=\"{}\" "
-                       "errors=\"{}\">\n{}</testsuites>\n",
-                       all.tests, all.failures, all.errors, all.cases);
+    return xml + "</testsuites>\n";
 }
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
 #include "compare/report_pictures.h"
 
 #include "compare/report_data.h"
+#include "compare/write_file.h"
 
 #include <algorithm>
 #include <atomic>
@@ -110,7 +111,7 @@ void write_pictures(SceneResult& scene, const std::filesystem::path& report, int
     std::filesystem::create_directories((report / truth_path(scene)).parent_path());
     jobs.emplace_back([&] { write_png(report / truth_path(scene), scene.truth.visibility); });
     jobs.emplace_back(
-        [&] { write_file(report / folder_of(scene) / "scene.js", scene_script(scene)); });
+        [&] { write_text(report / folder_of(scene) / "scene.js", scene_script(scene)); });
     for (Cell& cell : scene.cells) {
         if (!cell.error.empty()) continue;
         jobs.emplace_back([&cell] { cell.cause_map = packed_cause_map(cell.comparison); });
@@ -120,7 +121,7 @@ void write_pictures(SceneResult& scene, const std::filesystem::path& report, int
         const std::filesystem::path folder = path("claim").parent_path();
         std::filesystem::create_directories(folder);
         jobs.emplace_back([&scene, &cell, file = folder / "cell.js"] {
-            write_file(file, cell_script(scene, cell));
+            write_text(file, cell_script(scene, cell));
         });
         jobs.emplace_back([&cell, file = path("claim")] { write_png(file, cell.frame.claim); });
         jobs.emplace_back([&scene, &cell, file = path("difference")] {

@@ -7,10 +7,6 @@
 
 namespace shadowproof {
 
-/// Text that may stand in HTML and XML, also between quotes. Control characters that XML forbids
-/// become U+FFFD, and so does each byte that is not UTF-8.
-std::string escaped(std::string_view text);
-
 /// Gaps filled as they are: values that hold markup go in unchanged, so escape the others.
 using Gaps = std::map<std::string, std::string, std::less<>>;
 

@@ -1,3 +1,4 @@
+#include "compare/escape.h"
 #include "compare/report.h"
 
 #include <fmt/format.h>
@@ -6,29 +7,20 @@
 
 namespace shadowproof {
 
-bool fails(const Cell& cell, Gate gate) {
-    if (!cell.error.empty()) return true;
-    const std::uint64_t edge = cell.comparison.causes[static_cast<std::size_t>(Cause::edge)];
-    if (gate == Gate::differences && cell.comparison.differing != edge) return true;
-    return cell.verdict == Verdict::defect || cell.verdict == Verdict::unexplained;
-}
-
-bool fails(const SceneResult& scene, Gate gate) {
-    return !scene.error.empty() || !scene.no_longer_provoked.empty() ||
-           std::any_of(scene.cells.begin(), scene.cells.end(),
-                       [&](const Cell& cell) { return fails(cell, gate); });
-}
-
 std::string grouped(std::uint64_t number) {
     std::string digits = std::to_string(number);
     for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, ",");
     return digits;
 }
 
-std::string cause_counts(const Comparison& comparison) {
+std::string counted(std::uint64_t number, std::string_view thing) {
+    return fmt::format("{} {}{}", grouped(number), thing, number == 1 ? "" : "s");
+}
+
+std::string cause_counts(const CausePixels& causes) {
     std::string counts;
     for (const CauseWords& words : all_causes) {
-        const std::uint64_t pixels = comparison.causes[static_cast<std::size_t>(words.cause)];
+        const std::uint64_t pixels = causes[static_cast<std::size_t>(words.cause)];
         if (pixels == 0) continue;
         if (!counts.empty()) counts += ", ";
         counts += fmt::format("{} {}", words.name, grouped(pixels));
@@ -48,7 +40,7 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
     const std::string all = grouped(pixels);
     line += fmt::format("{:>{}} of {}", grouped(comparison.differing),
                         widths.technique == 0 ? 0 : all.size(), all);
-    if (comparison.differing > 0) line += fmt::format(" ({})", cause_counts(comparison));
+    if (comparison.differing > 0) line += fmt::format(" ({})", cause_counts(comparison.causes));
     if (comparison.first)
         line += fmt::format("  first ({},{}) {}", comparison.first->x, comparison.first->y,
                             name_of(comparison.first->cause));
@@ -59,28 +51,47 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
     return line + fmt::format("  {:.1f} ms", cell.milliseconds);
 }
 
+std::string why_it_fails(const Cell& cell, const Gate& gate) {
+    if (!cell.error.empty()) return cell.error;
+    const Comparison& comparison = cell.comparison;
+    std::string words = comparison.differing == 0 ? "no pixel of the claim differs"
+                                                  : cause_counts(comparison.causes);
+    const std::optional<FirstDifference>& first =
+        cell.first_failing ? cell.first_failing : comparison.first;
+    if (first) words += fmt::format("; first ({},{}) {}", first->x, first->y, name_of(first->cause));
+    if (comparison.ledger.unexplained > 0)
+        words += fmt::format("; counter unexplained at {}, first ({},{})",
+                             counted(comparison.ledger.unexplained, "pixel"),
+                             comparison.ledger.first_x, comparison.ledger.first_y);
+    if (cell.since) words += "; since the baseline: " + words_of(*cell.since);
+    const std::string allowed = cause_counts(pixels_allowed(cell, gate));
+    return allowed.empty() ? words : words + "; allowed: " + allowed;
+}
+
+std::string no_longer_provoked_words(const SceneResult& scene) {
+    return fmt::format("no technique shows {} any more, which the scene declares",
+                       fmt::join(scene.no_longer_provoked, ", "));
+}
+
 namespace {
 
-/// As it stands where no shell gives a character a meaning, else in single quotes.
-std::string shell_quoted(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string_view("_-./,:=+@%").find(c) != std::string_view::npos;
-    });
-    if (plain) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
+std::string command_for(const Report& report, const SceneResult& scene,
+                        const std::string& technique) {
+    std::string command = "shadowproof verify " +
+                          shell_quoted(scene.argument.empty() ? scene.name : scene.argument) +
+                          technique;
+    for (const std::string& argument : report.arguments) command += " " + shell_quoted(argument);
+    return command;
 }
 
 } // namespace
 
 std::string reproducing_command(const Report& report, const SceneResult& scene, const Cell& cell) {
-    std::string command = "shadowproof verify " +
-                          shell_quoted(scene.argument.empty() ? scene.name : scene.argument) +
-                          " --technique " + cell.technique;
-    for (const std::string& argument : report.arguments) command += " " + shell_quoted(argument);
-    return command;
+    return command_for(report, scene, " --technique " + cell.technique);
+}
+
+std::string reproducing_command(const Report& report, const SceneResult& scene) {
+    return command_for(report, scene, "");
 }
 
 } // namespace shadowproof

@@ -45,11 +45,22 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Compari
     return verdict;
 }
 
-std::vector<Cause> no_longer_provoked(const Scene& scene,
+std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fails_at,
+                                  const Comparison& comparison) {
+    std::vector<Cause> causes;
+    for (const CauseWords& words : all_causes) {
+        const bool found = comparison.causes[static_cast<std::size_t>(words.cause)] > 0;
+        if (found && words.cause != Cause::edge && excused(scene, fails_at, words.cause))
+            causes.push_back(words.cause);
+    }
+    return causes;
+}
+
+std::vector<Cause> no_longer_provoked(std::span<const Cause> provokes,
                                       std::span<const std::vector<Cause>> fails_at,
                                       std::span<const Comparison> comparisons) {
     std::vector<Cause> missing;
-    for (const Cause cause : scene.provokes) {
+    for (const Cause cause : provokes) {
         const bool known = std::any_of(fails_at.begin(), fails_at.end(),
                                        [&](const auto& causes) { return contains(causes, cause); });
         const bool found =

@@ -19,9 +19,13 @@ std::string_view name_of(Verdict verdict);
 /// any). `edge` is no failing; `precision` lies in the depth format, so no scene need declare it.
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Comparison& comparison);
 
+/// Which of the causes found are excused so, in the order of all_causes; never edge.
+std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fails_at,
+                                  const Comparison& comparison);
+
 /// Causes that the scene declares, that some technique shown here is known for, and that no
 /// comparison found: the scene has stopped provoking them.
-std::vector<Cause> no_longer_provoked(const Scene& scene,
+std::vector<Cause> no_longer_provoked(std::span<const Cause> provokes,
                                       std::span<const std::vector<Cause>> fails_at,
                                       std::span<const Comparison> comparisons);
 

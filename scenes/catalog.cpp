@@ -23,6 +23,12 @@ const std::vector<BundledScene>& bundled_scenes() {
     return scenes;
 }
 
+bool is_bundled(std::string_view name) {
+    const auto& all = bundled_scenes();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const BundledScene& scene) { return scene.name == name; });
+}
+
 namespace {
 
 /// <prefix>/bin/shadowproof -> <prefix>/<SHADOWPROOF_INSTALLED_SCENES>.
@@ -62,9 +68,7 @@ std::filesystem::path bundled_folder() {
 }
 
 Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
-    const auto& bundled = bundled_scenes();
-    if (std::any_of(bundled.begin(), bundled.end(),
-                    [&](const BundledScene& scene) { return scene.name == name_or_path; }))
+    if (is_bundled(name_or_path))
         return load_gltf(bundled_folder() / (name_or_path + ".gltf"), request);
     if (!std::filesystem::exists(name_or_path))
         throw Error(name_or_path, "is neither a bundled scene nor a file",

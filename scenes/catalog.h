@@ -18,6 +18,8 @@ struct BundledScene {
 /// In the order in which they are verified.
 const std::vector<BundledScene>& bundled_scenes();
 
+bool is_bundled(std::string_view name);
+
 /// Folder of the .gltf files: $SHADOWPROOF_SCENES, else beside the installed program, else the
 /// source tree. Throws Error when none of them holds the scenes.
 std::filesystem::path bundled_folder();

@@ -1,5 +1,7 @@
 #include "compare/command/console.h"
 
+#include "compare/escape.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,6 +32,16 @@ std::string colored(std::string_view text, std::string_view parameters) {
     return fmt::format("\x1b[{}m{}\x1b[0m", parameters, text);
 }
 
+/// GitHub's runner takes a line for a command that begins with "::" after any spaces, or holds
+/// "##[" anywhere; what comes from a file may do neither.
+std::string without_commands(std::string text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first != std::string::npos && text.compare(first, 2, "::") == 0) text.insert(first + 1, " ");
+    for (std::size_t at = text.find("##["); at != std::string::npos; at = text.find("##[", at))
+        text.insert(at + 1, " ");
+    return text;
+}
+
 } // namespace
 
 Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) == 1) {
@@ -37,6 +49,8 @@ Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) ==
     const char* term = std::getenv("TERM");
     const bool dumb = term == nullptr || std::string_view(term) == "dumb";
     terminal_ = terminal_ && !dumb;
+    const char* github = std::getenv("GITHUB_ACTIONS");
+    on_github_ = github != nullptr && std::string_view(github) == "true";
     color_ = terminal_ && (no_color == nullptr || *no_color == '\0');
 }
 
@@ -54,7 +68,7 @@ void Console::clear_progress() {
 void Console::progress(const std::string& text) {
     if (quiet_ || !terminal_) return;
     clear_progress();
-    fmt::print("{}", text);
+    fmt::print("{}", printable(text));
     std::fflush(stdout);
     progress_shown_ = true;
 }
@@ -64,30 +78,43 @@ void Console::line(const std::string& text) {
 }
 
 void Console::heading(const std::string& text) {
-    line(color_ ? colored(text, "1") : text);
+    if (quiet_) return;
+    print(color_ ? colored(printable(text), "1") : printable(text));
 }
 
 void Console::cell(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths,
                    bool failed) {
-    std::string text = cell_line(scene, cell, widths);
+    if (quiet_ && !failed) return;
+    std::string text = printable(cell_line(scene, cell, widths));
     if (color_) {
         const std::string verdict(cell.error.empty() ? name_of(cell.verdict) : "error");
         const std::size_t at =
-            text.find("  " + verdict, cell.technique.size() + 2 + scene.name.size());
+            text.find("  " + verdict, cell.technique.size() + 2 + printable(scene.name).size());
         if (at != std::string::npos)
             text.replace(at + 2, verdict.size(), colored(verdict, color_of(cell)));
     }
-    if (failed)
-        always(text);
-    else
-        line(text);
+    print(text);
 }
 
 void Console::always(const std::string& text) {
+    print(printable(text));
+}
+
+void Console::commands(const std::string& lines) {
     clear_progress();
-    fmt::print("{}\n", text);
+    fmt::print("{}", lines);
+    std::fflush(stdout);
+}
+
+void Console::print(const std::string& text) {
+    clear_progress();
+    fmt::print("{}\n", on_github_ ? without_commands(text) : text);
     // Each line at once also into a pipe: who waits for a build reads along.
     std::fflush(stdout);
+}
+
+void complain(std::string_view message) {
+    fmt::print(stderr, "shadowproof: {}\n", printable(message));
 }
 
 } // namespace shadowproof

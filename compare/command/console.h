@@ -1,10 +1,12 @@
 // What a person reads while the program runs. Colour and a progress line only where a terminal
-// shows them; elsewhere plain lines, the same at each run but for the times.
+// shows them; elsewhere plain lines, the same at each run but for the times. Text from files comes
+// out printable, and under GitHub Actions starts no workflow command.
 #pragma once
 
 #include "compare/report.h"
 
 #include <string>
+#include <string_view>
 
 namespace shadowproof {
 
@@ -26,14 +28,23 @@ public:
     void cell(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths, bool failed);
     /// A line that is printed even where quiet: what failed, and the end.
     void always(const std::string& text);
+    /// GITHUB_ACTIONS says that GitHub's runner reads the lines.
+    bool on_github() const { return on_github_; }
+    /// Workflow commands, as they are.
+    void commands(const std::string& lines);
 
 private:
+    void print(const std::string& text);
     void clear_progress();
 
     bool quiet_ = false;
+    bool on_github_ = false;
     bool terminal_ = false;
     bool color_ = false;
     bool progress_shown_ = false;
 };
+
+/// "shadowproof: ..." on stderr, printable.
+void complain(std::string_view message);
 
 } // namespace shadowproof

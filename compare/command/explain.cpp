@@ -1,6 +1,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/drawing.h"
 #include "compare/pixel_record.h"
+#include "compare/write_file.h"
 #include "raster/render.h"
 #include "reference/ledger.h"
 #include "scenes/catalog.h"

@@ -1,8 +1,11 @@
 #include "compare/command/commands.h"
+#include "compare/command/console.h"
+#include "compare/unfinished.h"
 #include "reference/trace.h"
 
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -50,8 +53,8 @@ int run(int argc, char** argv) {
         const std::vector<CLI::App*> chosen = app.get_subcommands();
         const std::string_view first = argc > 1 ? argv[1] : "";
         if (!chosen.empty())
-            fmt::print(stderr, "shadowproof: {}\nSee shadowproof {} --help.\n", error.what(),
-                       chosen.front()->get_name());
+            complain(error.what()),
+                fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
         else if (first.empty() || first.front() == '-')
             fmt::print(stderr, "shadowproof: {}; there are {}\n", error.what(), offered);
         else
@@ -67,12 +70,15 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    remove_unfinished_at_signals();
+    // Who closes the pipe that we print into ends the run as an error does, not by a signal.
+    std::signal(SIGPIPE, SIG_IGN);
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "shadowproof: there is not enough memory; try a smaller --size\n");
+        complain("there is not enough memory; try a smaller --size");
     } catch (const std::exception& error) {
-        fmt::print(stderr, "shadowproof: {}\n", error.what());
+        complain(error.what());
     }
     return exit_could_not;
 }

@@ -1,5 +1,8 @@
+#include "compare/baseline.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/command/gate_options.h"
+#include "compare/command/outcome.h"
 #include "compare/command/stopwatch.h"
 #include "compare/report_data.h"
 #include "raster/render.h"
@@ -11,6 +14,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
+#include <optional>
 
 namespace shadowproof {
 
@@ -20,18 +25,9 @@ struct VerifyOptions {
     std::vector<std::string> scenes;
     SceneOptions scene;
     TechniqueOptions technique;
-    std::string out = "report";
-    std::string json;
-    std::string junit;
-    Gate gate = Gate::defects;
-    bool quiet = false;
+    GateOptions gate;
+    OutputOptions output;
 };
-
-bool is_bundled(const std::string& name) {
-    const auto& all = bundled_scenes();
-    return std::any_of(all.begin(), all.end(),
-                       [&](const BundledScene& scene) { return scene.name == name; });
-}
 
 std::vector<std::string> scenes_to_verify(const VerifyOptions& options) {
     if (!options.scenes.empty()) return options.scenes;
@@ -78,6 +74,7 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         refuse_blank(technique, trial.truth, cell.frame);
         cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
+        cell.excused = excused_causes(trial.scene, technique.fails_at, cell.comparison);
         const Stopwatch stopwatch;
         cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame, cell.comparison.cause);
@@ -86,22 +83,6 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         cell.error = error.what();
     }
     return cell;
-}
-
-/// What the scene declares and no technique shows any more. Only the default picture, and all
-/// techniques, can tell.
-std::vector<Cause> stopped_provoking(const VerifyOptions& options, const Scene& scene,
-                                     const SceneResult& result) {
-    const bool whole = options.technique.techniques.empty() && options.scene.is_default();
-    if (!whole || !is_bundled(result.argument)) return {};
-    std::vector<std::vector<Cause>> fails_at;
-    std::vector<Comparison> comparisons;
-    for (const Cell& cell : result.cells) {
-        if (!cell.error.empty()) return {}; // who could not run may be the one that shows it
-        fails_at.push_back(find_technique(cell.technique)->fails_at);
-        comparisons.push_back(cell.comparison);
-    }
-    return no_longer_provoked(scene, fails_at, comparisons);
 }
 
 ColumnWidths widths_of(const VerifyOptions& options, const std::string& scene) {
@@ -122,11 +103,48 @@ void describe(Console& console, const SceneResult& result) {
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
 
-void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, Console& console,
-                  double& report_milliseconds) {
+/// Two files may have one stem: the second is "stem-2", in the results and in the report.
+std::string unique_name(const Report& report, const SceneResult& result) {
+    const auto taken = [&](const std::string& name) {
+        SceneResult named;
+        named.name = name;
+        return std::any_of(report.scenes.begin(), report.scenes.end(),
+                           [&](const SceneResult& other) {
+                               return &other != &result && folder_of(other) == folder_of(named);
+                           });
+    };
+    std::string name = result.name;
+    for (int number = 2; taken(name); ++number) name = fmt::format("{}-{}", result.name, number);
+    return name;
+}
+
+/// What all scenes of a run share.
+struct Run {
+    const VerifyOptions& options;
+    const std::optional<ResultsFile>& baseline;
+    Gpu& gpu;
+    Console& console;
+    Report& report;
+};
+
+/// Judges the cell by the gate, and says how it went.
+void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
+                   const ColumnWidths& widths) {
+    if (run.baseline) compare_with(*run.baseline, scene, cell);
+    const Gate& gate = run.report.gate;
+    if (cell.error.empty()) cell.first_failing = first_that_fails(cell, gate);
+    run.console.cell(scene, cell, widths, fails(cell, gate));
+    if (cell.since) run.console.line("  since the baseline: " + words_of(*cell.since));
+    const std::string allowed = cause_counts(pixels_allowed(cell, gate));
+    if (cell.error.empty() && !allowed.empty()) run.console.line("  allowed: " + allowed);
+}
+
+void verify_scene(const Run& run, SceneResult& result) {
+    const auto& [options, baseline, gpu, console, report] = run;
     console.progress(fmt::format("{}: reading", result.name));
     const Scene scene = load_scene(result.argument, options.scene.request());
     result.name = scene.name;
+    result.name = unique_name(report, result);
     // A bundled scene is the same wherever it is installed, and so is its report.
     result.file = (is_bundled(result.argument) ? scene.file.filename() : scene.file).string();
     result.width = scene.camera.width;
@@ -150,18 +168,18 @@ void verify_scene(const VerifyOptions& options, SceneResult& result, Gpu& gpu, C
     const ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
     const Stopwatch stopwatch;
     const Silhouette silhouette(tracer);
-    report_milliseconds += stopwatch.milliseconds();
-    const Trial trial{scene, plan, tracer, result.truth, depths, silhouette, report_milliseconds};
+    report.report_milliseconds += stopwatch.milliseconds();
+    const Trial trial{
+        scene, plan, tracer, result.truth, depths, silhouette, report.report_milliseconds};
     const ColumnWidths widths = widths_of(options, result.name);
     for (const Technique* technique : options.technique.chosen()) {
         console.progress(fmt::format("{}: {}", result.name, technique->name));
-        const Cell& cell = result.cells.emplace_back(try_technique(trial, *technique, gpu));
-        console.cell(result, cell, widths, fails(cell, options.gate));
+        Cell& cell = result.cells.emplace_back(try_technique(trial, *technique, gpu));
+        conclude_cell(run, result, cell, widths);
     }
-    result.no_longer_provoked = cause_names(stopped_provoking(options, scene, result));
-    for (const std::string& cause : result.no_longer_provoked)
-        console.always(fmt::format("{}: no technique shows {} any more, which the scene declares",
-                                   result.name, cause));
+    result.no_longer_provoked = stopped_provoking(report, result);
+    if (!result.no_longer_provoked.empty())
+        console.always(result.name + ": " + no_longer_provoked_words(result));
 }
 
 /// Pictures are on the disk by now; the figures stay.
@@ -178,102 +196,61 @@ void drop_pictures(SceneResult& scene) {
     }
 }
 
-/// Two files may have one stem; their pictures need a folder each.
-std::string unique_folder(const Report& report, const SceneResult& result) {
-    const auto taken = [&](const std::string& folder) {
-        SceneResult as_named;
-        as_named.folder = folder;
-        return std::any_of(
-            report.scenes.begin(), report.scenes.end(), [&](const SceneResult& other) {
-                return &other != &result && truth_path(other) == truth_path(as_named);
-            });
-    };
-    std::string folder = result.name;
-    for (int number = 2; taken(folder); ++number)
-        folder = fmt::format("{}-{}", result.name, number);
-    return folder;
-}
-
-int exit_code(const Report& report) {
-    bool could_not = false;
-    for (const SceneResult& scene : report.scenes) {
-        could_not = could_not || !scene.error.empty();
-        for (const Cell& cell : scene.cells) could_not = could_not || !cell.error.empty();
-    }
-    if (could_not) return exit_could_not;
-    return report.passed ? exit_passed : exit_failed;
-}
-
-/// How to see again what failed, and where the report lies.
-void conclude(Console& console, const Report& report, const VerifyOptions& options) {
-    std::size_t cells = 0;
-    std::size_t failing = 0;
-    std::size_t unread = 0;
-    std::size_t unprovoked = 0;
-    for (const SceneResult& scene : report.scenes) {
-        for (const Cell& cell : scene.cells) {
-            ++cells;
-            if (!fails(cell, report.gate)) continue;
-            ++failing;
-            console.always("reproduce: " + reproducing_command(report, scene, cell));
-        }
-        if (!scene.error.empty()) ++unread;
-        if (scene.no_longer_provoked.empty()) continue;
-        ++unprovoked;
-        console.always("reproduce: shadowproof verify " + scene.name);
-    }
-    std::string outcome = report.passed ? fmt::format("passed: {} cells", cells)
-                                        : fmt::format("failed: {} of {} cells", failing, cells);
-    if (unread > 0) outcome += fmt::format(", {} scenes that could not be tried", unread);
-    if (unprovoked > 0) outcome += fmt::format(", {} scenes that stopped provoking", unprovoked);
-    console.always(fmt::format("{}; report in {}", outcome,
-                               (std::filesystem::path(options.out) / "index.html").string()));
-}
-
-int verify(const VerifyOptions& options) {
-    const Stopwatch run;
-    Console console(options.quiet);
-    // The outputs are refused before the work is done, not after.
-    ReportFolder folder(options.out);
-    Gpu gpu(options.technique.platform);
+/// What stands in results.json before the first scene is tried.
+Report begin_report(const VerifyOptions& options, const Gpu& gpu) {
     Report report;
     report.version = SHADOWPROOF_VERSION;
     report.gl = gpu.driver();
     report.embree = embree_version();
     report.arguments = settings(options.scene, options.technique);
-    report.gate = options.gate;
-    if (options.gate == Gate::differences) {
-        report.arguments.emplace_back("--gate");
-        report.arguments.emplace_back("differences");
-    }
+    const std::vector<std::string> gate = settings(options.gate);
+    report.arguments.insert(report.arguments.end(), gate.begin(), gate.end());
+    report.gate = options.gate.gate;
+    return report;
+}
+
+int verify(const VerifyOptions& options) {
+    const Stopwatch stopwatch;
+    const std::string started = timestamp_now();
+    Console console(options.output.quiet);
+    // What cannot be read or written is refused before the work is done, not after.
+    std::optional<ResultsFile> baseline;
+    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
+    check_outputs(options.output);
+    ReportFolder folder(options.output.out);
+    Gpu gpu(options.technique.platform);
+    Report report = begin_report(options, gpu);
+    const Run run{options, baseline, gpu, console, report};
     for (const std::string& argument : scenes_to_verify(options)) {
         SceneResult& result = report.scenes.emplace_back();
         result.argument = argument;
         result.name = std::filesystem::path(argument).stem().string();
         result.file = argument;
         try {
-            verify_scene(options, result, gpu, console, report.report_milliseconds);
+            verify_scene(run, result);
+        } catch (const std::bad_alloc&) {
+            result.error = argument + ": there is not enough memory; try a smaller --size";
         } catch (const Error& error) {
             result.error = error.what();
-            result.cells.clear();
-            fmt::print(stderr, "shadowproof: {}\n", error.what());
         }
-        result.folder = unique_folder(report, result);
+        if (!result.error.empty()) {
+            result.name = unique_name(report, result);
+            result.cells.clear();
+            complain(result.error);
+        }
         console.progress(fmt::format("{}: writing pictures", result.name));
-        const Stopwatch stopwatch;
+        const Stopwatch writing;
         folder.add_pictures(result, options.scene.threads);
-        report.report_milliseconds += stopwatch.milliseconds();
+        report.report_milliseconds += writing.milliseconds();
         drop_pictures(result);
     }
-    report.passed =
-        std::none_of(report.scenes.begin(), report.scenes.end(),
-                     [&](const SceneResult& scene) { return fails(scene, options.gate); });
-    report.milliseconds = run.milliseconds();
+    if (baseline)
+        report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
+                                   notes_on(*baseline, report)};
+    report.passed = passes(report);
+    report.milliseconds = stopwatch.milliseconds();
     folder.finish(report);
-    if (!options.json.empty()) write_file(options.json, to_json(report));
-    if (!options.junit.empty()) write_file(options.junit, to_junit(report));
-    conclude(console, report, options);
-    return exit_code(report);
+    return conclude(console, report, options.output, started);
 }
 
 } // namespace
@@ -288,27 +265,8 @@ Work add_verify(CLI::App& app) {
         ->check(not_empty());
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->scene);
-    command->add_option("--out", options->out, "Folder of the report (report)")
-        ->type_name("DIR")
-        ->check(not_empty());
-    command->add_option("--json", options->json, "Also write the results here")
-        ->type_name("FILE")
-        ->check(not_empty());
-    command->add_option("--junit", options->junit, "Also write JUnit XML here")
-        ->type_name("FILE")
-        ->check(not_empty());
-    command
-        ->add_option_function<std::string>(
-            "--gate",
-            [options](const std::string& text) {
-                if (text != "defects" && text != "differences")
-                    throw CLI::ValidationError(
-                        "--gate", "'" + text + "' is not known; give defects or differences");
-                options->gate = text == "defects" ? Gate::defects : Gate::differences;
-            },
-            "Fail on defects, or on all differences beyond edges (defects)")
-        ->type_name("GATE");
-    command->add_flag("-q,--quiet", options->quiet, "Only what failed, and the end");
+    add_gate_flags(*command, options->gate);
+    add_output_flags(*command, options->output);
     return [options] { return verify(*options); };
 }
 

@@ -80,7 +80,7 @@ test('the same file twice has two folders of pictures', () => {
 
 test('JUnit has a suite a scene and a case a cell', () => {
   const xml = readFileSync(join(scratch, 'junit.xml'), 'utf8');
-  assert.match(xml, /^<\?xml version="1.0" encoding="UTF-8"\?>\n<testsuites name="shadowproof" tests="10"/);
+  assert.match(xml, /^<\?xml version="1.0" encoding="UTF-8"\?>\n<testsuites>\n/);
   assert.equal([...xml.matchAll(/<testsuite /g)].length, 2);
   assert.equal([...xml.matchAll(/<testcase /g)].length, 10);
 });

@@ -71,3 +71,12 @@ test('the schema refuses what is not so', () => {
   assert.ok(!validate(changed((copy) => (copy.scenes[0].techniques[0].causes.moon = 1))));
   assert.ok(!validate(changed((copy) => (copy.scenes[0].techniques[0].images.claim = '../x.png'))));
 });
+
+test('results of a run with allowances and a baseline are valid', () => {
+  shadowproof(['verify', 'near_plane', '--size', '64x64', '--json', 'earlier.json']);
+  const results = resultsOf(['verify', 'near_plane', '--size', '64x64', '--allow', 'near_plane=3,edge',
+                             '--baseline', 'earlier.json']);
+  assertValid(results);
+  assert.equal(results.baseline.file, 'earlier.json');
+  assert.ok(results.scenes[0].techniques.every((cell) => cell.since.new === 0));
+});

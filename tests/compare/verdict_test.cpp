@@ -67,15 +67,16 @@ TEST(Verdict, a_scene_that_stops_provoking_what_it_declares_is_named) {
     const Scene scene = declaring({Cause::near_plane});
     const std::vector<Comparison> found{with({Cause::near_plane})};
     const std::vector<Comparison> not_found{with({Cause::edge})};
-    EXPECT_TRUE(no_longer_provoked(scene, fails_at, found).empty());
-    EXPECT_EQ(no_longer_provoked(scene, fails_at, not_found),
+    EXPECT_TRUE(no_longer_provoked(scene.provokes, fails_at, found).empty());
+    EXPECT_EQ(no_longer_provoked(scene.provokes, fails_at, not_found),
               std::vector<Cause>{Cause::near_plane});
 }
 
 TEST(Verdict, a_cause_that_no_technique_shown_is_known_for_is_not_missed) {
     const std::vector<std::vector<Cause>> fails_at{{Cause::far_plane}};
     const std::vector<Comparison> none{Comparison{}};
-    EXPECT_TRUE(no_longer_provoked(declaring({Cause::near_plane}), fails_at, none).empty());
+    EXPECT_TRUE(
+        no_longer_provoked(declaring({Cause::near_plane}).provokes, fails_at, none).empty());
 }
 
 } // namespace

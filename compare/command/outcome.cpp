@@ -1,0 +1,141 @@
+#include "compare/command/outcome.h"
+
+#include "compare/command/options.h"
+#include "compare/write_file.h"
+#include "raster/technique.h"
+#include "scenes/catalog.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+
+namespace shadowproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file in the report's folder is written after the folder is.
+bool lies_in(const fs::path& file, const fs::path& folder) {
+    const fs::path relative =
+        fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder / ".").lexically_normal());
+    return !relative.empty() && *relative.begin() != ".." && *relative.begin() != ".";
+}
+
+bool is_default_picture(const Report& report) {
+    const auto& words = report.arguments;
+    return std::none_of(words.begin(), words.end(), [](const std::string& word) {
+        return word == "--size" || word == "--camera" || word == "--light" || word == "--time";
+    });
+}
+
+int exit_code(const Report& report) {
+    const auto has_error = [](const auto& thing) { return !thing.error.empty(); };
+    for (const SceneResult& scene : report.scenes)
+        if (has_error(scene) || std::any_of(scene.cells.begin(), scene.cells.end(), has_error))
+            return exit_could_not;
+    return report.passed ? exit_passed : exit_failed;
+}
+
+/// Steps append to one file, each its own.
+void append_step_summary(const Report& report) {
+    const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+    if (file == nullptr || *file == '\0') return;
+    std::ofstream stream(file, std::ios::binary | std::ios::app);
+    stream << to_step_summary(report);
+    stream.close();
+    // What the run says is said elsewhere too: a lost summary fails no build.
+    if (!stream) complain(fmt::format("GITHUB_STEP_SUMMARY={}: cannot be written", file));
+}
+
+void conclude_reproducing(Console& console, const Report& report) {
+    for (const SceneResult& scene : report.scenes) {
+        for (const Cell& cell : scene.cells)
+            if (fails(cell, report.gate))
+                console.always("reproduce: " + reproducing_command(report, scene, cell));
+        if (!scene.no_longer_provoked.empty())
+            console.always("reproduce: " + reproducing_command(report, scene));
+    }
+}
+
+std::string outcome_words(const Report& report) {
+    std::uint64_t cells = 0;
+    std::uint64_t failing = 0;
+    std::uint64_t unread = 0;
+    std::uint64_t unprovoked = 0;
+    for (const SceneResult& scene : report.scenes) {
+        cells += scene.cells.size();
+        for (const Cell& cell : scene.cells) failing += fails(cell, report.gate) ? 1 : 0;
+        unread += scene.error.empty() ? 0 : 1;
+        unprovoked += scene.no_longer_provoked.empty() ? 0 : 1;
+    }
+    std::string words =
+        report.passed ? "passed: " + counted(cells, "cell")
+                      : fmt::format("failed: {} of {}", grouped(failing), counted(cells, "cell"));
+    if (unread > 0) words += fmt::format(", {} that could not be tried", counted(unread, "scene"));
+    if (unprovoked > 0)
+        words += fmt::format(", {} that stopped provoking", counted(unprovoked, "scene"));
+    return words;
+}
+
+} // namespace
+
+std::string timestamp_now() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(now));
+}
+
+void check_outputs(const OutputOptions& options) {
+    for (const std::string& file : {options.json, options.junit})
+        if (!file.empty() && !lies_in(file, options.out)) check_writable(file);
+}
+
+std::vector<std::string> stopped_provoking(const Report& report, const SceneResult& scene) {
+    if (!is_default_picture(report) || !is_bundled(scene.argument)) return {};
+    std::vector<std::vector<Cause>> fails_at;
+    std::vector<Comparison> comparisons;
+    for (const Technique& technique : all_techniques()) {
+        const auto cell =
+            std::find_if(scene.cells.begin(), scene.cells.end(),
+                         [&](const Cell& tried) { return tried.technique == technique.name; });
+        // Who was not tried or could not run may be the one that shows it.
+        if (cell == scene.cells.end() || !cell->error.empty()) return {};
+        fails_at.push_back(technique.fails_at);
+        comparisons.emplace_back().causes = cell->comparison.causes;
+    }
+    std::vector<Cause> provokes;
+    for (const std::string& name : scene.provokes)
+        if (const std::optional<Cause> cause = cause_named(name)) provokes.push_back(*cause);
+    std::vector<std::string> names;
+    for (const Cause cause : no_longer_provoked(provokes, fails_at, comparisons))
+        names.emplace_back(name_of(cause));
+    return names;
+}
+
+bool passes(const Report& report) {
+    return std::none_of(report.scenes.begin(), report.scenes.end(),
+                        [&](const SceneResult& scene) { return fails(scene, report.gate); });
+}
+
+int conclude(Console& console, const Report& report, const OutputOptions& options,
+             const std::string& started) {
+    if (!options.json.empty()) write_file(options.json, to_json(report));
+    if (!options.junit.empty()) write_file(options.junit, to_junit(report, started));
+    if (report.baseline)
+        for (const std::string& note : report.baseline->notes)
+            console.line("baseline: " + note);
+    conclude_reproducing(console, report);
+    if (console.on_github()) {
+        console.commands(to_workflow_commands(report));
+        append_step_summary(report);
+    }
+    console.always(fmt::format("{}; report in {}", outcome_words(report),
+                               (fs::path(options.out) / "index.html").string()));
+    return exit_code(report);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,31 @@
+// The end of a run, alike for all commands that judge one: files, console, exit code.
+#pragma once
+
+#include "compare/command/console.h"
+#include "compare/command/gate_options.h"
+#include "compare/report.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// Now as JUnit wants it: UTC, "2024-01-31T23:59:59".
+std::string timestamp_now();
+
+/// Throws Error where --json or --junit could not be written: before the work, not after.
+void check_outputs(const OutputOptions& options);
+
+/// Causes that a bundled scene declares and no technique shows any more. Only the scene's default
+/// picture, and all techniques, can tell: else none.
+std::vector<std::string> stopped_provoking(const Report& report, const SceneResult& scene);
+
+/// A scene or a gate that fails a run fails it, whatever else passes.
+bool passes(const Report& report);
+
+/// Writes --json and --junit; under GitHub Actions the lines that it shows as errors, and the step
+/// summary; says how to see again what failed, and where the report lies. Returns the exit code.
+int conclude(Console& console, const Report& report, const OutputOptions& options,
+             const std::string& started);
+
+} // namespace shadowproof

@@ -1,0 +1,29 @@
+// Text from files and people, made safe for where it is written: each place gives other characters
+// a meaning. Bytes that are not UTF-8 become U+FFFD in all of them but a shell's word.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace shadowproof {
+
+/// For HTML and XML, also between quotes. Control characters that XML forbids become U+FFFD.
+std::string escaped(std::string_view text);
+
+/// For one line of a terminal: control characters (C0, DEL, C1), line ends among them, become
+/// U+FFFD, so that a name can neither colour, move nor clear anything.
+std::string printable(std::string_view text);
+
+/// For a cell of a table in GitHub's Markdown: printable, and no character marks anything up.
+std::string for_markdown(std::string_view text);
+
+/// For the message of a GitHub workflow command (`::error ...::message`), which ends at a line end.
+std::string for_workflow(std::string_view message);
+/// For a property of one (`title=`), which ends at a comma or colon too.
+std::string for_workflow_property(std::string_view value);
+
+/// One word for a POSIX shell: as it stands where no character has a meaning there, else in single
+/// quotes.
+std::string shell_quoted(std::string_view word);
+
+} // namespace shadowproof

