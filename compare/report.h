@@ -138,8 +138,11 @@ public:
     /// Writes pictures and data of a scene, which may then be dropped, and packs its cause maps.
     /// threads 0: one per core.
     void add_pictures(SceneResult& scene, int threads = 0);
+    /// Where files are written until finish() renames them into place.
+    const std::filesystem::path& unfinished() const { return beside_; }
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
+    void finish(const std::string& results_json);
 
 private:
     std::filesystem::path folder_;

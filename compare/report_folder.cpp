@@ -68,9 +68,12 @@ void ReportFolder::add_pictures(SceneResult& scene, int threads) {
 }
 
 void ReportFolder::finish(const Report& report) {
+    finish(to_json(report));
+}
+
+void ReportFolder::finish(const std::string& results) {
     const auto lock = hold_unfinished();
     write_text(beside_.path() / "index.html", report_page());
-    const std::string results = to_json(report);
     write_text(beside_.path() / "results.json", results);
     write_text(beside_.path() / "results.js", results_script(results));
     check_replaceable(folder_);

@@ -1,15 +1,11 @@
 #include "compare/report.h"
-
-#include <nlohmann/json.hpp>
+#include "compare/results_file.h"
 
 namespace shadowproof {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Of the data beside the results: the viewer of one format does not read another's.
-constexpr int results_format = 2;
+using Json = ResultsJson;
 
 Json causes_of(const Comparison& comparison) {
     Json causes = Json::object();
@@ -99,7 +95,7 @@ Json scene_of(const Report& report, const SceneResult& scene) {
 } // namespace
 
 std::string to_json(const Report& report) {
-    Json json{{"schema", "shadowproof/results/1"},
+    Json json{{"schema", results_schema},
               {"format", results_format},
               {"version", report.version},
               {"gl",
@@ -125,7 +121,7 @@ std::string to_json(const Report& report) {
     for (const SceneResult& scene : report.scenes)
         json["scenes"].push_back(scene_of(report, scene));
     // A file name need not be UTF-8; what is not is shown as U+FFFD.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return results_text(json);
 }
 
 } // namespace shadowproof

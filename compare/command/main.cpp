@@ -26,6 +26,7 @@ constexpr const char* footer =
     "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
     "  shadowproof explain near_plane --pixel 212,340  why one pixel is what it is\n"
     "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
+    "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
     "\nExit codes:\n"
     "  0  every technique agrees with the truth, or fails as was predicted\n"
     "  1  a defect, an unexplained pixel, or a scene that stopped provoking its causes\n"
@@ -39,7 +40,7 @@ int run(int argc, char** argv) {
         return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
     });
     const std::vector<Work> works{add_verify(app), add_render(app), add_explain(app),
-                                  add_list(app)};
+                                  add_list(app),   add_report(app), add_merge(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;

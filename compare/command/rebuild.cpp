@@ -1,0 +1,133 @@
+#include "compare/command/rebuild.h"
+
+#include "compare/command/console.h"
+#include "compare/command/options.h"
+#include "compare/merge.h"
+#include "compare/results_check.h"
+#include "raster/technique.h"
+#include "scenes/catalog.h"
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace shadowproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Matrix whole_matrix() {
+    Matrix matrix;
+    for (const Technique& technique : all_techniques())
+        matrix.techniques.push_back({std::string(technique.name), technique.fails_at});
+    for (const BundledScene& scene : bundled_scenes()) matrix.scenes.emplace_back(scene.name);
+    return matrix;
+}
+
+/// The new report replaces the folder at `out` whole. Results that lie there themselves are in the
+/// new one; others below it would be lost.
+void refuse_to_lose(const fs::path& results, const fs::path& out) {
+    const fs::path file = fs::weakly_canonical(results.parent_path()) / results.filename();
+    const fs::path relative = file.lexically_relative(fs::weakly_canonical(out / "."));
+    if (relative.empty() || *relative.begin() == ".." || relative == "results.json") return;
+    throw Error(out.string(), fmt::format("holds {}, and would be replaced", results.string()),
+                "name another folder with --out");
+}
+
+/// Copies what the results name. The report is made all the same where some of it is damaged: the
+/// viewer looks for itself, and shows what is missing as missing.
+void take_over_all(const std::vector<ReportFile>& files, const fs::path& folder, Console& console) {
+    constexpr std::size_t most_lines = 12; // a whole folder that is missing is said once
+    std::size_t damaged = 0;
+    for (const ReportFile& file : files) {
+        console.progress("copying " + file.to);
+        const std::optional<std::string> damage = take_over(file, folder);
+        if (damage && ++damaged <= most_lines)
+            console.always(fmt::format("damaged: {} {}", file.from.string(), *damage));
+    }
+    if (damaged > most_lines)
+        console.always(fmt::format("damaged: {} more files", damaged - most_lines));
+    if (damaged > 0)
+        console.always(fmt::format("{} of {} pictures and data files are missing or damaged, and "
+                                   "the report shows them so",
+                                   grouped(damaged), grouped(files.size())));
+}
+
+struct Outcome {
+    std::size_t cells = 0;
+    std::size_t failing = 0;
+    std::size_t not_run = 0; ///< cells, of those failing
+    std::size_t unread = 0;  ///< scenes
+    std::size_t unprovoked = 0;
+};
+
+/// Names what fails.
+Outcome count_outcome(const ResultsJson& results, Console& console) {
+    Outcome outcome;
+    for (const ResultsJson& scene : results.at("scenes")) {
+        const std::string name = shown(scene.at("name"));
+        if (could_not_run(scene)) {
+            ++outcome.unread;
+            console.always(fmt::format("fails: {} could not be tried", name));
+            continue;
+        }
+        for (const ResultsJson& cell : scene.at("techniques")) {
+            ++outcome.cells;
+            if (cell.at("fails") != true) continue;
+            ++outcome.failing;
+            if (could_not_run(cell)) ++outcome.not_run;
+            console.always(fmt::format(
+                "fails: {} on {}: {}", shown(cell.at("name")), name,
+                could_not_run(cell) ? "could not run" : cell.at("verdict").get<std::string>()));
+        }
+        if (scene.at("no_longer_provoked").empty()) continue;
+        ++outcome.unprovoked;
+        console.always(fmt::format("fails: no technique shows {} of {} any more",
+                                   scene.at("no_longer_provoked").dump(), name));
+    }
+    return outcome;
+}
+
+int conclude(const ResultsJson& results, const std::string& out, Console& console) {
+    const Outcome outcome = count_outcome(results, console);
+    const bool passed = results.at("passed") == true;
+    std::string text = passed
+                           ? fmt::format("passed: {} cells", outcome.cells)
+                           : fmt::format("failed: {} of {} cells", outcome.failing, outcome.cells);
+    if (outcome.unread > 0)
+        text += fmt::format(", {} scenes that could not be tried", outcome.unread);
+    if (outcome.unprovoked > 0)
+        text += fmt::format(", {} scenes that stopped provoking", outcome.unprovoked);
+    console.always(fmt::format("{}; report in {}", text, (fs::path(out) / "index.html").string()));
+    if (outcome.unread + outcome.not_run > 0) return exit_could_not;
+    return passed ? exit_passed : exit_failed;
+}
+
+} // namespace
+
+void add_rebuild_flags(CLI::App& command, RebuildOptions& options) {
+    command.add_option("--out", options.out, "Folder of the report (report)")
+        ->type_name("DIR")
+        ->check(not_empty());
+    command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
+}
+
+int rebuild(const RebuildOptions& options) {
+    Console console(options.quiet);
+    std::vector<ResultsFile> runs;
+    for (const std::string& path : options.from) {
+        console.progress("reading " + path);
+        refuse_to_lose(runs.emplace_back(read_results(path)).path, options.out);
+    }
+    ReportFolder folder(options.out);
+    const Merged merged = merge(runs, whole_matrix());
+    take_over_all(merged.files, folder.unfinished(), console);
+    const std::string text = results_text(merged.results);
+    folder.finish(text);
+    if (!options.json.empty()) write_file(options.json, text);
+    return conclude(merged.results, options.out, console);
+}
+
+} // namespace shadowproof

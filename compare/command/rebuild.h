@@ -1,0 +1,25 @@
+// A report made again from the results and pictures of earlier runs, for report and merge.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+struct RebuildOptions {
+    std::vector<std::string> from; ///< report folders, or results.json files beside their pictures
+    std::string out = "report";
+    std::string json;
+    bool quiet = false;
+};
+
+/// --out and -q.
+void add_rebuild_flags(CLI::App& command, RebuildOptions& options);
+
+/// Joins the results, takes over their pictures and data, and writes the report; says which of
+/// them are missing or damaged. Returns the exit code that the results deserve. Throws Error where
+/// results are damaged or do not belong together.
+int rebuild(const RebuildOptions& options);
+
+} // namespace shadowproof
