@@ -21,7 +21,8 @@ std::uint64_t pixels_against(const Cell& cell, const Gate& gate, Cause cause) {
     const std::uint64_t all = cell.comparison.causes[index_of(cause)];
     if (cause == Cause::edge) return 0;
     if (cause == Cause::unexplained) return all;
-    if (gate.on == GateOn::differences) return cell.since ? cell.since->causes[index_of(cause)] : all;
+    if (gate.on == GateOn::differences)
+        return cell.since ? cell.since->causes[index_of(cause)] : all;
     const auto& excused = cell.excused;
     return std::find(excused.begin(), excused.end(), cause) == excused.end() ? all : 0;
 }
@@ -102,8 +103,8 @@ Allowance parse_allowance(const std::string& text) {
     const char* end = text.data() + text.size();
     const auto [parsed, error] = std::from_chars(begin, end, allowance.pixels.emplace());
     if (error != std::errc() || parsed != end)
-        throw std::invalid_argument(fmt::format(
-            "'{}' is no number of pixels; give {} or {}=12", text.substr(equals + 1), name, name));
+        throw std::invalid_argument(fmt::format("'{}' is no number of pixels; give {} or {}=12",
+                                                text.substr(equals + 1), name, name));
     return allowance;
 }
 

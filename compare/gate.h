@@ -39,7 +39,8 @@ using CausePixels = std::array<std::uint64_t, all_causes.size()>;
 /// neither do causes that the cell excuses; under GateOn::differences, where the cell was compared
 /// with a baseline, only pixels count that are new since or have changed cause. A cause that is
 /// allowed, and has no more such pixels than allowed, counts none; one that has more counts all.
-/// `unexplained` counts always: neither a baseline nor an allowance excuses what nobody understands.
+/// `unexplained` counts always: neither a baseline nor an allowance excuses what nobody
+/// understands.
 CausePixels pixels_that_fail(const Cell& cell, const Gate& gate);
 
 /// What would count without the gate's allowances, and does not with them.

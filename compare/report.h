@@ -139,7 +139,7 @@ public:
     /// threads 0: one per core.
     void add_pictures(SceneResult& scene, int threads = 0);
     /// Where files are written until finish() renames them into place.
-    const std::filesystem::path& unfinished() const { return beside_; }
+    const std::filesystem::path& unfinished() const { return beside_.path(); }
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
     void finish(const std::string& results_json);

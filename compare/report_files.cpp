@@ -1,6 +1,7 @@
 #include "compare/report_files.h"
 
 #include "compare/report.h"
+#include "compare/write_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>

@@ -52,9 +52,8 @@ Row row_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     row.pixels = grouped(cell.comparison.differing);
     row.causes = cause_counts(cell.comparison.causes);
     if (cell.comparison.ledger.unexplained > 0)
-        row.causes +=
-            fmt::format("{}counter unexplained at {}", row.causes.empty() ? "" : "; ",
-                        counted(cell.comparison.ledger.unexplained, "pixel"));
+        row.causes += fmt::format("{}counter unexplained at {}", row.causes.empty() ? "" : "; ",
+                                  counted(cell.comparison.ledger.unexplained, "pixel"));
     if (cell.since) row.causes += "; since the baseline: " + words_of(*cell.since);
     row.first = first_words(cell);
     return row;
@@ -66,8 +65,8 @@ Row scene_row(const SceneResult& scene) {
             .technique = "",
             .verdict = scene.error.empty() ? "provokes no more" : "could not run",
             .pixels = "",
-            .causes = for_markdown(scene.error.empty() ? no_longer_provoked_words(scene)
-                                                       : scene.error),
+            .causes =
+                for_markdown(scene.error.empty() ? no_longer_provoked_words(scene) : scene.error),
             .first = ""};
 }
 
@@ -124,9 +123,9 @@ std::string to_step_summary(const Report& report) {
     std::size_t left = rows.size();
     for (const Row& row : rows) {
         if (text.size() > largest_table) break;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.failed ? "❌" : "✅",
-                            row.scene, row.technique, row.verdict, row.pixels, row.causes,
-                            row.first);
+        text +=
+            fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.failed ? "❌" : "✅", row.scene,
+                        row.technique, row.verdict, row.pixels, row.causes, row.first);
         --left;
     }
     if (left > 0) text += fmt::format("\nand {} more in results.json\n", left);

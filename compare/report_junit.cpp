@@ -36,10 +36,10 @@ void add_case(Suite& suite, const std::string& scene, std::string_view name, dou
         suite.cases += "/>\n";
         return;
     }
-    suite.cases +=
-        fmt::format(">\n        <{0} type=\"{1}\" message=\"{2}\">{2}\n{3}</{0}>\n      </testcase>\n",
-                    outcome.element, outcome.type, escaped(outcome.message),
-                    escaped("reproduce: " + outcome.reproduce));
+    suite.cases += fmt::format(
+        ">\n        <{0} type=\"{1}\" message=\"{2}\">{2}\n{3}</{0}>\n      </testcase>\n",
+        outcome.element, outcome.type, escaped(outcome.message),
+        escaped("reproduce: " + outcome.reproduce));
 }
 
 Outcome outcome_of(const Report& report, const SceneResult& scene, const Cell& cell) {
@@ -75,8 +75,8 @@ std::string properties_of(const Report& report, const SceneResult& scene) {
         allowed += (allowed.empty() ? "" : ",") + words_of(allowance);
     std::string properties;
     const auto add = [&](std::string_view name, std::string_view value) {
-        properties += fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name,
-                                  escaped(value));
+        properties +=
+            fmt::format("        <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
     };
     add("file", scene.file);
     add("size", fmt::format("{}x{}", scene.width, scene.height));

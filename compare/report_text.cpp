@@ -58,7 +58,8 @@ std::string why_it_fails(const Cell& cell, const Gate& gate) {
                                                   : cause_counts(comparison.causes);
     const std::optional<FirstDifference>& first =
         cell.first_failing ? cell.first_failing : comparison.first;
-    if (first) words += fmt::format("; first ({},{}) {}", first->x, first->y, name_of(first->cause));
+    if (first)
+        words += fmt::format("; first ({},{}) {}", first->x, first->y, name_of(first->cause));
     if (comparison.ledger.unexplained > 0)
         words += fmt::format("; counter unexplained at {}, first ({},{})",
                              counted(comparison.ledger.unexplained, "pixel"),

@@ -35,7 +35,8 @@ std::optional<PixelChange> first_of(const Since& since);
 /// Both as Comparison::cause, of one size (asserted).
 Since changes_since(const Image<std::uint8_t>& was, const Image<std::uint8_t>& now);
 
-/// "3 new, 1 gone, 2 of another cause; new from (3,4) near_plane; ..."; "unchanged" where nothing is.
+/// "3 new, 1 gone, 2 of another cause; new from (3,4) near_plane; ..."; "unchanged" where nothing
+/// is.
 std::string words_of(const Since& since);
 
 } // namespace shadowproof

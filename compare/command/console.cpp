@@ -36,7 +36,8 @@ std::string colored(std::string_view text, std::string_view parameters) {
 /// "##[" anywhere; what comes from a file may do neither.
 std::string without_commands(std::string text) {
     const std::size_t first = text.find_first_not_of(" \t");
-    if (first != std::string::npos && text.compare(first, 2, "::") == 0) text.insert(first + 1, " ");
+    if (first != std::string::npos && text.compare(first, 2, "::") == 0)
+        text.insert(first + 1, " ");
     for (std::size_t at = text.find("##["); at != std::string::npos; at = text.find("##[", at))
         text.insert(at + 1, " ");
     return text;

@@ -27,7 +27,8 @@ void add_allowance(Gate& gate, const std::string& text) {
 GateOn parse_gate(const std::string& text) {
     if (text == "defects") return GateOn::defects;
     if (text == "differences") return GateOn::differences;
-    throw CLI::ValidationError("--gate", "'" + text + "' is not known; give defects or differences");
+    throw CLI::ValidationError("--gate",
+                               "'" + text + "' is not known; give defects or differences");
 }
 
 } // namespace

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 /// A file in the report's folder is written after the folder is.
 bool lies_in(const fs::path& file, const fs::path& folder) {
-    const fs::path relative =
-        fs::absolute(file).lexically_normal().lexically_relative(fs::absolute(folder / ".").lexically_normal());
+    const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(
+        fs::absolute(folder / ".").lexically_normal());
     return !relative.empty() && *relative.begin() != ".." && *relative.begin() != ".";
 }
 
@@ -126,8 +126,7 @@ int conclude(Console& console, const Report& report, const OutputOptions& option
     if (!options.json.empty()) write_file(options.json, to_json(report));
     if (!options.junit.empty()) write_file(options.junit, to_junit(report, started));
     if (report.baseline)
-        for (const std::string& note : report.baseline->notes)
-            console.line("baseline: " + note);
+        for (const std::string& note : report.baseline->notes) console.line("baseline: " + note);
     conclude_reproducing(console, report);
     if (console.on_github()) {
         console.commands(to_workflow_commands(report));

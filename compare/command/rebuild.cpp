@@ -4,6 +4,7 @@
 #include "compare/command/options.h"
 #include "compare/merge.h"
 #include "compare/results_check.h"
+#include "compare/write_file.h"
 #include "raster/technique.h"
 #include "scenes/catalog.h"
 #include "scenes/error.h"
