@@ -24,7 +24,7 @@ constexpr const char* footer =
     "\nExamples:\n"
     "  shadowproof verify                              every bundled scene, report in report/\n"
     "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
-    "  shadowproof explain near_plane --pixel 212,340  why one pixel is what it is\n"
+    "  shadowproof explain near_plane --pixel 229,103  why one pixel is what it is\n"
     "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
     "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
     "\nExit codes:\n"
@@ -53,14 +53,14 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const std::vector<CLI::App*> chosen = app.get_subcommands();
         const std::string_view first = argc > 1 ? argv[1] : "";
-        if (!chosen.empty())
-            complain(error.what()),
-                fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
-        else if (first.empty() || first.front() == '-')
-            fmt::print(stderr, "shadowproof: {}; there are {}\n", error.what(), offered);
-        else
-            fmt::print(stderr, "shadowproof: there is no command '{}'; there are {}\n", first,
-                       offered);
+        if (!chosen.empty()) {
+            complain(error.what());
+            fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
+        } else if (first.empty() || first.front() == '-') {
+            complain(fmt::format("{}; there are {}", error.what(), offered));
+        } else {
+            complain(fmt::format("there is no command '{}'; there are {}", first, offered));
+        }
         return exit_usage;
     }
     for (std::size_t i = 0; i < commands.size(); ++i)
