@@ -38,7 +38,6 @@ struct SceneResult {
     std::string name;
     std::string file;
     std::string argument; ///< what names the scene on the command line; empty: name
-    std::string folder;   ///< of its pictures in the report, unique in the run; empty: from name
     int width = 0;
     int height = 0;
     std::size_t triangles = 0;
@@ -108,7 +107,8 @@ std::string reproducing_command(const Report& report, const SceneResult& scene);
 /// "no technique shows near_plane any more, which the scene declares"
 std::string no_longer_provoked_words(const SceneResult& scene);
 
-/// The scene's folder in the report: its name in characters that every file system and URL takes.
+/// The scene's folder in the report: its name, unique in the run, in characters that every file
+/// system and URL takes.
 std::string folder_of(const SceneResult& scene);
 
 /// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause.

@@ -74,7 +74,7 @@ void run_all(const std::vector<std::function<void()>>& jobs, int threads) {
 } // namespace
 
 std::string folder_of(const SceneResult& scene) {
-    std::string folder = scene.folder.empty() ? scene.name : scene.folder;
+    std::string folder = scene.name;
     for (char& c : folder) {
         const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                            (c >= '0' && c <= '9') || c == '-' || c == '_';
