@@ -11,8 +11,10 @@ namespace shadowproof {
 namespace {
 
 /// By libpng's simplified interface (libpng manual, section V): `colormap` null for gray.
-void write(const std::filesystem::path& file, int width, int height, const void* bytes,
-           png_uint_32 format, const void* colormap, std::size_t colors) {
+/// Errors name `named`.
+void write(const std::filesystem::path& file, const std::filesystem::path& named, int width,
+           int height, const void* bytes, png_uint_32 format, const void* colormap,
+           std::size_t colors) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     image.width = static_cast<png_uint_32>(width);
@@ -24,20 +26,22 @@ void write(const std::filesystem::path& file, int width, int height, const void*
     if (png_image_write_to_file(&image, file.c_str(), 0, bytes, 0, colormap) != 0) return;
     const std::string reason = image.message;
     png_image_free(&image);
-    throw Error(file.string(), "the picture cannot be written (" + reason + ")",
+    throw Error(named.string(), "the picture cannot be written (" + reason + ")",
                 "see that its folder is writable and has room");
 }
 
 } // namespace
 
-void write_png(const std::filesystem::path& file, const Image<Visibility>& classes) {
-    write(file, classes.width, classes.height, classes.pixels.data(), PNG_FORMAT_GRAY, nullptr, 0);
+void write_png(const std::filesystem::path& file, const Image<Visibility>& classes,
+               const std::filesystem::path& named) {
+    write(file, named.empty() ? file : named, classes.width, classes.height, classes.pixels.data(),
+          PNG_FORMAT_GRAY, nullptr, 0);
 }
 
 void write_png(const std::filesystem::path& file, const PalettePicture& picture) {
     static_assert(sizeof(Rgb) == 3);
     assert(picture.palette.size() <= 256);
-    write(file, picture.indices.width, picture.indices.height, picture.indices.pixels.data(),
+    write(file, file, picture.indices.width, picture.indices.height, picture.indices.pixels.data(),
           PNG_FORMAT_RGB_COLORMAP, picture.palette.data(), picture.palette.size());
 }
 

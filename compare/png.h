@@ -21,8 +21,11 @@ struct PalettePicture {
     const Rgb& at(int x, int y) const { return palette[indices.at(x, y)]; }
 };
 
-/// The same bytes for the same picture. Throws Error naming the file.
-void write_png(const std::filesystem::path& file, const Image<Visibility>& classes); ///< 8-bit gray
+/// 8-bit gray. The same bytes for the same picture. Throws Error naming the file, or `named`: what
+/// its reader knows of, where `file` stands beside its place.
+void write_png(const std::filesystem::path& file, const Image<Visibility>& classes,
+               const std::filesystem::path& named = {});
+/// The same, with a palette of colours.
 void write_png(const std::filesystem::path& file, const PalettePicture& picture);
 
 } // namespace shadowproof

@@ -56,6 +56,7 @@ bool is_glb(std::span<const unsigned char> bytes) {
 } // namespace
 
 Chunks split_chunks(const Place& root, std::span<const unsigned char> bytes) {
+    if (bytes.empty()) root.refuse("is empty", "export the asset again, or check its download");
     if (!is_glb(bytes)) return {as_text(bytes), std::nullopt};
     const auto refuse = [&](const std::string& what) {
         root.refuse("GLB " + what, "export the asset again");

@@ -1,5 +1,9 @@
+#include "compare/blank.h"
 #include "compare/command/commands.h"
+#include "compare/command/console.h"
 #include "compare/command/drawing.h"
+#include "compare/escape.h"
+#include "compare/memory.h"
 #include "compare/pixel_record.h"
 #include "compare/write_file.h"
 #include "raster/render.h"
@@ -12,6 +16,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 
 namespace shadowproof {
@@ -30,14 +35,15 @@ struct ExplainOptions {
     TechniqueOptions technique;
     std::string json;
     std::string svg;
+    bool quiet = false;
 };
 
 std::string_view name_of(Crossing::Part part) {
     return part == Crossing::Part::light_cap ? "light cap" : "side";
 }
 
-const std::string& mesh_name(const Scene& scene, std::uint32_t triangle) {
-    return scene.meshes[mesh_of(scene, triangle)].name;
+std::string mesh_name(const Scene& scene, std::uint32_t triangle) {
+    return printable(scene.meshes[mesh_of(scene, triangle)].name);
 }
 
 std::string triangle_words(const Scene& scene, std::uint32_t triangle) {
@@ -63,15 +69,22 @@ PixelPosition parse_pixel(const std::string& text) {
 TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, const Tracer& tracer,
                      const GroundTruth& truth, const ShadowDepths& depths, const Plan& plan,
                      Gpu& gpu) {
+    const auto failed = [&](const std::string& why) {
+        TechniqueAtPixel at_pixel;
+        at_pixel.name = technique.name;
+        at_pixel.error = why;
+        return at_pixel;
+    };
     try {
         const Frame frame = render(technique, tracer.scene(), plan, gpu);
+        refuse_blank(technique.name, truth, frame);
         return technique_at(record, truth, depths, std::string(technique.name), frame,
                             classify(tracer, truth, depths, frame));
+    } catch (const std::bad_alloc&) {
+        return failed(std::string(technique.name) +
+                      ": there is not enough memory; try a smaller --size");
     } catch (const std::runtime_error& error) {
-        TechniqueAtPixel failed;
-        failed.name = technique.name;
-        failed.error = error.what();
-        return failed;
+        return failed(error.what());
     }
 }
 
@@ -126,7 +139,8 @@ std::string ray_text(const Scene& scene, const PixelRecord& record) {
                                record.ledger.surface)
                  : "  sees      background\n";
     const Light& light = chosen_light(scene);
-    text += fmt::format("  light     {} at {}\n", light.name, vector_words(light.position));
+    text +=
+        fmt::format("  light     {} at {}\n", printable(light.name), vector_words(light.position));
     text +=
         fmt::format("  truth     {} ({})\n", name_of(record.visibility), name_of(record.exactness));
     if (record.occluder != no_triangle)
@@ -169,21 +183,23 @@ std::string techniques_text(const PixelRecord& record) {
     std::string text = fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}\n", "technique",
                                    "predicted", "stored", "read back", "claim", "cause", "lost");
     for (const TechniqueAtPixel& technique : record.techniques) {
-        std::string line = technique.error.empty()
-                               ? fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}",
-                                             technique.name, technique.predicted, technique.stored,
-                                             technique.read_back, name_of(technique.claim),
-                                             cause_words(technique), lost_words(record, technique))
-                               : fmt::format("  {:<16}{}", technique.name, technique.error);
+        std::string line =
+            technique.error.empty()
+                ? fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}", technique.name,
+                              technique.predicted, technique.stored, technique.read_back,
+                              name_of(technique.claim), cause_words(technique),
+                              lost_words(record, technique))
+                : fmt::format("  {:<16}{}", technique.name, printable(technique.error));
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
 }
 
 std::string as_text(const Scene& scene, const PixelRecord& record) {
-    std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", scene.name, record.x, record.y,
-                                   scene.camera.width, scene.camera.height);
-    for (const std::string& note : scene.notes) text += fmt::format("  note      {}\n", note);
+    std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", printable(scene.name), record.x,
+                                   record.y, scene.camera.width, scene.camera.height);
+    for (const std::string& note : scene.notes)
+        text += fmt::format("  note      {}\n", printable(note));
     return text + ray_text(scene, record) + ledger_text(scene, record) + techniques_text(record);
 }
 
@@ -199,6 +215,9 @@ std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>
 }
 
 int explain(const ExplainOptions& options) {
+    for (const std::string& file : {options.json, options.svg})
+        if (!file.empty()) check_writable(file);
+    refuse_too_large(options.picture.size.width, options.picture.size.height, comparison_bytes(1));
     const Scene scene = load_scene(options.scene, options.picture.request());
     const Plan plan = make_plan(scene);
     const Tracer tracer(scene, options.picture.threads);
@@ -208,7 +227,9 @@ int explain(const ExplainOptions& options) {
     Gpu gpu(options.technique.platform);
     for (const Technique* technique : options.technique.chosen())
         record.techniques.push_back(ask(*technique, record, tracer, truth, depths, plan, gpu));
-    fmt::print("{}", as_text(scene, record));
+    if (!options.quiet) fmt::print("{}", as_text(scene, record));
+    for (const TechniqueAtPixel& technique : record.techniques)
+        if (options.quiet && !technique.error.empty()) complain(technique.error);
     const std::string json =
         to_json(scene, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!options.json.empty()) write_file(options.json, json + "\n");
@@ -254,6 +275,7 @@ Work add_explain(CLI::App& app) {
                      "Draw the pixel here: the first technique that differs, or the one chosen")
         ->type_name("FILE")
         ->check(not_empty());
+    command->add_flag("-q,--quiet", options->quiet, "No output but errors, and the files");
     command->final_callback([options] { check_inside(*options); });
     return [options] { return explain(*options); };
 }

@@ -94,13 +94,13 @@ Outcome count_outcome(const ResultsJson& results, Console& console) {
 int conclude(const ResultsJson& results, const std::string& out, Console& console) {
     const Outcome outcome = count_outcome(results, console);
     const bool passed = results.at("passed") == true;
-    std::string text = passed
-                           ? fmt::format("passed: {} cells", outcome.cells)
-                           : fmt::format("failed: {} of {} cells", outcome.failing, outcome.cells);
+    std::string text = passed ? "passed: " + counted(outcome.cells, "cell")
+                              : fmt::format("failed: {} of {}", grouped(outcome.failing),
+                                            counted(outcome.cells, "cell"));
     if (outcome.unread > 0)
-        text += fmt::format(", {} scenes that could not be tried", outcome.unread);
+        text += fmt::format(", {} that could not be tried", counted(outcome.unread, "scene"));
     if (outcome.unprovoked > 0)
-        text += fmt::format(", {} scenes that stopped provoking", outcome.unprovoked);
+        text += fmt::format(", {} that stopped provoking", counted(outcome.unprovoked, "scene"));
     console.always(fmt::format("{}; report in {}", text, (fs::path(out) / "index.html").string()));
     if (outcome.unread + outcome.not_run > 0) return exit_could_not;
     return passed ? exit_passed : exit_failed;

@@ -1,6 +1,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/truth_exr.h"
+#include "compare/memory.h"
 #include "compare/png.h"
 #include "compare/write_file.h"
 #include "scenes/catalog.h"
@@ -32,6 +33,8 @@ std::string extension_of(const std::string& file) {
 
 int render_truth(const RenderOptions& options) {
     Console console(options.quiet);
+    check_writable(options.output);
+    refuse_too_large(options.picture.size.width, options.picture.size.height, truth_bytes());
     const Scene scene = load_scene(options.scene, options.picture.request());
     for (const std::string& note : scene.notes) console.line("note: " + note);
     const GroundTruth truth = trace(Tracer(scene, options.picture.threads));
@@ -39,7 +42,7 @@ int render_truth(const RenderOptions& options) {
         write_truth_exr(scene, truth, options.output);
     } else {
         write_beside(options.output, [&](const std::filesystem::path& beside) {
-            write_png(beside, truth.visibility);
+            write_png(beside, truth.visibility, options.output);
         });
     }
     const TraceStatistics& traced = truth.statistics;

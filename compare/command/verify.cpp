@@ -1,9 +1,11 @@
 #include "compare/baseline.h"
+#include "compare/blank.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/gate_options.h"
 #include "compare/command/outcome.h"
 #include "compare/command/stopwatch.h"
+#include "compare/memory.h"
 #include "compare/report_data.h"
 #include "raster/render.h"
 #include "scenes/catalog.h"
@@ -43,16 +45,6 @@ std::vector<std::string> cause_names(const Names& causes) {
     return names;
 }
 
-/// A frame without a single surface, where the truth has some, proves nothing.
-void refuse_blank(const Technique& technique, const GroundTruth& truth, const Frame& frame) {
-    const bool has_surfaces = truth.statistics.lit + truth.statistics.shadowed > 0;
-    const bool blank = std::all_of(frame.triangle.pixels.begin(), frame.triangle.pixels.end(),
-                                   [](std::uint32_t id) { return id == no_triangle; });
-    if (has_surfaces && blank)
-        throw Error(std::string(technique.name), "blank render: no pixel shows a surface",
-                    "see what the driver says, or try another with --gl");
-}
-
 /// One scene while its techniques are tried in turn.
 struct Trial {
     const Scene& scene;
@@ -71,7 +63,7 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
     try {
         cell.frame = render(technique, trial.scene, trial.plan, gpu);
         cell.milliseconds = cell.frame.milliseconds;
-        refuse_blank(technique, trial.truth, cell.frame);
+        refuse_blank(technique.name, trial.truth, cell.frame);
         cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
         cell.excused = excused_causes(trial.scene, technique.fails_at, cell.comparison);
@@ -79,6 +71,10 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame, cell.comparison.cause);
         trial.report_milliseconds += stopwatch.milliseconds();
+    } catch (const std::bad_alloc&) {
+        cell.frame = {};
+        cell.comparison = {};
+        cell.error = cell.technique + ": there is not enough memory; try a smaller --size";
     } catch (const Error& error) {
         cell.error = error.what();
     }
@@ -96,7 +92,9 @@ ColumnWidths widths_of(const VerifyOptions& options, const std::string& scene) {
 }
 
 void describe(Console& console, const SceneResult& result) {
-    console.heading(result.name);
+    // Beside a name that is not the file's own: which of several files this is.
+    const bool renamed = std::filesystem::path(result.file).stem() != result.name;
+    console.heading(renamed ? fmt::format("{} ({})", result.name, result.file) : result.name);
     console.line(fmt::format("  {} triangles, {}x{}, light {}", grouped(result.triangles),
                              result.width, result.height, result.light));
     for (const std::string& note : result.notes) console.line("  note: " + note);
@@ -217,6 +215,11 @@ int verify(const VerifyOptions& options) {
     std::optional<ResultsFile> baseline;
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
     check_outputs(options.output);
+    refuse_too_large(options.scene.size.width, options.scene.size.height,
+                     comparison_bytes(options.technique.chosen().size()));
+    for (const Allowance& allowance : options.gate.gate.allow)
+        if (allowance.cause == Cause::edge)
+            console.line("note: --allow edge changes nothing: edge pixels never fail");
     ReportFolder folder(options.output.out);
     Gpu gpu(options.technique.platform);
     Report report = begin_report(options, gpu);

@@ -1,7 +1,7 @@
 // The gate as a build server meets it: allowances, baselines, GitHub's lines, JUnit, signals.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
 import { scratch, shadowproof } from './shadowproof.mjs';
@@ -25,6 +25,27 @@ test('a cause that is allowed passes the gate, one pixel more than allowed does 
   assert.equal(code('--allow', `near_plane=${differing - 1}`), 1);
   assert.equal(code('--allow', 'far_plane,edge'), 1);
   assert.deepEqual(resultsOf('report/results.json').allow, ['far_plane', 'edge']);
+});
+
+test('edges need no allowance, and who gives one is told', () => {
+  const note = /^note: --allow edge changes nothing/m;
+  assert.match(shadowproof([...zpass, '--allow', 'edge=5']).out, note);
+  assert.doesNotMatch(shadowproof([...zpass, '--allow', 'precision']).out, note);
+});
+
+test('two files of one stem have a name and a heading each', () => {
+  for (const folder of ['one', 'two']) {
+    mkdirSync(join(scratch, folder));
+    copyFileSync(new URL(`../../scenes/bundled/${folder === 'one' ? 'ordinary' : 'near_plane'}.gltf`,
+                         import.meta.url), join(scratch, folder, 'same.gltf'));
+  }
+  const run = shadowproof(['verify', 'one/same.gltf', 'two/same.gltf', '--technique', 'zfail',
+                           '--size', '16x16', '--out', 'stems']);
+  assert.equal(run.code, 0, run.out + run.err);
+  assert.match(run.out, /^same\n[^]*^same-2 \(two\/same\.gltf\)\n/m);
+  assert.match(run.out, /^zfail +same-2 /m);
+  assert.deepEqual(resultsOf('stems/results.json').scenes.map(({ name, file }) => [name, file]),
+                   [['same', 'one/same.gltf'], ['same-2', 'two/same.gltf']]);
 });
 
 test('what is allowed stands in the command that reproduces', () => {

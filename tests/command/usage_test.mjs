@@ -1,6 +1,7 @@
 // Exit codes and sentences: wrong usage is 2, what could not run is 3.
 import assert from 'node:assert/strict';
-import { mkdirSync, readdirSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { totalmem } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { scratch, shadowproof } from './shadowproof.mjs';
@@ -65,6 +66,66 @@ test('an output that cannot be written ends with 3, and nothing is left', () => 
     assert.match(run.err, /cannot be written/);
   }
   assert.deepEqual(readdirSync(scratch), before);
+});
+
+test('an output that cannot be written is refused by the name given, before any work', () => {
+  for (const [args, file] of [
+    [['render', 'ordinary', '-o', '/nonexistent/x.png'], '/nonexistent/x.png'],
+    [['render', 'ordinary', '-o', '/nonexistent/x.exr'], '/nonexistent/x.exr'],
+    [['explain', 'ordinary', '--pixel', '1,1', '--json', 'missing/p.json'], 'missing/p.json'],
+    [['explain', 'ordinary', '--pixel', '1,1', '--svg', 'missing/p.svg'], 'missing/p.svg']]) {
+    const run = shadowproof(args);
+    assert.equal(run.code, 3, run.err);
+    assert.ok(run.err.startsWith(`shadowproof: ${file}: cannot be written (`), run.err);
+    assert.doesNotMatch(run.err, /writing-/);
+    assert.equal(run.out, '');
+  }
+});
+
+test('an empty file is called empty', () => {
+  for (const name of ['empty.glb', 'empty.gltf']) {
+    writeFileSync(join(scratch, name), '');
+    const run = shadowproof(['verify', name, '--size', '8x8']);
+    assert.equal(run.code, 3);
+    assert.match(run.err, new RegExp(`${name.replace('.', '\\.')}: is empty; export`));
+  }
+});
+
+test('names from files reach the console without control characters', () => {
+  const name = 'a\x1b[31mred\x07\u009b2J.gltf';
+  copyFileSync(new URL('../../scenes/bundled/ordinary.gltf', import.meta.url), join(scratch, name));
+  const control = /[\x00-\x09\x0b-\x1f\x7f\u0080-\u009f]/;
+  for (const args of [['verify', name, '--technique', 'zfail', '--size', '8x8'],
+                      ['explain', name, '--pixel', '1,1', '--technique', 'zfail', '--size', '8x8'],
+                      ['verify', `${name}.missing`], ['render', name, '-o', `no\x1b/x.png`]]) {
+    const run = shadowproof(args);
+    assert.doesNotMatch(run.out + run.err, control);
+    assert.match(run.out + run.err, /\ufffd/);
+  }
+});
+
+test('quiet, explain writes its files and prints nothing', () => {
+  const run = shadowproof(['explain', 'ordinary', '--pixel', '1,1', '--technique', 'zfail',
+                           '--size', '8x8', '-q', '--json', 'quiet.json']);
+  assert.equal(run.code, 0, run.err);
+  assert.equal(run.out + run.err, '');
+  assert.equal(JSON.parse(readFileSync(join(scratch, 'quiet.json'), 'utf8')).x, 1);
+});
+
+test('a picture that cannot fit into memory is refused before any work', {
+  skip: totalmem() > 20e9 && 'this machine may have room for it',
+}, () => {
+  const run = shadowproof(['verify', '--size', '16384x16384'], { seconds: 20 });
+  assert.equal(run.code, 3, run.err);
+  assert.match(run.err, /^shadowproof: --size 16384x16384: needs at least [\d.]+ GB/);
+  assert.equal(run.out, '');
+});
+
+test('one is one: counts of one have no plural', () => {
+  const run = shadowproof(['verify', 'ordinary', '--technique', 'zfail', '--size', '8x8']);
+  assert.match(run.out, /^passed: 1 cell; /m);
+  const again = shadowproof(['report', '--from', 'report/results.json', '--out', 'again']);
+  assert.match(again.out, /^passed: 1 cell; /m);
 });
 
 test('a folder that is no report is not replaced', () => {

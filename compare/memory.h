@@ -1,0 +1,24 @@
+// A picture that cannot fit is refused before the work, not by the kernel in the middle of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace shadowproof {
+
+/// Bytes a pixel of the truth alone.
+std::size_t truth_bytes();
+/// Bytes a pixel of truth and shadow depths, of the technique that is being drawn, and of so many
+/// techniques that are kept with it.
+std::size_t comparison_bytes(std::size_t techniques_kept);
+
+/// Bytes that this process may have: of the machine, its control group (Linux cgroup 2) and its
+/// own limit (RLIMIT_AS), the least.
+std::uint64_t memory_there_is();
+
+/// Throws Error with what is needed and what there is, where a picture of `pixel_bytes` a pixel
+/// needs more than `there_is`.
+void refuse_too_large(int width, int height, std::size_t pixel_bytes,
+                      std::uint64_t there_is = memory_there_is());
+
+} // namespace shadowproof
