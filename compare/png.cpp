@@ -2,6 +2,7 @@
 
 #include "scenes/error.h"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <cassert>
@@ -43,6 +44,25 @@ void write_png(const std::filesystem::path& file, const PalettePicture& picture)
     assert(picture.palette.size() <= 256);
     write(file, file, picture.indices.width, picture.indices.height, picture.indices.pixels.data(),
           PNG_FORMAT_RGB_COLORMAP, picture.palette.data(), picture.palette.size());
+}
+
+std::optional<std::string> png_damage(const std::filesystem::path& file, std::uint64_t width,
+                                      std::uint64_t height) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_file(&image, file.c_str()) == 0)
+        return fmt::format("cannot be opened as a picture ({})", image.message);
+    if (image.width != width || image.height != height) {
+        png_image_free(&image);
+        return fmt::format("is {}x{}, but the results say {}x{}", image.width, image.height, width,
+                           height);
+    }
+    image.format = PNG_FORMAT_RGB;
+    std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+    // A warning is a damage too: a checksum that is wrong is one.
+    png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
+    if (image.warning_or_error == 0) return std::nullopt;
+    return fmt::format("is damaged ({})", image.message);
 }
 
 } // namespace shadowproof

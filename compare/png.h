@@ -8,6 +8,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace shadowproof {
@@ -27,5 +29,10 @@ void write_png(const std::filesystem::path& file, const Image<Visibility>& class
                const std::filesystem::path& named = {});
 /// The same, with a palette of colours.
 void write_png(const std::filesystem::path& file, const PalettePicture& picture);
+
+/// What is wrong with a PNG file that should be of this size, none where nothing is. Every pixel is
+/// decoded: a picture cut short still has its size in its header.
+std::optional<std::string> png_damage(const std::filesystem::path& file, std::uint64_t width,
+                                      std::uint64_t height);
 
 } // namespace shadowproof

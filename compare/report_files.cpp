@@ -1,14 +1,11 @@
 #include "compare/report_files.h"
 
+#include "compare/png.h"
 #include "compare/report.h"
 #include "compare/write_file.h"
 
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-
 #include <fstream>
 #include <iterator>
-#include <vector>
 
 namespace shadowproof {
 
@@ -17,23 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view script_end = "});"; ///< as compare/report_data.cpp writes it
-
-/// Every pixel is decoded: a picture cut short still has its size in its header.
-std::optional<std::string> picture_damage(const ReportFile& file) {
-    const auto input = OIIO::ImageInput::open(file.from.string());
-    if (!input) return "cannot be opened as a picture (" + OIIO::geterror() + ")";
-    const OIIO::ImageSpec& spec = input->spec();
-    const auto width = static_cast<std::uint64_t>(spec.width);
-    const auto height = static_cast<std::uint64_t>(spec.height);
-    if (width != file.width || height != file.height)
-        return fmt::format("is {}x{}, but the results say {}x{}", width, height, file.width,
-                           file.height);
-    std::vector<std::uint8_t> pixels(spec.image_pixels() *
-                                     static_cast<std::size_t>(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, pixels.data()))
-        return "is damaged (" + input->geterror() + ")";
-    return std::nullopt;
-}
 
 std::string bytes_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -59,7 +39,7 @@ std::optional<std::string> take_over(const ReportFile& file, const fs::path& fol
     std::string bytes = bytes_of(file.from);
     if (file.opening.empty()) {
         write_file(to, bytes);
-        return picture_damage(file);
+        return png_damage(to, file.width, file.height);
     }
     const std::optional<std::string> damage = script_damage(file, bytes);
     if (!damage) bytes.replace(0, file.opening.size(), file.new_opening);
