@@ -73,7 +73,7 @@ struct Report {
     std::optional<Baseline> baseline;
     std::vector<SceneResult> scenes;
     bool passed = false;
-    double milliseconds = 0;        ///< the whole run until the results are written
+    double milliseconds = 0;        ///< from the start of the process until the results are written
     double report_milliseconds = 0; ///< of them, ledgers, pictures and data of the report
 };
 

@@ -16,4 +16,8 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
+/// Since this process was started, loading its libraries included: what a person has waited. Linux
+/// notes the start in clock ticks since boot (proc(5), field 22), so to within 10 ms.
+double milliseconds_since_start_of_process();
+
 } // namespace shadowproof

@@ -208,7 +208,6 @@ Report begin_report(const VerifyOptions& options, const Gpu& gpu) {
 }
 
 int verify(const VerifyOptions& options) {
-    const Stopwatch stopwatch;
     const std::string started = timestamp_now();
     Console console(options.output.quiet);
     // What cannot be read or written is refused before the work is done, not after.
@@ -251,7 +250,7 @@ int verify(const VerifyOptions& options) {
         report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
                                    notes_on(*baseline, report)};
     report.passed = passes(report);
-    report.milliseconds = stopwatch.milliseconds();
+    report.milliseconds = milliseconds_since_start_of_process();
     folder.finish(report);
     return conclude(console, report, options.output, started);
 }
