@@ -1,8 +1,9 @@
 // The viewer's own scripts, without a browser.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
 
-const folder = join(import.meta.dirname, '../../compare/viewer');
+const folder = fileURLToPath(new URL('../../compare/viewer', import.meta.url));
 
 export const source = (name) => readFileSync(join(folder, name), 'utf8');
 
