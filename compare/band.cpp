@@ -1,5 +1,7 @@
 #include "compare/band.h"
 
+#include "reference/tally.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -88,8 +90,9 @@ Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius
     if (radius.surface > 0) add(radius.surface);
     if (radius.nearest > radius.surface) add(radius.nearest);
     const double reach = std::max(radius.surface, radius.nearest);
-    around.corners = {ray(-reach, -reach), ray(reach, -reach), ray(-reach, reach),
-                      ray(reach, reach)};
+    around.reach = reach;
+    around.corners = {ray(-reach, -reach), ray(reach, -reach), ray(reach, reach),
+                      ray(-reach, reach)};
     return around;
 }
 
@@ -177,10 +180,10 @@ struct DepthRange {
 /// much, where a face is steep.
 class BandFinder {
 public:
-    BandFinder(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-               const Neighbourhood& around, std::span<const RayTruth> truth)
-        : tracer_(tracer), scene_(tracer.scene()), frame_(frame), far_(far), shown_(shown),
-          around_(around) {
+    BandFinder(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame, double far,
+               std::uint32_t shown, const Neighbourhood& around, std::span<const RayTruth> truth)
+        : tracer_(tracer), volumes_(volumes), scene_(tracer.scene()), frame_(frame), far_(far),
+          shown_(shown), around_(around) {
         shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
         may_cover_ =
             shown != no_triangle && may_cover(scene_, shown, around.rays.front(), spread(around));
@@ -189,29 +192,35 @@ public:
             if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
                 in_front.push_back(t.triangle);
         may_gape_ = may_gape(scene_, in_front);
+        starts_ = starts();
     }
 
     /// Appends what the counter may read if the pixel is covered as sample i is: nothing where the
     /// shown surface cannot be seen there.
-    void collect(std::size_t i, const RayTruth& truth, const NearbyVolumes& volumes,
-                 std::vector<Reading>& readings) {
+    void collect(std::size_t i, const RayTruth& truth, std::vector<Reading>& readings) {
         bool moved = false;
-        const std::optional<double> depth = shown_depth(truth, around_.rays[i], moved);
+        const glm::dvec3& direction = around_.rays[i];
+        const std::optional<double> depth = shown_depth(truth, direction, moved);
         if (!depth) return;
         shown_range_.nominal = *depth;
-        collect(ray_ledger(tracer_, volumes, around_.rays[i]), around_.rays[i], moved, readings);
+        const std::int64_t ideal = ideal_depth(direction);
+        volumes_.counted.crossings(direction, crossings_);
+        for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);
     }
 
 private:
     const Tracer& tracer_;
+    const PixelVolumes& volumes_;
     const Scene& scene_;
     const Frame& frame_;
     double far_;
     std::uint32_t shown_;
     const Neighbourhood& around_;
     DepthRange shown_range_;
-    bool may_cover_ = false; ///< the shown triangle may cover the pixel's centre
-    bool may_gape_ = false;  ///< what is in front of it may let it be seen through a gap
+    bool may_cover_ = false;           ///< the shown triangle may cover the pixel's centre
+    bool may_gape_ = false;            ///< what is in front of it may let it be seen through a gap
+    std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
+    std::vector<Crossing> crossings_;  ///< of the sample at hand
 
     bool certainly_in_front(std::uint32_t triangle) const {
         return surface_range(triangle).upper < shown_range_.lower;
@@ -268,63 +277,172 @@ private:
         return {far_, far_ - q, far_ + q};
     }
 
-    void collect(const RayLedger& ledger, const glm::dvec3& direction, bool moved,
-                 std::vector<Reading>& readings) const {
-        std::int64_t nominal = depth_at(ledger, scene_.camera.near);
-        std::int64_t certain = nominal; // what is in front wherever depths come out
-        std::int64_t least = 0;         // what further faces, in front or not, may add
-        std::int64_t most = 0;
-        for (const Crossing& crossing : ledger.crossings) {
-            if (!counts(crossing)) continue;
-            if (crossing.depth < shown_range_.nominal) nominal += crossing.change;
-            const DepthRange range = face_range(crossing, direction);
-            if (range.lower > shown_range_.upper) continue;
-            if (range.upper < shown_range_.lower)
-                certain += crossing.change;
-            else
-                (crossing.change < 0 ? least : most) += crossing.change;
-        }
-        // Where counting begins is a plane that clips, and its depth is rounded as any.
-        const std::array<std::int64_t, 3> missed{subtracted(ledger, 0), subtracted(ledger, -1),
-                                                 subtracted(ledger, 1)};
-        for (const std::int64_t s : missed) {
-            const bool clipped_otherwise = s != missed[0];
-            readings.push_back({nominal - s, nominal, ledger.at_eye, moved || clipped_otherwise});
-            for (std::int64_t ideal = certain + least; ideal <= certain + most; ++ideal)
-                if (ideal != nominal) readings.push_back({ideal - s, ideal, ledger.at_eye, true});
-        }
+    /// A light cap covers what its own surface covers, at the same depth bit for bit: it is in
+    /// front of the visible surface only where that surface is culled.
+    bool is_never_in_front(const Crossing& crossing) const {
+        if (crossing.part != Crossing::Part::light_cap) return false;
+        if (crossing.triangle == shown_) return true;
+        // What fills a hole is no surface.
+        return crossing.triangle < scene_.triangles.size() &&
+               sides_of(tracer_, crossing.triangle).visible;
     }
 
-    /// Whether a face beyond the near plane can be in front of the visible surface. A light cap
-    /// covers what its own surface covers, at the same depth bit for bit: it is in front only where
-    /// that surface is culled.
-    bool counts(const Crossing& crossing) const {
-        if (crossing.depth < scene_.camera.near) return false;
-        return crossing.is_side() ||
-               (crossing.triangle != shown_ && !sides_of(tracer_, crossing.triangle).visible);
-    }
-
-    std::int64_t depth_at(const RayLedger& ledger, double t) const {
-        std::int64_t s = ledger.at_eye;
-        for (const Crossing& crossing : ledger.crossings)
-            if (crossing.depth < t) s += crossing.change;
+    /// Shadow depth at the shown surface, as the casters have it.
+    std::int64_t ideal_depth(const glm::dvec3& direction) {
+        RegionLedger& ledger = volumes_.ideal != nullptr ? *volumes_.ideal : volumes_.counted;
+        ledger.crossings(direction, crossings_);
+        std::int64_t s = volumes_.ideal_at_eye;
+        for (const Crossing& crossing : crossings_)
+            if (crossing.depth < shown_range_.nominal && !is_never_in_front(crossing))
+                s += crossing.change;
         return s;
     }
 
-    /// What the technique cannot see: the shadow depth where its counting begins, that plane moved
-    /// by -1, 0 or 1 times its depth's freedom.
-    std::int64_t subtracted(const RayLedger& ledger, int move) const {
+    /// A clipping plane's depth, moved by -1, 0 or 1 times that depth's freedom: it is rounded as
+    /// any.
+    double clip_depth(double depth, int move) const {
         const Camera& camera = scene_.camera;
+        return depth + move * depth_freedom(scene_, frame_.depth_model,
+                                            camera.eye + depth * camera.forward);
+    }
+
+    std::int32_t depth_at_near(const std::vector<Crossing>& crossings, int move) const {
+        const double near = clip_depth(scene_.camera.near, move);
+        std::int32_t s = volumes_.counted_at_eye;
+        for (const Crossing& crossing : crossings)
+            if (crossing.depth < near) s += crossing.change;
+        return s;
+    }
+
+    /// The near plane's own count is drawn, too, and may be that of any point of the
+    /// neighbourhood.
+    std::vector<std::int32_t> starts() {
         const Counting& counting = frame_.counting;
-        const auto plane = [&](double depth) {
-            const glm::dvec3 point = camera.eye + depth * camera.forward;
-            return depth + move * depth_freedom(scene_, frame_.depth_model, point);
+        if (counting.start != Counting::Start::near_plane)
+            return {start_of(counting, volumes_.counted_at_eye, 0)};
+        std::vector<std::int32_t> all;
+        for (const glm::dvec3& direction : around_.rays) {
+            volumes_.counted.crossings(direction, crossings_);
+            for (const int move : {0, -1, 1}) {
+                const std::int32_t start = depth_at_near(crossings_, move);
+                if (std::find(all.begin(), all.end(), start) == all.end()) all.push_back(start);
+            }
+        }
+        return all;
+    }
+
+    /// A face that may be counted at the sample, and whether it is.
+    struct Candidate {
+        Crossing crossing;
+        bool nominally = false;
+        bool certain = false; ///< wherever depths come out
+    };
+
+    /// Faces that are drawn, neither clipped nor on the wrong side of the surface for certain.
+    std::vector<Candidate> candidates(const glm::dvec3& direction, int move) const {
+        const Counting& counting = frame_.counting;
+        const bool pass = counting.test == Counting::Test::depth_pass;
+        const bool clips_far = frame_.depth_model.projection == DepthModel::Projection::finite &&
+                               !counting.depth_clamp;
+        const double near = clip_depth(scene_.camera.near, move);
+        const double far = clips_far ? clip_depth(far_, move) : infinity;
+        std::vector<Candidate> found;
+        for (const Crossing& crossing : crossings_) {
+            if (crossing.part == Crossing::Part::light_cap && !counting.light_cap) continue;
+            if (crossing.part == Crossing::Part::dark_cap && !counting.dark_cap) continue;
+            if (!counting.depth_clamp && crossing.depth < near) continue;
+            if (!pass && crossing.depth >= far) continue;
+            const bool behind = is_never_in_front(crossing);
+            const DepthRange range = face_range(crossing, direction);
+            const bool maybe_front = !behind && range.lower <= shown_range_.upper;
+            const bool maybe_behind = behind || range.upper >= shown_range_.lower;
+            if (!(pass ? maybe_front : maybe_behind)) continue;
+            const bool in_front = !behind && crossing.depth < shown_range_.nominal;
+            found.push_back({crossing, in_front == pass, !(maybe_front && maybe_behind)});
+        }
+        return found;
+    }
+
+    std::int64_t dark_caps() const {
+        if (tally_of_dark_caps(frame_.counting, frame_.depth_model) != Tally::counted) return 0;
+        std::int64_t s = volumes_.counted_at_eye;
+        for (const Crossing& crossing : crossings_) s += crossing.change;
+        return s;
+    }
+
+    /// Readings with the clipping planes moved.
+    void collect_clipped(const glm::dvec3& direction, int move, std::int64_t ideal, bool moved,
+                         std::vector<Reading>& readings) const {
+        const std::vector<Candidate> faces = candidates(direction, move);
+        const std::int64_t last = dark_caps();
+        const std::int32_t near = depth_at_near(crossings_, 0);
+        const std::int32_t start = start_of(frame_.counting, volumes_.counted_at_eye, near);
+        // A reading off the nominal one by faces in front or behind moves the ideal one with it.
+        const std::int64_t nominal = nominal_count(faces, start, last);
+        const auto add = [&](std::int64_t count, bool shifted) {
+            readings.push_back({count, shifted ? ideal + count - nominal : ideal,
+                                volumes_.ideal_at_eye, moved || move != 0 || shifted});
         };
-        const bool finite = frame_.depth_model.projection == DepthModel::Projection::finite;
-        if (counting.test == Counting::Test::depth_pass)
-            return counting.depth_clamp ? ledger.at_eye : depth_at(ledger, plane(camera.near));
-        if (finite && !counting.depth_clamp) return depth_at(ledger, plane(far_));
-        return counting.dark_cap ? 0 : ledger.at_infinity;
+        if (move == 0) add(nominal, false);
+        for (const std::int32_t other : starts_)
+            for (const std::int64_t count : possible_counts(faces, other, last))
+                add(count, count != nominal);
+    }
+
+    std::int64_t nominal_count(const std::vector<Candidate>& faces, std::int64_t start,
+                               std::int64_t last) const {
+        std::vector<Crossing> drawn;
+        for (const Candidate& face : faces)
+            if (face.nominally) drawn.push_back(face.crossing);
+        return counted_in_order(drawn, start, last);
+    }
+
+    /// All values that the counter may have with uncertain faces counted or not.
+    std::vector<std::int64_t> possible_counts(const std::vector<Candidate>& faces,
+                                              std::int64_t start, std::int64_t last) const {
+        const int sign = weight(frame_.counting);
+        std::vector<Crossing> drawn;
+        std::vector<Crossing> uncertain;
+        for (const Candidate& face : faces) {
+            if (!face.certain)
+                uncertain.push_back(face.crossing);
+            else if (face.nominally)
+                drawn.push_back(face.crossing);
+        }
+        std::vector<std::int64_t> counts;
+        if (frame_.counting.operation == Counting::Operation::saturate) {
+            uncertain.resize(std::min(uncertain.size(), most_subsets));
+            for (std::size_t subset = 0; subset < std::size_t{1} << uncertain.size(); ++subset) {
+                std::vector<Crossing> with = drawn;
+                for (std::size_t i = 0; i < uncertain.size(); ++i)
+                    if ((subset >> i & 1U) != 0) with.push_back(uncertain[i]);
+                counts.push_back(counted_in_order(with, start, last));
+            }
+            return counts;
+        }
+        const std::int64_t certain = counted_in_order(drawn, start, last);
+        std::int64_t least = certain;
+        std::int64_t most = certain;
+        for (const Crossing& crossing : uncertain)
+            (sign * crossing.change < 0 ? least : most) += sign * crossing.change;
+        for (std::int64_t count = least; count <= most; ++count) counts.push_back(count);
+        return counts;
+    }
+
+    /// Where every face's place in the order of drawing matters, their subsets are tried one by
+    /// one: of so many faces at most, the nearest to the eye.
+    static constexpr std::size_t most_subsets = 8;
+
+    std::int64_t counted_in_order(std::vector<Crossing> drawn, std::int64_t start,
+                                  std::int64_t last) const {
+        const Counting& counting = frame_.counting;
+        if (counting.operation == Counting::Operation::saturate)
+            std::stable_sort(drawn.begin(), drawn.end(), drawn_before);
+        std::int64_t count = start;
+        for (const Crossing& crossing : drawn)
+            count = stepped(count, weight(counting) * crossing.change, counting);
+        for (std::int64_t i = 0; i < last; ++i) count = stepped(count, 1, counting);
+        return count;
     }
 };
 
@@ -342,15 +460,15 @@ void sort_out(std::vector<Reading>& readings) {
 
 } // namespace
 
-PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    const Neighbourhood& around, std::span<const RayTruth> truth,
+PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
+                    double far, std::uint32_t shown, const Neighbourhood& around,
+                    std::span<const RayTruth> truth,
                     const std::function<bool(const Reading&)>& matches) {
-    const NearbyVolumes volumes = volumes_near(tracer, around.rays.front(), spread(around));
-    BandFinder finder(tracer, frame, far, shown, around, truth);
+    BandFinder finder(tracer, volumes, frame, far, shown, around, truth);
     PixelBand band;
     for (std::size_t i = 0; i < around.rays.size(); ++i) {
         std::vector<Reading> readings;
-        finder.collect(i, truth[i], volumes, readings);
+        finder.collect(i, truth[i], readings);
         const bool found = std::any_of(readings.begin(), readings.end(), matches);
         band.readings.insert(band.readings.end(), readings.begin(), readings.end());
         if (found) break;

@@ -2,7 +2,7 @@
 // snaps vertices to a grid and rounds depths. Derived from both; nothing here is tuned.
 #pragma once
 
-#include "reference/ledger.h"
+#include "reference/prediction.h"
 #include "reference/trace.h"
 #include "scenes/frame.h"
 
@@ -32,7 +32,9 @@ struct BandRadius {
 /// Rays through the points at which a pixel's neighbourhood is looked at.
 struct Neighbourhood {
     std::vector<glm::dvec3> rays;        ///< the pixel's centre first, then a grid to each radius
-    std::array<glm::dvec3, 4> corners{}; ///< of the larger grid: what is linear is extreme there
+    double reach = 0;                    ///< the larger radius, pixels
+    std::array<glm::dvec3, 4> corners{}; ///< of the larger grid, around it: what is linear is
+                                         ///< extreme there
 };
 Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius);
 
@@ -49,10 +51,19 @@ struct PixelBand {
     std::vector<Reading> readings; ///< without repetition; none where it cannot be seen here
 };
 
+/// Where a pixel's counters come from.
+struct PixelVolumes {
+    RegionLedger& counted;           ///< the volumes that the technique counts, around the pixel
+    RegionLedger* ideal = nullptr;   ///< those of the casters, where they are not the same
+    std::int32_t counted_at_eye = 0; ///< shadow depths of the eye
+    std::int32_t ideal_at_eye = 0;
+};
+
 /// `truth`: what trace_rays finds along the neighbourhood's rays. Looks no further than to the
 /// first ray that has a reading for which `matches` holds.
-PixelBand find_band(const Tracer& tracer, const Frame& frame, double far, std::uint32_t shown,
-                    const Neighbourhood& around, std::span<const RayTruth> truth,
+PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
+                    double far, std::uint32_t shown, const Neighbourhood& around,
+                    std::span<const RayTruth> truth,
                     const std::function<bool(const Reading&)>& matches);
 
 } // namespace shadowproof

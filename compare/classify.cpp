@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -23,16 +24,16 @@ struct PixelPlace {
 /// What is asked at each pixel, and how it was counted.
 struct Context {
     const Tracer& tracer;
+    const Silhouette& silhouette;
     const GroundTruth& truth;
     const ShadowDepths& depths;
     const Frame& frame;
+    const Prediction& prediction;
 
     std::int64_t stored(std::int64_t count) const {
-        return count & ((std::int64_t{1} << frame.counting.stencil_bits) - 1);
+        return shadowproof::stored(count, frame.counting);
     }
-    std::int64_t predicted(PixelPlace p) const {
-        return predicted_count(depths, truth, p.x, p.y, frame.counting, frame.depth_model);
-    }
+    std::int64_t predicted(PixelPlace p) const { return prediction.counts().at(p.x, p.y); }
     std::int64_t read_back(PixelPlace p) const { return frame.stencil.at(p.x, p.y); }
     bool surface_as_true(PixelPlace p) const {
         return frame.triangle.at(p.x, p.y) == truth.triangle.at(p.x, p.y);
@@ -49,6 +50,20 @@ Visibility claim_of(const Context& context, std::int64_t count, std::uint32_t tr
     return lit ? Visibility::lit : Visibility::shadowed;
 }
 
+/// Where faces in front of the surface are counted, and the counter does not begin with what is
+/// lost of them.
+std::optional<Cause> cause_at_near_plane(const Counting& counting, const Reading& reading) {
+    switch (counting.start) {
+    case Counting::Start::zero:
+        return reading.at_eye != 0 ? Cause::eye_inside : Cause::near_plane;
+    case Counting::Start::eye:
+        return Cause::near_plane;
+    case Counting::Start::near_plane:
+        break;
+    }
+    return std::nullopt;
+}
+
 /// Why a technique that counted `reading` shows another claim than the truth, where its surface is
 /// the true one. Nothing where the algorithm itself would be right.
 std::optional<Cause> algorithmic_cause(const Context& context, const Reading& reading,
@@ -60,10 +75,13 @@ std::optional<Cause> algorithmic_cause(const Context& context, const Reading& re
     // The counter tells what it ought to, and is still wrong: the mesh does not enclose a volume.
     if (counted_lit == ideally_lit && reading.count == reading.ideal)
         return truly_lit ? std::nullopt : std::optional(Cause::open_mesh);
-    if (counted_lit && reading.count != 0) return Cause::counter;
     const Counting& counting = context.frame.counting;
-    if (counting.test == Counting::Test::depth_pass)
-        return reading.at_eye != 0 ? Cause::eye_inside : Cause::near_plane;
+    if (counting.operation == Counting::Operation::saturate) return Cause::counter;
+    if (counted_lit && reading.count != 0)
+        return counting.operation == Counting::Operation::invert ? Cause::parity : Cause::counter;
+    if (std::isfinite(counting.extrusion)) return Cause::extrusion;
+    if (!counting.light_cap) return Cause::cap;
+    if (counting.test == Counting::Test::depth_pass) return cause_at_near_plane(counting, reading);
     const bool finite = context.frame.depth_model.projection == DepthModel::Projection::finite;
     if (finite && !counting.depth_clamp) return Cause::far_plane;
     if (!counting.dark_cap) return Cause::cap;
@@ -148,8 +166,12 @@ Finding look_around(const Context& context, PixelPlace p, const PixelBand& band,
     return finding;
 }
 
-/// The pixel's freedom to each side.
-BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& direction) {
+/// How closely pixels are looked at.
+enum class Scrutiny : std::uint8_t { band, centre };
+
+/// The pixel's freedom to each side. `ledger` must hold the ray.
+BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& direction,
+                       RegionLedger& ledger, std::vector<Crossing>& crossings) {
     const Scene& scene = context.tracer.scene();
     const auto at = [&](double depth) {
         return lateral_freedom(scene, context.frame.depth_model,
@@ -157,65 +179,129 @@ BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& d
     };
     const double surface = std::min(context.truth.depth.at(p.x, p.y), context.depths.far);
     double nearest = surface;
-    if (context.frame.counting.test == Counting::Test::depth_pass)
-        for (const Crossing& crossing : ray_ledger(context.tracer, direction).crossings)
+    if (context.frame.counting.test == Counting::Test::depth_pass) {
+        ledger.crossings(direction, crossings);
+        for (const Crossing& crossing : crossings)
             if (crossing.depth >= scene.camera.near) nearest = std::min(nearest, crossing.depth);
+    }
     return {at(surface), at(nearest)};
 }
 
-/// How closely pixels are looked at.
-enum class Scrutiny : std::uint8_t { band, centre };
+/// Pixels of one region of the picture, looked at together: what is gathered for the region serves
+/// all of them.
+struct Region {
+    std::span<const PixelPlace> places;
+    std::span<Finding> findings;
+};
 
-std::vector<Neighbourhood> neighbourhoods(const Context& context,
-                                          std::span<const PixelPlace> places, Scrutiny scrutiny) {
+constexpr int region_side = 16; ///< pixels
+
+std::vector<Neighbourhood> neighbourhoods(const Context& context, const Region& region,
+                                          Scrutiny scrutiny) {
     const Camera& camera = context.tracer.scene().camera;
-    std::vector<Neighbourhood> around(places.size());
-    parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
-        const PixelPlace p = places[static_cast<std::size_t>(i)];
+    const int left = region.places.front().x / region_side * region_side;
+    const int top = region.places.front().y / region_side * region_side;
+    RegionLedger ledger = context.prediction.volumes().ledger(
+        corner_rays(camera, left, top, left + region_side, top + region_side));
+    std::vector<Crossing> crossings;
+    std::vector<Neighbourhood> around;
+    for (const PixelPlace& p : region.places) {
         const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
-        const BandRadius radius =
-            scrutiny == Scrutiny::band ? band_radius(context, p, centre) : BandRadius{};
-        around[static_cast<std::size_t>(i)] = neighbourhood(camera, p.x, p.y, radius);
-    });
+        const BandRadius radius = scrutiny == Scrutiny::band
+                                      ? band_radius(context, p, centre, ledger, crossings)
+                                      : BandRadius{};
+        around.push_back(neighbourhood(camera, p.x, p.y, radius));
+    }
     return around;
+}
+
+/// The rays of a region's pixels and of all that they may be moved to.
+std::array<glm::dvec3, 4> corners_around(const Camera& camera, const Region& region,
+                                         const std::vector<Neighbourhood>& around) {
+    const int left = region.places.front().x / region_side * region_side;
+    const int top = region.places.front().y / region_side * region_side;
+    double reach = 0;
+    for (const Neighbourhood& each : around) reach = std::max(reach, each.reach);
+    return corner_rays(camera, left - reach, top - reach, left + region_side + reach,
+                       top + region_side + reach);
+}
+
+/// `truths`: of the rays around the region's pixels, one pixel after the other.
+void look_around_region(const Context& context, const Region& region,
+                        const std::vector<Neighbourhood>& around,
+                        std::span<const RayTruth> truths) {
+    const std::array<glm::dvec3, 4> corners =
+        corners_around(context.tracer.scene().camera, region, around);
+    const Volumes& volumes = context.prediction.volumes();
+    const RegionLedger counted = volumes.ledger(corners);
+    const RegionLedger ideal(context.tracer, context.silhouette, corners);
+    for (std::size_t i = 0; i < region.places.size(); ++i) {
+        const PixelPlace p = region.places[i];
+        RegionLedger counted_here(counted, around[i].corners);
+        RegionLedger ideal_here(ideal, around[i].corners);
+        const PixelVolumes here{counted_here, volumes.are_the_casters() ? nullptr : &ideal_here,
+                                context.prediction.depths().at_eye, context.depths.at_eye};
+        const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
+        truths = truths.subspan(truth.size());
+        const PixelBand band =
+            find_band(context.tracer, here, context.frame, context.depths.far,
+                      context.frame.triangle.at(p.x, p.y), around[i], truth,
+                      [&](const Reading& reading) { return explains(context, p, reading); });
+        region.findings[i] = look_around(context, p, band, truth);
+    }
+}
+
+/// Runs of pixels, sorted by region, that lie in one region.
+std::vector<Region> regions_of(std::span<const PixelPlace> places, std::span<Finding> findings) {
+    const auto same = [](const PixelPlace& a, const PixelPlace& b) {
+        return a.x / region_side == b.x / region_side && a.y / region_side == b.y / region_side;
+    };
+    std::vector<Region> regions;
+    for (std::size_t begin = 0, end = 0; begin < places.size(); begin = end) {
+        while (end < places.size() && same(places[begin], places[end])) ++end;
+        regions.push_back(
+            {places.subspan(begin, end - begin), findings.subspan(begin, end - begin)});
+    }
+    return regions;
 }
 
 /// Pixels looked at together: as many as keep the samples within a few megabytes.
 constexpr std::size_t batch_size = 1024;
 
-void look_around_batch(const Context& context, std::span<const PixelPlace> places,
-                       Scrutiny scrutiny, std::span<Finding> findings) {
-    const std::vector<Neighbourhood> around = neighbourhoods(context, places, scrutiny);
-    std::vector<std::size_t> first; // of each pixel's rays among all
-    std::vector<glm::dvec3> rays;
-    for (const Neighbourhood& each : around) {
-        first.push_back(rays.size());
-        rays.insert(rays.end(), each.rays.begin(), each.rays.end());
-    }
-    const std::vector<RayTruth> truths = trace_rays(context.tracer, rays);
-    parallel_for(static_cast<int>(places.size()), context.tracer.threads(), [&](int i, int) {
-        const auto k = static_cast<std::size_t>(i);
-        const std::span truth = std::span(truths).subspan(first[k], around[k].rays.size());
-        const std::uint32_t shown = context.frame.triangle.at(places[k].x, places[k].y);
-        const PixelBand band = find_band(
-            context.tracer, context.frame, context.depths.far, shown, around[k], truth,
-            [&](const Reading& reading) { return explains(context, places[k], reading); });
-        findings[k] = look_around(context, places[k], band, truth);
-    });
-}
-
 /// Once so many pixels are beyond explanation, the verdict is beyond doubt, and it would take
 /// minutes to search the bands of all others: they are looked at in their centres only.
 constexpr std::ptrdiff_t hopeless = 2048;
 
+void look_around_batch(const Context& context, const std::vector<Region>& regions,
+                       Scrutiny scrutiny) {
+    const auto for_regions = [&](const auto& work) {
+        parallel_for(static_cast<int>(regions.size()), context.tracer.threads(),
+                     [&](int i, int) { work(static_cast<std::size_t>(i)); });
+    };
+    std::vector<std::vector<Neighbourhood>> around(regions.size());
+    for_regions([&](std::size_t i) { around[i] = neighbourhoods(context, regions[i], scrutiny); });
+    std::vector<std::size_t> first; // of each region's rays among all
+    std::vector<glm::dvec3> rays;
+    for (const std::vector<Neighbourhood>& region : around) {
+        first.push_back(rays.size());
+        for (const Neighbourhood& pixel : region)
+            rays.insert(rays.end(), pixel.rays.begin(), pixel.rays.end());
+    }
+    const std::vector<RayTruth> truths = trace_rays(context.tracer, rays);
+    for_regions([&](std::size_t i) {
+        look_around_region(context, regions[i], around[i], std::span(truths).subspan(first[i]));
+    });
+}
+
+/// `places` sorted by region.
 std::vector<Finding> look_around(const Context& context, const std::vector<PixelPlace>& places) {
     std::vector<Finding> findings(places.size());
     std::ptrdiff_t unexplained = 0;
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
         const std::span batch = std::span(findings).subspan(first, count);
-        look_around_batch(context, std::span(places).subspan(first, count),
-                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre, batch);
+        look_around_batch(context, regions_of(std::span(places).subspan(first, count), batch),
+                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre);
         unexplained += std::count_if(batch.begin(), batch.end(), [](const Finding& finding) {
             return !finding.ledger_in_band;
         });
@@ -229,7 +315,8 @@ void record(Comparison& comparison, PixelPlace p, bool in_band) {
         ++ledger.in_band;
         return;
     }
-    if (ledger.unexplained++ == 0) {
+    if (ledger.unexplained++ == 0 ||
+        std::pair(p.y, p.x) < std::pair(ledger.first_y, ledger.first_x)) {
         ledger.first_x = p.x;
         ledger.first_y = p.y;
     }
@@ -257,12 +344,12 @@ void count_causes(Comparison& comparison) {
 
 } // namespace
 
-Comparison classify(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
-                    const Frame& frame) {
+Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
+                    const ShadowDepths& depths, const Frame& frame, const Prediction& prediction) {
     const int width = truth.visibility.width;
     const int height = truth.visibility.height;
     assert(frame.claim.width == width && frame.claim.height == height);
-    const Context context{tracer, truth, depths, frame};
+    const Context context{tracer, silhouette, truth, depths, frame, prediction};
 
     Comparison comparison;
     comparison.cause = Image<std::uint8_t>(width, height, no_difference);
@@ -283,6 +370,12 @@ Comparison classify(const Tracer& tracer, const GroundTruth& truth, const Shadow
             if (cause) comparison.cause.at(x, y) = static_cast<std::uint8_t>(*cause);
         }
 
+    const auto region_of = [](const PixelPlace& p) {
+        return std::pair(p.y / region_side, p.x / region_side);
+    };
+    std::stable_sort(open.begin(), open.end(), [&](const PixelPlace& a, const PixelPlace& b) {
+        return region_of(a) < region_of(b);
+    });
     const std::vector<Finding> findings = look_around(context, open);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];

@@ -1,7 +1,7 @@
 // Each differing pixel gets its cause, and a cause is named only where it was predicted.
 #pragma once
 
-#include "reference/ledger.h"
+#include "reference/prediction.h"
 #include "reference/trace.h"
 #include "scenes/cause.h"
 #include "scenes/frame.h"
@@ -42,9 +42,10 @@ struct Comparison {
     LedgerCheck ledger;
 };
 
-/// All pictures must have one size (asserted). Where thousands of pixels are unexplained, further
-/// ones are compared at their centres only, so that some of those may lie in their bands after all.
-Comparison classify(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
-                    const Frame& frame);
+/// All pictures must have one size (asserted). `prediction`: of how the frame counts. Where
+/// thousands of pixels are unexplained, further ones are compared at their centres only, so that
+/// some of those may lie in their bands after all.
+Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
+                    const ShadowDepths& depths, const Frame& frame, const Prediction& prediction);
 
 } // namespace shadowproof

@@ -21,11 +21,15 @@ constexpr int regions_high = 8;
 
 struct Inputs {
     const Tracer& tracer;
-    const Silhouette& silhouette;
     const GroundTruth& truth;
-    const ShadowDepths& depths;
     const Frame& frame;
+    const Prediction& prediction;
     const Image<std::uint8_t>& cause;
+};
+
+struct Place {
+    int x = 0;
+    int y = 0;
 };
 
 /// A ledger as numbers, the same for pixels whose ledgers are the same.
@@ -36,9 +40,10 @@ constexpr std::uint64_t crossing_word(const Crossing& crossing, Tally tally) {
            static_cast<std::uint64_t>(crossing.part) << 1U | (crossing.change > 0 ? 1U : 0U);
 }
 
-constexpr std::size_t count_words = 3; ///< before the crossings' words
+constexpr std::size_t count_words = 4; ///< before the crossings' words
 
-void append_words(const Inputs& in, const PixelLedger& ledger, std::uint32_t seen, Words& words) {
+void append_words(const Inputs& in, const PixelLedger& ledger, const Place& p, Words& words) {
+    const std::uint32_t seen = in.truth.triangle.at(p.x, p.y);
     const auto pair = [](std::int32_t high, std::int32_t low) {
         return std::uint64_t{static_cast<std::uint32_t>(high)} << 32U |
                static_cast<std::uint32_t>(low);
@@ -47,15 +52,12 @@ void append_words(const Inputs& in, const PixelLedger& ledger, std::uint32_t see
     words.push_back(pair(counts.at_near, counts.at_surface));
     words.push_back(pair(counts.at_far, counts.at_infinity));
     words.push_back(pair(counts.at_eye, ledger.adds_up ? 1 : 0));
+    words.push_back(pair(0, in.prediction.counts().at(p.x, p.y)));
     for (const Crossing& crossing : ledger.crossings)
-        words.push_back(crossing_word(crossing, tally(crossing, ledger.surface, seen, in.depths.far,
-                                                      in.frame.counting, in.frame.depth_model)));
+        words.push_back(crossing_word(crossing, tally(crossing, ledger.surface, seen,
+                                                      in.prediction.depths().far, in.frame.counting,
+                                                      in.frame.depth_model)));
 }
-
-struct Place {
-    int x = 0;
-    int y = 0;
-};
 
 /// The differing pixels of one region, in rows from the top, and their ledgers.
 struct Region {
@@ -73,12 +75,12 @@ void find_words(const Inputs& in, Region& region) {
         least = {std::min(least.x, p.x), std::min(least.y, p.y)};
         most = {std::max(most.x, p.x), std::max(most.y, p.y)};
     }
-    RegionLedger ledgers(in.tracer, in.silhouette,
-                         corner_rays(camera, least.x, least.y, most.x + 1, most.y + 1));
+    RegionLedger ledgers = in.prediction.volumes().ledger(
+        corner_rays(camera, least.x, least.y, most.x + 1, most.y + 1));
     PixelLedger ledger;
-    for (const auto& [x, y] : region.places) {
-        find_pixel_ledger(in.tracer, ledgers, in.truth, in.depths, x, y, ledger);
-        append_words(in, ledger, in.truth.triangle.at(x, y), region.words);
+    for (const Place& p : region.places) {
+        find_pixel_ledger(in.tracer, ledgers, in.truth, in.prediction.depths(), p.x, p.y, ledger);
+        append_words(in, ledger, p, region.words);
         region.start.push_back(region.words.size());
     }
 }
@@ -128,8 +130,9 @@ private:
 class TableBuilder {
 public:
     explicit TableBuilder(const Inputs& in)
-        : in_(in), scene_(in.tracer.scene()), faces_(4 * scene_.triangles.size(), unnumbered),
-          needed_(scene_.triangles.size(), 0) {}
+        : in_(in), scene_(in.prediction.volumes().casters()),
+          faces_(5 * scene_.triangles.size(), unnumbered), needed_(2 * scene_.triangles.size(), 0) {
+    }
 
     void add_pixel(int x, int y, std::span<const std::uint64_t> words) {
         const std::uint32_t seen = in_.truth.triangle.at(x, y);
@@ -145,21 +148,9 @@ public:
     }
 
     LedgerTable finish() {
-        std::vector<std::uint32_t> vertices(scene_.positions.size(), unnumbered);
-        for (std::uint32_t triangle = 0; triangle < needed_.size(); ++triangle) {
-            if (needed_[triangle] == 0) continue;
-            table_.triangle.push_back(triangle);
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t position = scene_.triangles[triangle][k];
-                std::uint32_t& vertex = vertices[position];
-                const bool is_new = vertex == unnumbered;
-                if (is_new) vertex = static_cast<std::uint32_t>(table_.vertex.size() / 3);
-                table_.triangle.push_back(vertex);
-                if (!is_new) continue;
-                const glm::vec3& p = scene_.positions[position];
-                table_.vertex.insert(table_.vertex.end(), {p.x, p.y, p.z});
-            }
-        }
+        append_triangles(scene_.positions, 0);
+        if (const std::vector<glm::vec3>* ends = in_.prediction.volumes().far_ends())
+            append_triangles(*ends, static_cast<std::uint32_t>(scene_.triangles.size()));
         return std::move(table_);
     }
 
@@ -170,8 +161,27 @@ private:
     const Scene& scene_;
     LedgerTable table_;
     WordLists ledgers_;
-    std::vector<std::uint32_t> faces_; ///< 4 a triangle: number of each part's face, or unnumbered
-    std::vector<std::uint8_t> needed_; ///< a flag a triangle
+    std::vector<std::uint32_t> faces_; ///< 5 a triangle: number of each part's face, or unnumbered
+    std::vector<std::uint8_t> needed_; ///< a flag a triangle, then those of the far ends
+
+    /// Those that are needed of the triangles as they lie over `positions`, numbered from `offset`.
+    void append_triangles(const std::vector<glm::vec3>& positions, std::uint32_t offset) {
+        std::vector<std::uint32_t> vertices(positions.size(), unnumbered);
+        for (std::uint32_t triangle = 0; triangle < scene_.triangles.size(); ++triangle) {
+            if (needed_[offset + triangle] == 0) continue;
+            table_.triangle.push_back(offset + triangle);
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t position = scene_.triangles[triangle][k];
+                std::uint32_t& vertex = vertices[position];
+                const bool is_new = vertex == unnumbered;
+                if (is_new) vertex = static_cast<std::uint32_t>(table_.vertex.size() / 3);
+                table_.triangle.push_back(vertex);
+                if (!is_new) continue;
+                const glm::vec3& p = positions[position];
+                table_.vertex.insert(table_.vertex.end(), {p.x, p.y, p.z});
+            }
+        }
+    }
 
     void need(std::uint32_t triangle) {
         if (triangle != no_triangle) needed_[triangle] = 1;
@@ -183,14 +193,17 @@ private:
         table_.counts.insert(table_.counts.end(), {high(words[2]), high(words[0]), low(words[0]),
                                                    high(words[1]), low(words[1])});
         table_.adds_up.push_back(static_cast<std::uint8_t>(low(words[2])));
+        table_.predicted.push_back(low(words[3]));
         for (const std::uint64_t word : words.subspan(count_words)) {
             const auto triangle = static_cast<std::uint32_t>(word >> 32U);
-            const auto part = static_cast<std::uint32_t>(word >> 1U & 3U);
-            std::uint32_t& face = faces_[4 * std::size_t{triangle} + part];
+            const auto part = static_cast<std::uint32_t>(word >> 1U & 7U);
+            std::uint32_t& face = faces_[5 * std::size_t{triangle} + part];
             if (face == unnumbered) {
                 face = static_cast<std::uint32_t>(table_.face.size() / 2);
+                const auto count = static_cast<std::uint32_t>(scene_.triangles.size());
+                const bool at_end = static_cast<Crossing::Part>(part) == Crossing::Part::dark_cap;
                 table_.face.insert(table_.face.end(), {triangle, part});
-                need(triangle);
+                need(at_end ? count + triangle : triangle);
             }
             table_.crossing_face.push_back(face);
             table_.crossing_change.push_back((word & 1U) != 0 ? std::int8_t{1} : std::int8_t{-1});
@@ -202,12 +215,11 @@ private:
 
 } // namespace
 
-LedgerTable list_ledgers(const Tracer& tracer, const Silhouette& silhouette,
-                         const GroundTruth& truth, const ShadowDepths& depths, const Frame& frame,
-                         const Image<std::uint8_t>& cause) {
+LedgerTable list_ledgers(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                         const Prediction& prediction, const Image<std::uint8_t>& cause) {
     const std::vector<Place> places = differing_places(cause);
     if (places.empty()) return {};
-    const Inputs in{tracer, silhouette, truth, depths, frame, cause};
+    const Inputs in{tracer, truth, frame, prediction, cause};
     TableBuilder builder(in);
     const int columns = (cause.width + region_side - 1) / region_side;
     const auto band_of = [](const Place& p) { return p.y / (region_side * regions_high); };

@@ -21,6 +21,7 @@ struct LedgerTable {
     std::vector<std::uint32_t> start{0}; ///< of its crossings; one more at the end
     std::vector<std::int32_t> counts;    ///< 5: at eye, near, surface, far, infinity
     std::vector<std::uint8_t> adds_up;   ///< 1 where its crossings add up to its counts
+    std::vector<std::int32_t> predicted; ///< the counter, before it wraps
 
     // A value a crossing.
     std::vector<std::uint32_t> crossing_face; ///< which of the faces
@@ -29,13 +30,13 @@ struct LedgerTable {
 
     // What the others refer to.
     std::vector<std::uint32_t> face;     ///< 2 a face: triangle, Crossing::Part
-    std::vector<std::uint32_t> triangle; ///< 4 a triangle: its index, three vertices
+    std::vector<std::uint32_t> triangle; ///< 4 a triangle: its index, three vertices; what is moved
+                                         ///< to a volume's far end is numbered after all others
     std::vector<float> vertex;           ///< 3 a vertex, world space
 };
 
 /// `cause`: no_difference where a pixel agrees. All pictures have one size.
-LedgerTable list_ledgers(const Tracer& tracer, const Silhouette& silhouette,
-                         const GroundTruth& truth, const ShadowDepths& depths, const Frame& frame,
-                         const Image<std::uint8_t>& cause);
+LedgerTable list_ledgers(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                         const Prediction& prediction, const Image<std::uint8_t>& cause);
 
 } // namespace shadowproof

@@ -15,7 +15,8 @@ RayCounts sums(const Tracer& tracer, const PixelLedger& ledger, double far, std:
     sums.at_eye = ledger.counts.at_eye;
     sums.at_near = sums.at_far = sums.at_surface = sums.at_infinity = sums.at_eye;
     for (const Crossing& crossing : ledger.crossings) {
-        const bool own_cap = crossing.triangle == seen && !crossing.is_side();
+        const bool own_cap =
+            crossing.triangle == seen && crossing.part == Crossing::Part::light_cap;
         if (crossing.depth < tracer.scene().camera.near) sums.at_near += crossing.change;
         if (crossing.depth < ledger.surface && !own_cap) sums.at_surface += crossing.change;
         if (crossing.depth < far) sums.at_far += crossing.change;

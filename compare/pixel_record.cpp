@@ -15,7 +15,8 @@ std::optional<double> depth_margin(const PixelLedger& ledger, std::uint32_t seen
     if (seen == no_triangle) return std::nullopt;
     double margin = std::numeric_limits<double>::infinity();
     for (const Crossing& crossing : ledger.crossings) {
-        const bool own_cap = !crossing.is_side() && crossing.triangle == seen;
+        const bool own_cap =
+            crossing.part == Crossing::Part::light_cap && crossing.triangle == seen;
         if (!own_cap) margin = std::min(margin, std::abs(crossing.depth - ledger.surface));
     }
     if (std::isinf(margin)) return std::nullopt;
@@ -64,20 +65,35 @@ Json corners_json(const Scene& scene, std::uint32_t triangle) {
     return corners;
 }
 
-/// Where a face begins: the ends of the edge that a side stands on, or the light cap's corners.
-Json beginning_json(const Scene& scene, const Crossing& crossing) {
-    if (!crossing.is_side()) return corners_json(scene, crossing.triangle);
-    const int k = static_cast<int>(crossing.part);
-    return Json::array({vector_json(corner(scene, crossing.triangle, k)),
-                        vector_json(corner(scene, crossing.triangle, (k + 1) % 3))});
+std::string_view kind_of(const Crossing& crossing) {
+    if (crossing.is_side()) return "side";
+    return crossing.part == Crossing::Part::light_cap ? "light cap" : "dark cap";
 }
 
-Json crossing_json(const Scene& scene, const Crossing& crossing) {
+/// Where a face begins: the ends of the edge that a side stands on, or a cap's corners. `ends`:
+/// positions of the far ends.
+Json beginning_json(const Scene& scene, const Crossing& crossing,
+                    const std::vector<glm::vec3>& ends) {
+    if (crossing.part == Crossing::Part::light_cap) return corners_json(scene, crossing.triangle);
+    Json corners = Json::array();
+    if (crossing.part == Crossing::Part::dark_cap) {
+        for (int k = 0; k < 3; ++k)
+            corners.push_back(vector_json(glm::dvec3(ends[scene.triangles[crossing.triangle][k]])));
+        return corners;
+    }
+    const int k = static_cast<int>(crossing.part);
+    for (const int end : {k, (k + 1) % 3})
+        corners.push_back(vector_json(corner(scene, crossing.triangle, end)));
+    return corners;
+}
+
+Json crossing_json(const Scene& scene, const Crossing& crossing,
+                   const std::vector<glm::vec3>& ends) {
     return {{"depth", crossing.depth},
             {"change", crossing.change},
-            {"kind", crossing.is_side() ? "side" : "light cap"},
+            {"kind", kind_of(crossing)},
             {"caster", triangle_json(scene, crossing.triangle)},
-            {"from", beginning_json(scene, crossing)}};
+            {"from", beginning_json(scene, crossing, ends)}};
 }
 
 Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
@@ -95,6 +111,10 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
               {"statuses", Json::array()},
               {"dark_cap", name_of(technique.dark_caps)}};
     for (const Tally tally : technique.tallies) json["statuses"].push_back(name_of(tally));
+    if (!technique.crossings) return json;
+    json["crossings"] = Json::array();
+    for (const Crossing& crossing : *technique.crossings)
+        json["crossings"].push_back(crossing_json(technique.casters, crossing, technique.far_ends));
     return json;
 }
 
@@ -143,21 +163,27 @@ PixelRecord record_pixel(const Tracer& tracer, const GroundTruth& truth, const S
     return record;
 }
 
-TechniqueAtPixel technique_at(const PixelRecord& record, const GroundTruth& truth,
-                              const ShadowDepths& depths, std::string name, const Frame& frame,
-                              const Comparison& comparison) {
+TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& prediction,
+                              std::string name, const Frame& frame, const Comparison& comparison) {
     const int x = record.x;
     const int y = record.y;
     TechniqueAtPixel technique;
     technique.name = std::move(name);
     technique.counting = frame.counting;
-    technique.predicted = predicted_count(depths, truth, x, y, frame.counting, frame.depth_model);
+    technique.predicted = prediction.counts().at(x, y);
     technique.stored = comparison.predicted.at(x, y);
     technique.read_back = frame.stencil.at(x, y);
     technique.claim = frame.claim.at(x, y);
     technique.shown = frame.triangle.at(x, y);
     technique.cause = comparison.cause.at(x, y);
-    for (const Crossing& crossing : record.ledger.crossings)
+    if (const Volumes& volumes = prediction.volumes(); !volumes.are_the_casters()) {
+        RegionLedger ledger =
+            volumes.ledger(corner_rays(volumes.casters().camera, x, y, x + 1, y + 1));
+        ledger.crossings(record.direction, technique.crossings.emplace());
+        technique.casters = volumes.casters();
+        if (const std::vector<glm::vec3>* ends = volumes.far_ends()) technique.far_ends = *ends;
+    }
+    for (const Crossing& crossing : crossings_of(record, technique))
         technique.tallies.push_back(tally(crossing, record.ledger.surface, record.seen, record.far,
                                           frame.counting, frame.depth_model));
     technique.dark_caps = tally_of_dark_caps(frame.counting, frame.depth_model);
@@ -205,7 +231,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
         json["seen"]["faces_light"] = record.faces_light;
     }
     for (const Crossing& crossing : record.ledger.crossings)
-        json["crossings"].push_back(crossing_json(scene, crossing));
+        json["crossings"].push_back(crossing_json(scene, crossing, {}));
     for (const TechniqueAtPixel& technique : record.techniques)
         json["techniques"].push_back(technique_json(scene, technique));
     return json;

@@ -24,7 +24,12 @@ struct TechniqueAtPixel {
     Visibility claim = Visibility::background;
     std::uint32_t shown = no_triangle;  ///< the triangle read back
     std::uint8_t cause = no_difference; ///< Cause, or no_difference
-    std::vector<Tally> tallies;         ///< one a crossing of the ledger
+    /// Where the technique's volumes are not the casters' own, what the ray crosses of them;
+    /// nothing where the record's ledger holds.
+    std::optional<std::vector<Crossing>> crossings;
+    Scene casters;                   ///< of those volumes
+    std::vector<glm::vec3> far_ends; ///< where the casters' positions lie once extruded
+    std::vector<Tally> tallies;      ///< one a crossing
     Tally dark_caps = Tally::beyond;
 };
 
@@ -52,10 +57,15 @@ struct PixelRecord {
 PixelRecord record_pixel(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
                          int x, int y);
 
+/// The crossings that a technique's tallies speak of.
+inline const std::vector<Crossing>& crossings_of(const PixelRecord& record,
+                                                 const TechniqueAtPixel& technique) {
+    return technique.crossings ? *technique.crossings : record.ledger.crossings;
+}
+
 /// What a technique that drew `frame`, classified as `comparison`, did at the record's pixel.
-TechniqueAtPixel technique_at(const PixelRecord& record, const GroundTruth& truth,
-                              const ShadowDepths& depths, std::string name, const Frame& frame,
-                              const Comparison& comparison);
+TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& prediction,
+                              std::string name, const Frame& frame, const Comparison& comparison);
 
 /// Schema shadowproof/pixel/1.
 nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record);

@@ -99,6 +99,7 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
                    {"ledger_start", block(ledgers.start)},
                    {"ledger_counts", block(ledgers.counts)},
                    {"ledger_exact", block(ledgers.adds_up)},
+                   {"ledger_predicted", block(ledgers.predicted)},
                    {"crossing_face", block(ledgers.crossing_face)},
                    {"crossing_change", block(ledgers.crossing_change)},
                    {"crossing_status", block(ledgers.crossing_tally)},

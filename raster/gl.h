@@ -45,6 +45,8 @@ struct Platform; // platform.h
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                               \
     X(PFNGLDEPTHMASKPROC, DepthMask)                                                               \
     X(PFNGLDISABLEPROC, Disable)                                                                   \
+    X(PFNGLDEPTHRANGEPROC, DepthRange)                                                             \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                                                             \
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                         \
     X(PFNGLENABLEPROC, Enable)                                                                     \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                   \
@@ -68,7 +70,9 @@ struct Platform; // platform.h
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                           \
     X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                 \
     X(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                                               \
+    X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                 \
     X(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                 \
+    X(PFNGLPROGRAMUNIFORM3DPROC, ProgramUniform3d)                                                 \
     X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                                               \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                   \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \

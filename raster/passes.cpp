@@ -1,5 +1,6 @@
 #include "raster/passes.h"
 
+#include "raster/shader.h"
 #include "raster/volume.h"
 #include "scenes/error.h"
 
@@ -28,24 +29,6 @@ void require_complete(const GlFunctions& gl, const Framebuffer& framebuffer) {
         GL_FRAMEBUFFER_COMPLETE)
         throw Error("OpenGL", "the driver cannot draw into R8, R32UI and depth-stencil textures",
                     "use --gl osmesa");
-}
-
-/// An empty buffer may not be made: it holds one unused byte instead.
-Buffer make_filled_buffer(const GlFunctions& gl,
-                          std::span<const std::span<const std::byte>> parts) {
-    std::size_t size = 0;
-    for (const auto& part : parts) size += part.size();
-    Buffer buffer = make_buffer(gl);
-    gl.NamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(size, 1)),
-                          nullptr, GL_DYNAMIC_STORAGE_BIT);
-    std::size_t offset = 0;
-    for (const auto& part : parts) {
-        if (!part.empty())
-            gl.NamedBufferSubData(buffer.name(), static_cast<GLintptr>(offset),
-                                  static_cast<GLsizeiptr>(part.size()), part.data());
-        offset += part.size();
-    }
-    return buffer;
 }
 
 /// The point as a sum of two floats, exact to 48 bits.
@@ -135,6 +118,23 @@ ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) 
     return transform;
 }
 
+Buffer make_filled_buffer(const GlFunctions& gl,
+                          std::span<const std::span<const std::byte>> parts) {
+    std::size_t size = 0;
+    for (const auto& part : parts) size += part.size();
+    Buffer buffer = make_buffer(gl);
+    gl.NamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(size, 1)),
+                          nullptr, GL_DYNAMIC_STORAGE_BIT);
+    std::size_t offset = 0;
+    for (const auto& part : parts) {
+        if (!part.empty())
+            gl.NamedBufferSubData(buffer.name(), static_cast<GLintptr>(offset),
+                                  static_cast<GLsizeiptr>(part.size()), part.data());
+        offset += part.size();
+    }
+    return buffer;
+}
+
 Triangles upload_triangles(const GlFunctions& gl,
                            std::span<const std::span<const glm::uvec3>> parts) {
     std::vector<std::span<const std::byte>> bytes;
@@ -161,12 +161,14 @@ std::vector<SurfaceRun> surface_runs(const Scene& scene) {
     return runs;
 }
 
-Geometry upload(const GlFunctions& gl, const Scene& scene) {
+Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends) {
     Geometry geometry{.position_count = static_cast<std::uint32_t>(scene.positions.size()),
+                      .ends_at_infinity = far_ends.empty(),
                       .vertices = make_vertex_array(gl),
                       .runs = surface_runs(scene)};
     const std::span<const std::byte> positions = std::as_bytes(std::span(scene.positions));
-    geometry.positions = make_filled_buffer(gl, std::array{positions, positions});
+    const std::span<const std::byte> ends = far_ends.empty() ? positions : std::as_bytes(far_ends);
+    geometry.positions = make_filled_buffer(gl, std::array{positions, ends});
     const GLuint vertices = geometry.vertices.name();
     gl.VertexArrayVertexBuffer(vertices, 0, geometry.positions.name(), 0, sizeof(glm::vec3));
     gl.VertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
@@ -192,8 +194,7 @@ Geometry upload(const GlFunctions& gl, const Scene& scene) {
     return geometry;
 }
 
-void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform,
-                   const Geometry& geometry) {
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform) {
     // Locations as project.vert lays them out.
     gl.ProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE,
                                glm::value_ptr(transform.clip_from_relative));
@@ -201,7 +202,17 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
     gl.ProgramUniform3fv(program.name(), 2, 1, glm::value_ptr(transform.origin_low));
     gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light_high));
     gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light_low));
-    gl.ProgramUniform1i(program.name(), 5, static_cast<GLint>(geometry.position_count));
+    gl.ProgramUniform1f(program.name(), 11, transform.light_w);
+}
+
+Program link_projection(const GlFunctions& gl, std::string_view fragment,
+                        const ClipTransform& transform, const Geometry& geometry) {
+    Program program = link_files(gl, {"project.vert", fragment});
+    set_transform(gl, program, transform);
+    gl.ProgramUniform1i(program.name(), 5,
+                        geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
+                                                  : std::numeric_limits<GLint>::max());
+    return program;
 }
 
 void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
@@ -218,6 +229,7 @@ void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& ge
 
 void end_frame(const GlFunctions& gl) {
     gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl.DepthRange(0, 1);
     for (const GLenum capability : {GL_DEPTH_CLAMP, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE})
         gl.Disable(capability);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -237,7 +249,7 @@ void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Trian
 
 void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
-                  const VisibleDepths& visible) {
+                  const VisibleDepths& visible, std::uint8_t stencil) {
     const bool reversed = depth_model.projection == DepthModel::Projection::infinite_reversed;
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_TRUE);
@@ -250,7 +262,7 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
     constexpr std::array<GLuint, 4> nothing{no_triangle, no_triangle, no_triangle, no_triangle};
     gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());
     gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 1, nothing.data());
-    gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, 0);
+    gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);
 
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.UseProgram(surface.name());

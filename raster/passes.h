@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof {
@@ -35,8 +36,9 @@ struct ClipTransform {
     glm::mat4 clip_from_relative{1};
     glm::vec3 origin_high{0};
     glm::vec3 origin_low{0};
-    glm::vec3 light_high{0};
+    glm::vec3 light_high{0}; ///< position, or the direction to a light at infinity
     glm::vec3 light_low{0};
+    float light_w = 1; ///< 0 at infinity
 };
 /// Row z of an infinite projection equals row w in all coefficients of directions, so corners at
 /// infinity get z == w bit for bit and are not clipped.
@@ -47,6 +49,9 @@ struct Triangles {
     Buffer buffer{};
     std::uint32_t count = 0; ///< of triangles
 };
+/// An empty buffer may not be made: it holds one unused byte instead.
+Buffer make_filled_buffer(const GlFunctions& gl, std::span<const std::span<const std::byte>> parts);
+
 /// The parts one after the other, in one draw call.
 Triangles upload_triangles(const GlFunctions& gl,
                            std::span<const std::span<const glm::uvec3>> parts);
@@ -63,18 +68,23 @@ std::vector<SurfaceRun> surface_runs(const Scene& scene);
 /// A scene on the GPU.
 struct Geometry {
     std::uint32_t position_count = 0;
-    Buffer positions{}; ///< all of them twice: corners i and i + position_count
+    Buffer positions{};           ///< all of them, and then those of the volumes' far ends
+    bool ends_at_infinity = true; ///< far ends are the positions again, and the shader moves them
     VertexArray vertices{};
     Triangles surface{}; ///< the scene's triangles
     std::vector<SurfaceRun> runs{};
     Triangles lit_sides{};     ///< those whose side seen from the eye is the light's
     Buffer lit_side_indices{}; ///< their indices into Scene::triangles
 };
-Geometry upload(const GlFunctions& gl, const Scene& scene);
+/// `far_ends`: a position each of the scene's, or empty for infinity.
+Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends);
 
-/// Makes the program's vertices those of the scene under the transform.
-void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform,
-                   const Geometry& geometry);
+/// Sets the uniforms that all vertex shaders share which transform as project.vert does.
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform);
+
+/// project.vert and a fragment shader, with the scene's vertices under the transform.
+Program link_projection(const GlFunctions& gl, std::string_view fragment,
+                        const ClipTransform& transform, const Geometry& geometry);
 
 void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
                     std::uint32_t first, std::uint32_t count);
@@ -92,10 +102,11 @@ struct VisibleDepths {
     float far = std::numeric_limits<float>::infinity();
 };
 
-/// Clears the target and draws the nearest surfaces: `shadowed`, depth, triangle.
+/// Clears the target, the stencil to `stencil`, and draws the nearest surfaces: `shadowed`, depth,
+/// triangle.
 void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
-                  const VisibleDepths& visible);
+                  const VisibleDepths& visible, std::uint8_t stencil);
 
 /// Draws the lit sides again where the stencil is zero and the depth equal: `lit`. Writes neither
 /// stencil nor depth.

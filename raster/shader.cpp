@@ -5,6 +5,7 @@
 #include <cassert>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -61,12 +62,15 @@ Shader compile(const GlFunctions& gl, const ShaderText& source) {
 
 } // namespace
 
-Program link(const GlFunctions& gl, const ShaderText& vertex, const ShaderText& fragment) {
-    const Shader vertex_shader = compile(gl, vertex);
-    const Shader fragment_shader = compile(gl, fragment);
+Program link(const GlFunctions& gl, std::span<const ShaderText> stages) {
     Program program(gl, gl.CreateProgram());
-    gl.AttachShader(program.name(), vertex_shader.name());
-    gl.AttachShader(program.name(), fragment_shader.name());
+    std::vector<Shader> shaders;
+    std::string files;
+    for (const ShaderText& stage : stages) {
+        shaders.push_back(compile(gl, stage));
+        gl.AttachShader(program.name(), shaders.back().name());
+        files += (files.empty() ? "" : " and ") + std::string(stage.file);
+    }
     gl.LinkProgram(program.name());
     GLint linked = GL_FALSE;
     gl.GetProgramiv(program.name(), GL_LINK_STATUS, &linked);
@@ -76,13 +80,16 @@ Program link(const GlFunctions& gl, const ShaderText& vertex, const ShaderText& 
     gl.GetProgramiv(program.name(), GL_INFO_LOG_LENGTH, &size);
     std::string log(static_cast<std::size_t>(size), '\0');
     gl.GetProgramInfoLog(program.name(), size, nullptr, log.data());
-    throw Error(std::string(vertex.file) + " and " + std::string(fragment.file),
-                "do not link: " + without_last_newline(log), "correct the shaders");
+    throw Error(files, "do not link: " + without_last_newline(log), "correct the shaders");
 }
 
-Program link_files(const GlFunctions& gl, std::string_view vertex, std::string_view fragment) {
-    assert(!glsl_source(vertex).empty() && !glsl_source(fragment).empty());
-    return link(gl, {vertex, glsl_source(vertex)}, {fragment, glsl_source(fragment)});
+Program link_files(const GlFunctions& gl, std::initializer_list<std::string_view> files) {
+    std::vector<ShaderText> stages;
+    for (const std::string_view file : files) {
+        assert(!glsl_source(file).empty());
+        stages.push_back({file, glsl_source(file)});
+    }
+    return link(gl, std::span<const ShaderText>(stages));
 }
 
 } // namespace shadowproof

@@ -3,6 +3,8 @@
 
 #include "raster/gl.h"
 
+#include <initializer_list>
+#include <span>
 #include <string_view>
 
 namespace shadowproof {
@@ -15,10 +17,10 @@ struct ShaderText {
     std::string_view text;
 };
 
-/// Throws Error with the driver's log, each line of it led by "file:line".
-Program link(const GlFunctions& gl, const ShaderText& vertex, const ShaderText& fragment);
+/// One text a stage. Throws Error with the driver's log, each line of it led by "file:line".
+Program link(const GlFunctions& gl, std::span<const ShaderText> stages);
 
-/// The same from two files of raster/glsl/.
-Program link_files(const GlFunctions& gl, std::string_view vertex, std::string_view fragment);
+/// The same from files of raster/glsl/.
+Program link_files(const GlFunctions& gl, std::initializer_list<std::string_view> files);
 
 } // namespace shadowproof

@@ -1,63 +1,55 @@
 #include "raster/stencil.h"
 
-#include "raster/passes.h"
+#include "raster/near_cap.h"
+#include "raster/near_plane.h"
 #include "raster/shader.h"
+#include "raster/volume.h"
 #include "scenes/error.h"
+#include "scenes/extrusion.h"
+#include "scenes/holes.h"
+#include "scenes/plan.h"
 
 #include <array>
 #include <cassert>
 #include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 
 namespace shadowproof {
 
 namespace {
 
-struct Programs {
-    Program surface;
-    Program volume;
-    Program light;
-};
-
-Programs make_programs(const GlFunctions& gl, const ClipTransform& transform,
-                       const Geometry& geometry) {
-    Programs programs{.surface = link_files(gl, "project.vert", "surface.frag"),
-                      .volume = link_files(gl, "project.vert", "volume.frag"),
-                      .light = link_files(gl, "project.vert", "light.frag")};
-    for (const Program* program : {&programs.surface, &programs.volume, &programs.light})
-        set_transform(gl, *program, transform, geometry);
-    check(gl, "making the shaders");
-    return programs;
-}
-
-Triangles upload_volume(const GlFunctions& gl, const ShadowVolume& volume,
-                        const Counting& counting) {
-    std::vector<std::span<const glm::uvec3>> parts{volume.sides};
-    if (counting.light_cap) parts.emplace_back(volume.light_cap);
-    if (counting.dark_cap) parts.emplace_back(volume.dark_cap);
-    return upload_triangles(gl, parts);
-}
-
-GLenum operation(int step) {
+GLenum operation(int step, Counting::Operation kind) {
     assert(step >= -1 && step <= 1);
-    return step == 0 ? GL_KEEP : step > 0 ? GL_INCR_WRAP : GL_DECR_WRAP;
+    if (step == 0) return GL_KEEP;
+    switch (kind) {
+    case Counting::Operation::wrap:
+        break;
+    case Counting::Operation::saturate:
+        return step > 0 ? GL_INCR : GL_DECR;
+    case Counting::Operation::invert:
+        return GL_INVERT;
+    }
+    return step > 0 ? GL_INCR_WRAP : GL_DECR_WRAP;
 }
 
-/// Counts the faces of the volume. Strict depth tests: a light cap that coincides with the visible
-/// surface counts as behind it.
-void draw_volume(const GlFunctions& gl, const Program& program, const Target& target,
-                 const Geometry& geometry, const Triangles& volume, const StencilRecipe& recipe) {
+/// State for counting. Strict depth tests: a light cap that coincides with the visible surface
+/// counts as behind it.
+void begin_counting(const GlFunctions& gl, const Target& target, const StencilRecipe& recipe) {
     const bool reversed =
         recipe.depth_model.projection == DepthModel::Projection::infinite_reversed;
+    const Counting& counting = recipe.counting;
     gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
     gl.Disable(GL_CULL_FACE);
     gl.Enable(GL_STENCIL_TEST);
-    gl.StencilMask((1U << static_cast<unsigned>(recipe.counting.stencil_bits)) - 1);
+    gl.StencilMask((1U << static_cast<unsigned>(counting.stencil_bits)) - 1);
     gl.StencilFunc(GL_ALWAYS, 0, ~0U);
-    const GLenum front = operation(recipe.steps.front);
-    const GLenum back = operation(recipe.steps.back);
-    if (recipe.counting.test == Counting::Test::depth_pass) {
+    const GLenum front = operation(recipe.steps.front, counting.operation);
+    const GLenum back = operation(recipe.steps.back, counting.operation);
+    if (counting.test == Counting::Test::depth_pass) {
         gl.StencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, front);
         gl.StencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, back);
     } else {
@@ -65,9 +57,6 @@ void draw_volume(const GlFunctions& gl, const Program& program, const Target& ta
         gl.StencilOpSeparate(GL_BACK, GL_KEEP, back, GL_KEEP);
     }
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
-    gl.UseProgram(program.name());
-    draw_triangles(gl, geometry, volume, 0, volume.count);
-    check(gl, "the volume pass");
 }
 
 /// The projection clips at the near plane, and a finite one at the far plane; depth clamping undoes
@@ -81,36 +70,128 @@ VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) 
     return visible;
 }
 
+/// Whether the segment from a point to the light meets a triangle that faces the light: the three
+/// sides of the cone over it hold the point, and its plane lies between.
+bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec3& light,
+             const glm::dvec3& point) {
+    if (side(scene, triangle, point) >= 0) return false;
+    const glm::dvec3 to_point = point - light;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 a = corner(scene, triangle, k) - light;
+        const glm::dvec3 b = corner(scene, triangle, (k + 1) % 3) - light;
+        if (glm::dot(glm::cross(a, b), to_point) > 0) return false;
+    }
+    return true;
+}
+
+/// Volumes around the eye, by asking every triangle that faces the light.
+std::size_t volumes_around_eye(const Scene& scene) {
+    const glm::dvec3 light = chosen_light(scene).position;
+    std::size_t count = 0;
+    for (const std::uint32_t triangle : triangles_facing_light(scene))
+        count += shadows(scene, triangle, light, scene.camera.eye) ? 1U : 0U;
+    return count;
+}
+
+/// What the passes of one frame draw with.
+struct Frames {
+    const GlFunctions& gl;
+    const Scene& scene;
+    const StencilRecipe& recipe;
+    Scene casters;
+    Target target;
+    Geometry geometry;
+    ClipTransform transform;
+    Program surface;
+    Program light;
+    VolumePass volumes;
+    std::optional<VolumePass> occluders;
+    std::uint8_t start = 0;
+
+    Frames(Gpu& gpu, const Scene& drawn, const StencilRecipe& with)
+        : gl(gpu.gl()), scene(drawn), recipe(with),
+          casters(with.counting.holes_filled ? with_holes_filled(drawn) : drawn),
+          target(make_target(gl, drawn.camera, with.depth_model.floating)),
+          geometry(upload(gl, drawn,
+                          std::isfinite(with.counting.extrusion)
+                              ? extruded_positions(drawn, with.counting.extrusion)
+                              : std::vector<glm::vec3>{})),
+          transform(clip_transform(drawn, with.depth_model)),
+          surface(link_projection(gl, "surface.frag", transform, geometry)),
+          light(link_projection(gl, "light.frag", transform, geometry)),
+          volumes(with.near_plane == NearPlane::capped
+                      ? make_capped_pass(gl, casters, geometry, transform, with.depth_model)
+                      : make_volume_pass(gl, casters, geometry, transform, with.counting,
+                                         with.making, with.extruder(casters))) {
+        if (with.near_plane == NearPlane::from_light)
+            occluders = make_occluder_pass(gl, casters, geometry);
+        check(gl, "making the passes");
+    }
+    Frames(const Frames&) = delete;
+    Frames& operator=(const Frames&) = delete;
+
+    void update() {
+        volumes.update();
+        if (occluders) occluders->update();
+        start = 0;
+        if (recipe.counting.start == Counting::Start::eye)
+            start = static_cast<std::uint8_t>(volumes_around_eye(casters));
+    }
+
+    void draw() {
+        begin_frame(gl, target, geometry, recipe.depth_model, recipe.counting.depth_clamp);
+        gl.DepthRange(recipe.near_plane == NearPlane::capped ? ledge : 0, 1);
+        draw_surface(gl, surface, target, geometry, recipe.depth_model,
+                     visible_depths(scene.camera, recipe), start);
+        begin_counting(gl, target, recipe);
+        volumes.draw();
+        if (occluders) {
+            gl.StencilOp(GL_KEEP, GL_KEEP, operation(+1, recipe.counting.operation));
+            occluders->draw();
+        }
+        check(gl, "the volume pass");
+        draw_light(gl, light, target, geometry);
+    }
+};
+
 } // namespace
 
-Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const ShadowVolume& volume,
-                           const StencilRecipe& recipe) {
+Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe) {
+    Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
-    const DepthModel& depth_model = recipe.depth_model;
-    const Target target = make_target(gl, scene.camera, depth_model.floating);
-    const Geometry geometry = upload(gl, scene);
-    const Triangles faces = upload_volume(gl, volume, recipe.counting);
-    const Programs programs = make_programs(gl, clip_transform(scene, depth_model), geometry);
-    const VisibleDepths visible = visible_depths(scene.camera, recipe);
-
     std::chrono::steady_clock::duration elapsed{};
     for (int run = 0; run < 2; ++run) {
         const auto start = std::chrono::steady_clock::now();
-        begin_frame(gl, target, geometry, depth_model, recipe.counting.depth_clamp);
-        draw_surface(gl, programs.surface, target, geometry, depth_model, visible);
-        draw_volume(gl, programs.volume, target, geometry, faces, recipe);
-        draw_light(gl, programs.light, target, geometry);
+        frames.update();
+        frames.draw();
         gl.Finish();
         elapsed = std::chrono::steady_clock::now() - start;
     }
     end_frame(gl);
 
-    Frame frame = read_back(gl, target);
+    Frame frame = read_back(gl, frames.target);
     frame.counting = recipe.counting;
-    frame.depth_model = depth_model;
+    frame.depth_model = recipe.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
     frame.milliseconds = std::chrono::duration<double, std::milli>(elapsed).count();
     return frame;
+}
+
+StencilRecipe zpass_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
+            .steps = {.front = +1, .back = -1},
+            .depth_model = {.projection = DepthModel::Projection::finite,
+                            .near = scene.camera.near,
+                            .far = finite_far(scene)}};
+}
+
+StencilRecipe zfail_reversed_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_fail},
+            .steps = {.front = -1, .back = +1},
+            .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
+                            .near = scene.camera.near,
+                            .floating = true,
+                            .eye_relative = true}};
 }
 
 } // namespace shadowproof

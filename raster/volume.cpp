@@ -1,17 +1,44 @@
 #include "raster/volume.h"
 
+#include "scenes/half_edge.h"
 #include "scenes/topology.h"
 
-#include <cassert>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
+namespace {
+
+bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+/// The caps of the volume over triangles that face the light.
+ShadowVolume capped(const Scene& scene, std::span<const std::uint32_t> facing) {
+    const auto far_end = static_cast<std::uint32_t>(scene.positions.size());
+    ShadowVolume volume;
+    volume.light_cap.reserve(facing.size());
+    volume.dark_cap.reserve(facing.size());
+    for (const std::uint32_t triangle : facing) {
+        const glm::uvec3 corners = scene.triangles[triangle];
+        volume.light_cap.push_back(corners);
+        volume.dark_cap.emplace_back(corners.z + far_end, corners.y + far_end, corners.x + far_end);
+    }
+    return volume;
+}
+
+} // namespace
+
 double side(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
-    const glm::dvec3 a = corner(scene, triangle, 0);
-    const glm::dvec3 ab = corner(scene, triangle, 1) - a;
-    const glm::dvec3 ac = corner(scene, triangle, 2) - a;
-    return glm::dot(glm::cross(ab, ac), point - a);
+    glm::dvec3 a = corner(scene, triangle, 0);
+    glm::dvec3 b = corner(scene, triangle, 1);
+    glm::dvec3 c = corner(scene, triangle, 2);
+    for (int turn = 0; turn < 2 && (is_before(b, a) || is_before(c, a)); ++turn) {
+        std::swap(a, b);
+        std::swap(b, c);
+    }
+    return glm::dot(glm::cross(b - a, c - a), point - a);
 }
 
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene) {
@@ -22,28 +49,64 @@ std::vector<std::uint32_t> triangles_facing_light(const Scene& scene) {
     return facing;
 }
 
-ShadowVolume extrude(const Scene& scene) {
-    assert(chosen_light(scene).kind != Light::Kind::directional);
-    const auto at_infinity = static_cast<std::uint32_t>(scene.positions.size());
-    const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,
+                 std::vector<glm::uvec3>& sides) {
+    const bool up = a < b;
+    const std::uint32_t low = up ? a : b;
+    const std::uint32_t high = up ? b : a;
+    glm::uvec3 first(high, low, low + position_count);
+    glm::uvec3 second(high, low + position_count, high + position_count);
+    if (!up) {
+        std::swap(first.x, first.y);
+        std::swap(second.x, second.y);
+    }
+    sides.push_back(first);
+    sides.push_back(second);
+}
 
-    ShadowVolume volume;
-    volume.light_cap.reserve(facing.size());
-    volume.dark_cap.reserve(facing.size());
-    for (const std::uint32_t triangle : facing) {
-        const glm::uvec3 corners = scene.triangles[triangle];
-        volume.light_cap.push_back(corners);
-        volume.dark_cap.emplace_back(corners.z + at_infinity, corners.y + at_infinity,
-                                     corners.x + at_infinity);
-    }
-    // A light cap runs along its edge from a to b, so the side beside it runs from b to a.
-    for (const auto& [a, b, surplus] : boundary(scene, weld_by_position(scene.positions), facing)) {
-        for (int i = 0; i < surplus; ++i) {
-            volume.sides.emplace_back(b, a, a + at_infinity);
-            volume.sides.emplace_back(b, a + at_infinity, b + at_infinity);
+Extruder by_silhouettes(const Scene& scene) {
+    return [&scene, welded = weld_by_position(scene.positions)] {
+        const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
+        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+        ShadowVolume volume = capped(scene, facing);
+        for (const auto& [a, b, surplus] : boundary(scene, welded, facing))
+            for (int i = 0; i < surplus; ++i) append_side(a, b, position_count, volume.sides);
+        return volume;
+    };
+}
+
+Extruder by_half_edges(const Scene& scene) {
+    return [&scene, mesh = connect_all(scene)] {
+        const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
+        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+        std::vector<std::uint8_t> faces(scene.triangles.size(), 0);
+        for (const std::uint32_t triangle : facing) faces[triangle] = 1;
+        ShadowVolume volume = capped(scene, facing);
+        for (const HalfEdge& half_edge : mesh.half_edges) {
+            if (faces[half_edge.triangle] == 0) continue;
+            const bool inner = half_edge.twin != no_half_edge &&
+                               faces[mesh.half_edges[half_edge.twin].triangle] != 0;
+            if (!inner)
+                append_side(half_edge.origin, mesh.half_edges[half_edge.next].origin,
+                            position_count, volume.sides);
         }
-    }
-    return volume;
+        return volume;
+    };
+}
+
+Extruder by_triangles(const Scene& scene) {
+    return [&scene, welded = weld_by_position(scene.positions)] {
+        const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
+        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+        ShadowVolume volume = capped(scene, facing);
+        for (const std::uint32_t triangle : facing)
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t a = welded[scene.triangles[triangle][k]];
+                const std::uint32_t b = welded[scene.triangles[triangle][(k + 1) % 3]];
+                if (a != b) append_side(a, b, position_count, volume.sides);
+            }
+        return volume;
+    };
 }
 
 } // namespace shadowproof

@@ -1,35 +1,57 @@
-// The shadow volume of a scene's light from CPU possible silhouettes (Kilgard 2001): caps and
-// extruded sides as triangles over the scene's positions. Assumes nothing of the meshes: edges
-// count by their net surplus, so any polygon soup gets a boundary without cracks.
+// Shadow volumes made on the CPU as the light moves: caps and extruded sides as triangles over the
+// scene's positions. Assumes nothing of the meshes: edges count by their net surplus, so any
+// polygon soup gets a boundary without cracks.
 #pragma once
 
 #include "scenes/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
 namespace shadowproof {
 
 /// Corners of triangles, counter-clockwise from outside the volume. With n positions in the scene,
-/// corner i < n is position i, and corner i + n the same moved away from the light to infinity
-/// (w = 0). The light cap's corners are the very ones of the scene's triangles, so that its depth
+/// corner i < n is position i, and corner i + n the same moved away from the light to the volume's
+/// far end. The light cap's corners are the very ones of the scene's triangles, so that its depth
 /// is bit for bit that of the surface.
 struct ShadowVolume {
     std::vector<glm::uvec3> light_cap; ///< the triangles that face the light
     std::vector<glm::uvec3> sides;     ///< two for each silhouette edge and unit of its surplus
-    std::vector<glm::uvec3> dark_cap;  ///< the light cap at infinity, wound in reverse
+    std::vector<glm::uvec3> dark_cap;  ///< the light cap at the far end, wound in reverse
 };
 
 /// Positive where a triangle is wound counter-clockwise as seen from the point, negative where
-/// clockwise: (b - a) x (c - a) . (point - a) in double. Zero without area or in its plane.
+/// clockwise: (b - a) x (c - a) . (point - a) in double, from the first of its corners (by x, y, z)
+/// on. Zero without area or in its plane.
 double side(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);
 
-/// Indices of the triangles that face the light (side > 0), in order. Every material casts.
+/// Indices of the triangles that cast and face the chosen light, in order. Every material casts.
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene);
 
-/// The volume of the chosen light, which must have a position. An edge whose surplus is k > 0 gets
-/// k quads; corners of sides are the first of the positions that are equal.
-ShadowVolume extrude(const Scene& scene);
+/// Makes the volume of the chosen light where it is when called; all that does not depend on the
+/// light has been prepared. Keeps a reference to the scene.
+using Extruder = std::function<ShadowVolume()>;
+
+/// Silhouette edges of all light-facing triangles together (Kilgard 2001, possible silhouettes). An
+/// edge whose surplus is k > 0 gets k quads; corners of sides are the first of the positions that
+/// are equal.
+Extruder by_silhouettes(const Scene& scene);
+
+/// Silhouette edges of a half-edge mesh of the whole scene (VGP353 week 5): those where just one of
+/// two triangles faces the light, or the only one does.
+Extruder by_half_edges(const Scene& scene);
+
+/// A volume for each light-facing triangle by itself. Sides between two of them lie there twice, in
+/// opposite directions, and cancel in the counter.
+Extruder by_triangles(const Scene& scene);
+
+/// The two triangles of a side beside the edge from a to b of a triangle that faces the light,
+/// appended to `sides`. The diagonal runs from the later of the two corners to the earlier one's
+/// far end, whichever way the edge runs: sides that lie in one place are cut alike, and reversed
+/// ones have the first two corners of both triangles exchanged.
+void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,
+                 std::vector<glm::uvec3>& sides);
 
 } // namespace shadowproof

@@ -23,9 +23,8 @@ void count_tile(Prober& prober, const Tile& tile, Image<std::int32_t>& counts,
         if ((lanes >> lane & 1U) != 0) counts.at(tile.x[lane], tile.y[lane]) = found[lane];
 }
 
-} // namespace
-
-ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far) {
+template <class SurfaceOf>
+ShadowDepths count_depths(const Tracer& tracer, double far, const SurfaceOf& surface_of) {
     const Tracer::State& state = tracer.state();
     const Camera& camera = state.scene->camera;
     ShadowDepths depths;
@@ -40,13 +39,8 @@ ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth,
             return true;
         };
     };
-    const auto at_surface = [&](int x, int y, Prober::Point& point) {
-        point.kind = RayPoint::Kind::surface;
-        point.skip = truth.triangle.at(x, y);
-        return point.skip != no_triangle;
-    };
     for_tiles(state, [&](Prober& prober, const Tile& tile) {
-        count_tile(prober, tile, depths.at_surface, at_surface);
+        count_tile(prober, tile, depths.at_surface, surface_of);
         count_tile(prober, tile, depths.at_near, at_depth(camera.near));
         count_tile(prober, tile, depths.at_far, at_depth(far));
         count_tile(prober, tile, depths.at_infinity, [](int, int, Prober::Point& point) {
@@ -66,19 +60,22 @@ ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth,
     return depths;
 }
 
-std::int64_t predicted_count(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
-                             const Counting& counting, const DepthModel& depth_model) {
-    const bool infinite = depth_model.projection != DepthModel::Projection::finite;
-    const bool background = truth.triangle.at(x, y) == no_triangle;
-    // A clamped or finite picture's background is at its far plane, an infinite one's at infinity.
-    std::int64_t at_surface = depths.at_surface.at(x, y);
-    if (background) at_surface = infinite ? depths.at_infinity.at(x, y) : depths.at_far.at(x, y);
-    if (counting.test == Counting::Test::depth_pass)
-        return at_surface - (counting.depth_clamp ? depths.at_eye : depths.at_near.at(x, y));
-    // Faces past a far plane that clips are lost, and with them what contains that plane.
-    if (!infinite && !counting.depth_clamp) return at_surface - depths.at_far.at(x, y);
-    if (!counting.dark_cap) return at_surface - depths.at_infinity.at(x, y);
-    return at_surface;
+} // namespace
+
+ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far) {
+    return count_depths(tracer, far, [&](int x, int y, Prober::Point& point) {
+        point.kind = RayPoint::Kind::surface;
+        point.skip = truth.triangle.at(x, y);
+        return point.skip != no_triangle;
+    });
+}
+
+ShadowDepths count_shadow_depths_at(const Tracer& tracer, const Image<double>& surface,
+                                    double far) {
+    return count_depths(tracer, far, [&](int x, int y, Prober::Point& point) {
+        point.depth = surface.at(x, y);
+        return std::isfinite(point.depth);
+    });
 }
 
 } // namespace shadowproof

@@ -24,21 +24,22 @@ struct ShadowDepths {
 /// `far`: depth of the far plane of the techniques that have a finite one.
 ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far);
 
-/// The counter before wrapping, as the technique ought to have it at a pixel.
-std::int64_t predicted_count(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
-                             const Counting& counting, const DepthModel& depth_model);
+/// The same with at_surface at a view depth of each pixel; 0 where that is infinite.
+ShadowDepths count_shadow_depths_at(const Tracer& tracer, const Image<double>& surface, double far);
 
 /// One crossing of an eye ray with the boundary of the shadow volumes.
 struct Crossing {
-    /// Which face: the side over the triangle's edge from corner k to the next, or its light cap.
-    enum class Part : std::uint8_t { side_0, side_1, side_2, light_cap };
+    /// Which face: the side over the triangle's edge from corner k to the next, its light cap, or
+    /// its dark cap where volumes are extruded to a finite distance.
+    enum class Part : std::uint8_t { side_0, side_1, side_2, light_cap, dark_cap };
     double depth = 0; ///< view depth
     int change = 0;   ///< +1: entering a volume, -1: leaving it
     Part part = Part::light_cap;
     std::uint32_t triangle = no_triangle; ///< whose volume (one of them, where sides cancel)
     glm::dvec3 plane{0, 0, 0};            ///< normal of the face that is crossed, of any length
+    std::uint32_t edge = 0; ///< of a side: which silhouette edge, in the order of Silhouette
 
-    bool is_side() const { return part != Part::light_cap; }
+    bool is_side() const { return part < Part::light_cap; }
 };
 
 /// The ledger along one ray: crossings by increasing depth from the eye on, the count at the eye,

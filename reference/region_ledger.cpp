@@ -87,6 +87,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
         side.surplus = turned ? edge.surplus : -edge.surplus;
         side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
         side.edge = edge_plane(state.eye, a, b);
+        side.number = static_cast<std::uint32_t>(sides_.size() - 1);
     }
     for (const std::uint32_t triangle : casting)
         for (int k = 0; k < 3; ++k) {
@@ -100,17 +101,32 @@ Silhouette::Silhouette(const Tracer& tracer) {
         }
 }
 
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera, int left, int top, int right,
-                                      int bottom) {
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
+                                      double bottom) {
     return {ray_direction(camera, left, top), ray_direction(camera, right, top),
             ray_direction(camera, right, bottom), ray_direction(camera, left, bottom)};
 }
 
 RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                            const std::array<glm::dvec3, 4>& corners)
-    : tracer_(tracer), silhouette_(silhouette) {
-    gather_sides(corners);
+    : tracer_(tracer) {
+    const std::vector<Silhouette::Vertex>& vertices = silhouette.vertices();
+    gather_sides(
+        silhouette.sides(), vertices.size(),
+        [&](std::size_t vertex) { return vertices[vertex].plane; }, corners);
     gather_caps(corners);
+}
+
+RegionLedger::RegionLedger(const RegionLedger& outer, const std::array<glm::dvec3, 4>& corners)
+    : tracer_(outer.tracer_) {
+    const Vertices& vertices = outer.vertices_;
+    gather_sides(
+        outer.sides_, vertices.x.size(),
+        [&](std::size_t i) { return glm::dvec3(vertices.x[i], vertices.y[i], vertices.z[i]); },
+        corners);
+    for (const Cap& cap : outer.caps_)
+        if (cap.may_be_met(corners)) caps_.push_back(cap);
+    if (outer.ends_) ends_ = std::make_shared<RegionLedger>(*outer.ends_, corners);
 }
 
 // A ray eye + t D crosses the side over p and q, as seen from the light L, where
@@ -120,13 +136,15 @@ RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
 //   the crossing lies beyond the edge: det(D, p - eye, q - eye) has the sign of (eye - L).N, as
 //     that determinant is (lambda - 1) / t times it where the crossing is L + lambda (edge - L).
 // All are linear in D, so what holds at no corner of a region holds nowhere in it.
-void RegionLedger::gather_sides(const std::array<glm::dvec3, 4>& corners) {
+template <class PlaneOf>
+void RegionLedger::gather_sides(const std::vector<Silhouette::Side>& sides,
+                                std::size_t vertex_count, const PlaneOf& plane_of,
+                                const std::array<glm::dvec3, 4>& corners) {
     const Tracer::State& state = tracer_.state();
-    const std::vector<Silhouette::Vertex>& vertices = silhouette_.vertices();
     std::vector<Signs> signs;
-    signs.reserve(vertices.size());
-    for (const Silhouette::Vertex& vertex : vertices) signs.emplace_back(corners, vertex.plane);
-    for (const Silhouette::Side& side : silhouette_.sides()) {
+    signs.reserve(vertex_count);
+    for (std::size_t i = 0; i < vertex_count; ++i) signs.emplace_back(corners, plane_of(i));
+    for (const Silhouette::Side& side : sides) {
         const Signs& p = signs[side.p];
         const Signs& q = signs[side.q];
         if (!p.mixed() && !q.mixed() && p.some_negative == q.some_negative) continue;
@@ -137,16 +155,17 @@ void RegionLedger::gather_sides(const std::array<glm::dvec3, 4>& corners) {
         if (eye < 0 ? !beyond.some_negative : !beyond.some_positive) continue;
         sides_.push_back(side);
     }
-    number_vertices();
+    number_vertices(plane_of);
 }
 
-void RegionLedger::number_vertices() {
+template <class PlaneOf>
+void RegionLedger::number_vertices(const PlaneOf& plane_of) {
     std::vector<std::uint32_t> used;
     for (const Silhouette::Side& side : sides_) used.insert(used.end(), {side.p, side.q});
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::uint32_t vertex : used) {
-        const glm::dvec3& plane = silhouette_.vertices()[vertex].plane;
+        const glm::dvec3 plane = plane_of(vertex);
         vertices_.x.push_back(plane.x);
         vertices_.y.push_back(plane.y);
         vertices_.z.push_back(plane.z);
@@ -195,16 +214,22 @@ void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec
     const Corners t = shadowproof::corners(*state.scene, triangle);
     Cap cap{triangle, t.a, cap_plane(t), {}, {}};
     const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
-    bool may_be_left = true;
-    bool may_be_right = true;
     for (std::size_t k = 0; k < 3; ++k) {
         cap.edges[k] = edge_plane(state.eye, loop[k], loop[k + 1]);
         cap.turned[k] = before(loop[k + 1], loop[k]);
-        const Signs signs(corners, cap.edges[k]);
-        may_be_left = may_be_left && (cap.turned[k] ? signs.some_positive : signs.some_negative);
-        may_be_right = may_be_right && (cap.turned[k] ? signs.some_negative : signs.some_positive);
     }
-    if (may_be_left || may_be_right) caps_.push_back(cap);
+    if (cap.may_be_met(corners)) caps_.push_back(cap);
+}
+
+bool RegionLedger::Cap::may_be_met(const std::array<glm::dvec3, 4>& corners) const {
+    bool may_be_left = true;
+    bool may_be_right = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Signs signs(corners, edges[k]);
+        may_be_left = may_be_left && (turned[k] ? signs.some_positive : signs.some_negative);
+        may_be_right = may_be_right && (turned[k] ? signs.some_negative : signs.some_positive);
+    }
+    return may_be_left || may_be_right;
 }
 
 bool RegionLedger::Cap::is_met_by(const glm::dvec3& direction) const {
@@ -229,8 +254,8 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
         if ((glm::dot(direction, side.edge) < 0) != (eye < 0)) continue;
         const int change = slope > 0 ? side.surplus : -side.surplus;
         for (int i = 0; i < std::abs(change); ++i)
-            found.push_back(
-                {-eye / slope, change > 0 ? 1 : -1, side.part, side.triangle, side.plane});
+            found.push_back({-eye / slope, change > 0 ? 1 : -1, side.part, side.triangle,
+                             side.plane, side.number});
     }
     for (const Cap& cap : caps_) {
         if (!cap.is_met_by(direction)) continue;
@@ -239,10 +264,31 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
         found.push_back({depth, glm::dot(direction, cap.plane) > 0 ? 1 : -1,
                          Crossing::Part::light_cap, cap.triangle, cap.plane});
     }
+    if (ends_) cross_ends(direction, found);
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
         return std::tuple(a.depth, !a.is_side() ? 0 : 1, a.change, a.triangle) <
                std::tuple(b.depth, !b.is_side() ? 0 : 1, b.change, b.triangle);
     });
+}
+
+void RegionLedger::cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found) {
+    ends_->crossings(direction, found_at_ends_);
+    for (Crossing& crossing : found_at_ends_) {
+        crossing.change = -crossing.change;
+        if (!crossing.is_side()) {
+            crossing.part = Crossing::Part::dark_cap;
+            found.push_back(crossing);
+            continue;
+        }
+        const auto same = std::find_if(found.begin(), found.end(), [&](const Crossing& other) {
+            return other.is_side() && other.edge == crossing.edge &&
+                   other.change == -crossing.change;
+        });
+        if (same != found.end())
+            found.erase(same);
+        else
+            found.push_back(crossing);
+    }
 }
 
 } // namespace shadowproof

@@ -7,6 +7,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -23,6 +25,7 @@ public:
         int surplus = 0; ///< how many sides lie there; negative where they run from p to q
         std::uint32_t triangle = no_triangle; ///< the first that has it
         Crossing::Part part = Crossing::Part::side_0;
+        std::uint32_t number = 0;  ///< of this side, in the order of all
         glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
         glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
     };
@@ -41,15 +44,22 @@ private:
 
 /// The corners of the pixels [left, right) x [top, bottom), with room to all sides of their
 /// centres.
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera, int left, int top, int right,
-                                      int bottom);
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
+                                      double bottom);
 
 class RegionLedger {
 public:
     /// `corners`: directions of four rays of the picture whose rectangle holds all that are asked
-    /// for. Keeps references to tracer and silhouette.
+    /// for. Keeps a reference to the tracer.
     RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                  const std::array<glm::dvec3, 4>& corners);
+    /// For a part of `outer`'s region: only what reaches that is looked at.
+    RegionLedger(const RegionLedger& outer, const std::array<glm::dvec3, 4>& corners);
+
+    /// Ends the volumes where those of `ends` begin, the casters' triangles moved away from the
+    /// light: what a ray crosses of both over one edge goes, and the light caps of `ends` are left
+    /// as dark caps.
+    void cut_off(RegionLedger ends) { ends_ = std::make_shared<RegionLedger>(std::move(ends)); }
 
     /// Crossings of one ray by increasing depth from the eye on, as ray_ledger lists them. Double
     /// precision with signs that neighbouring faces share, so that a closed volume is left as often
@@ -65,10 +75,14 @@ private:
         std::array<glm::dvec3, 3> edges{}; ///< as Silhouette::Side::edge
         std::array<bool, 3> turned{};      ///< the triangle runs through the edge the other way
         bool is_met_by(const glm::dvec3& direction) const; ///< ahead of the eye or behind it
+        bool may_be_met(const std::array<glm::dvec3, 4>& corners) const; ///< anywhere between them
     };
 
-    void gather_sides(const std::array<glm::dvec3, 4>& corners);
-    void number_vertices();
+    template <class PlaneOf>
+    void gather_sides(const std::vector<Silhouette::Side>& sides, std::size_t vertex_count,
+                      const PlaneOf& plane_of, const std::array<glm::dvec3, 4>& corners);
+    template <class PlaneOf>
+    void number_vertices(const PlaneOf& plane_of);
     void gather_caps(const std::array<glm::dvec3, 4>& corners);
     void gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners);
 
@@ -79,11 +93,14 @@ private:
     };
 
     const Tracer& tracer_;
-    const Silhouette& silhouette_;
     Vertices vertices_;
     std::vector<Silhouette::Side> sides_; ///< p and q: indices into vertices_
     std::vector<std::uint8_t> behind_;    ///< a flag a vertex, for the ray at hand
     std::vector<Cap> caps_;
+    std::shared_ptr<RegionLedger> ends_;
+    std::vector<Crossing> found_at_ends_;
+
+    void cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found);
 };
 
 } // namespace shadowproof

@@ -34,7 +34,7 @@ Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double
         surface = depth_model.projection == DepthModel::Projection::finite
                       ? far
                       : std::numeric_limits<double>::infinity();
-    const bool own = crossing.triangle == seen && !crossing.is_side();
+    const bool own = crossing.triangle == seen && crossing.part == Crossing::Part::light_cap;
     const bool in_front = !own && crossing.depth < surface;
     const bool asked_for = in_front == (counting.test == Counting::Test::depth_pass);
     if (!asked_for) return Tally::beyond;
@@ -42,7 +42,8 @@ Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double
         return Tally::lost_near;
     if (!in_front && clips_at_far(counting, depth_model) && crossing.depth >= far)
         return Tally::lost_far;
-    if (!crossing.is_side() && !counting.light_cap) return Tally::lost_cap;
+    if (crossing.part == Crossing::Part::light_cap && !counting.light_cap) return Tally::lost_cap;
+    if (crossing.part == Crossing::Part::dark_cap && !counting.dark_cap) return Tally::lost_cap;
     return Tally::counted;
 }
 

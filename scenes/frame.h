@@ -20,11 +20,37 @@ struct Counting {
         depth_fail, ///< faces behind the surface: back +1, front -1
     };
     Test test = Test::depth_fail;
+    /// What a counted face does to the counter.
+    enum class Operation : std::uint8_t {
+        wrap,     ///< one more or less, modulo 2^stencil_bits
+        saturate, ///< one more or less, but never past 0 and 2^stencil_bits - 1
+        invert,   ///< all bits turn over: only whether the count is odd is kept
+    };
+    Operation operation = Operation::wrap;
+    /// What the counter holds before any face is counted.
+    enum class Start : std::uint8_t {
+        zero,
+        eye,        ///< the number of volumes around the eye
+        near_plane, ///< the number of volumes around the point of the near plane
+    };
+    Start start = Start::zero;
     bool depth_clamp = false; ///< faces past the near and far planes are kept
     bool light_cap = true;    ///< the light-facing triangles themselves are drawn
     bool dark_cap = true;     ///< so are they at infinity, where the projection keeps them
-    int stencil_bits = 8;     ///< the counter wraps modulo 2^stencil_bits
+    int stencil_bits = 8;
+    bool holes_filled = false; ///< open casters are closed before volumes are made of them
+    /// By how much the volumes' far ends lie further from the light than their casters, in world
+    /// units; infinite: at infinity.
+    double extrusion = std::numeric_limits<double>::infinity();
 };
+
+/// The counter as a buffer of `counting.stencil_bits` holds it. A saturating one has been kept in
+/// its range step by step.
+constexpr std::uint8_t stored(std::int64_t count, const Counting& counting) {
+    const std::int64_t most = (std::int64_t{1} << counting.stencil_bits) - 1;
+    if (counting.operation == Counting::Operation::invert) count = (count & 1) != 0 ? most : 0;
+    return static_cast<std::uint8_t>(count & most);
+}
 
 /// How window depth is made and stored.
 struct DepthModel {

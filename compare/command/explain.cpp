@@ -39,7 +39,8 @@ struct ExplainOptions {
 };
 
 std::string_view name_of(Crossing::Part part) {
-    return part == Crossing::Part::light_cap ? "light cap" : "side";
+    if (part == Crossing::Part::light_cap) return "light cap";
+    return part == Crossing::Part::dark_cap ? "dark cap" : "side";
 }
 
 std::string mesh_name(const Scene& scene, std::uint32_t triangle) {
@@ -67,8 +68,8 @@ PixelPosition parse_pixel(const std::string& text) {
 }
 
 TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, const Tracer& tracer,
-                     const GroundTruth& truth, const ShadowDepths& depths, const Plan& plan,
-                     Gpu& gpu) {
+                     const Silhouette& silhouette, const GroundTruth& truth,
+                     const ShadowDepths& depths, const Plan& plan, Gpu& gpu) {
     const auto failed = [&](const std::string& why) {
         TechniqueAtPixel at_pixel;
         at_pixel.name = technique.name;
@@ -78,8 +79,10 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, cons
     try {
         const Frame frame = render(technique, tracer.scene(), plan, gpu);
         refuse_blank(technique.name, truth, frame);
-        return technique_at(record, truth, depths, std::string(technique.name), frame,
-                            classify(tracer, truth, depths, frame));
+        const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
+                                    frame.depth_model);
+        return technique_at(record, prediction, std::string(technique.name), frame,
+                            classify(tracer, silhouette, truth, depths, frame, prediction));
     } catch (const std::bad_alloc&) {
         return failed(std::string(technique.name) +
                       ": there is not enough memory; try a smaller --size");
@@ -116,8 +119,8 @@ std::string lost_words(const PixelRecord& record, const TechniqueAtPixel& techni
         lost += fmt::format("{}{} {}", lost.empty() ? "" : ", ", what, loss_words(tally));
     };
     for (std::size_t i = 0; i < technique.tallies.size(); ++i)
-        add(fmt::format("{:+} at {:.9g}", record.ledger.crossings[i].change,
-                        record.ledger.crossings[i].depth),
+        add(fmt::format("{:+} at {:.9g}", crossings_of(record, technique)[i].change,
+                        crossings_of(record, technique)[i].depth),
             technique.tallies[i]);
     const std::int32_t open = record.ledger.counts.at_infinity;
     if (open != 0)
@@ -224,9 +227,11 @@ int explain(const ExplainOptions& options) {
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
     PixelRecord record = record_pixel(tracer, truth, depths, options.pixel.x, options.pixel.y);
+    const Silhouette silhouette(tracer);
     Gpu gpu(options.technique.platform);
     for (const Technique* technique : options.technique.chosen())
-        record.techniques.push_back(ask(*technique, record, tracer, truth, depths, plan, gpu));
+        record.techniques.push_back(
+            ask(*technique, record, tracer, silhouette, truth, depths, plan, gpu));
     if (!options.quiet) fmt::print("{}", as_text(scene, record));
     for (const TechniqueAtPixel& technique : record.techniques)
         if (options.quiet && !technique.error.empty()) complain(technique.error);

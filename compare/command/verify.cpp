@@ -64,12 +64,15 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         cell.frame = render(technique, trial.scene, trial.plan, gpu);
         cell.milliseconds = cell.frame.milliseconds;
         refuse_blank(technique.name, trial.truth, cell.frame);
-        cell.comparison = classify(trial.tracer, trial.truth, trial.depths, cell.frame);
+        const Prediction prediction(trial.tracer, trial.silhouette, trial.truth, trial.depths,
+                                    cell.frame.counting, cell.frame.depth_model);
+        cell.comparison = classify(trial.tracer, trial.silhouette, trial.truth, trial.depths,
+                                   cell.frame, prediction);
         cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
         cell.excused = excused_causes(trial.scene, technique.fails_at, cell.comparison);
         const Stopwatch stopwatch;
-        cell.ledgers = list_ledgers(trial.tracer, trial.silhouette, trial.truth, trial.depths,
-                                    cell.frame, cell.comparison.cause);
+        cell.ledgers = list_ledgers(trial.tracer, trial.truth, cell.frame, prediction,
+                                    cell.comparison.cause);
         trial.report_milliseconds += stopwatch.milliseconds();
     } catch (const std::bad_alloc&) {
         cell.frame = {};
@@ -164,9 +167,7 @@ void verify_scene(const Run& run, SceneResult& result) {
     const Tracer tracer(scene, options.scene.threads);
     result.truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
-    const Stopwatch stopwatch;
     const Silhouette silhouette(tracer);
-    report.report_milliseconds += stopwatch.milliseconds();
     const Trial trial{
         scene, plan, tracer, result.truth, depths, silhouette, report.report_milliseconds};
     const ColumnWidths widths = widths_of(options, result.name);

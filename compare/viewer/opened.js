@@ -66,7 +66,7 @@ function checkCell(opened) {
 const lengthsOfCell = (pixels, n) => ({
   claim: pixels, predicted: pixels, read_back: pixels,
   seen: n, shown: n, exactness: n, ledger: n,
-  ledger_start: null, ledger_counts: null, ledger_exact: null,
+  ledger_start: null, ledger_counts: null, ledger_exact: null, ledger_predicted: null,
   crossing_face: null, crossing_change: null, crossing_status: null,
   face: null, triangle: null, vertex: null,
 });

@@ -67,13 +67,15 @@ function crossingsOf(opened, ledger, eye, direction, light) {
   for (let i = start[ledger]; i < start[ledger + 1]; ++i) {
     const triangle = face[2 * faces[i]];
     const part = face[2 * faces[i] + 1];
-    const corners = cornersOf(opened, triangle);
-    const from = part === 3 ? corners : [corners[part], corners[(part + 1) % 3]];
+    // Far ends of volumes are numbered after all triangles.
+    const corners = cornersOf(opened, part === 4 ? triangle + opened.scene.triangles : triangle);
+    const isCap = part >= 3;
+    const from = isCap ? corners : [corners[part], corners[(part + 1) % 3]];
     crossings.push({
-      depth: part === 3 ? depthOnTriangle(eye, direction, from)
-                        : depthOnSide(eye, direction, light, from),
+      depth: isCap ? depthOnTriangle(eye, direction, from)
+                   : depthOnSide(eye, direction, light, from),
       change: changes[i],
-      kind: part === 3 ? 'light cap' : 'side',
+      kind: ['side', 'side', 'side', 'light cap', 'dark cap'][part],
       caster: named(opened, triangle),
       from,
     });
@@ -86,16 +88,6 @@ function darkCapStatus({ counting, depth }) {
   if (counting.test === 'depth_pass') return 'beyond';
   if (depth.projection === 'finite' && !counting.depth_clamp) return 'lost_far';
   return counting.dark_cap ? 'counted' : 'lost_cap';
-}
-
-/** The counter before it wraps, from the shadow depths of the ledger. */
-function predictedCount(inside, { counting, depth }) {
-  const finite = depth.projection === 'finite';
-  const surface = inside.surface ?? (finite ? inside.far : inside.infinity);
-  if (counting.test === 'depth_pass')
-    return surface - (counting.depth_clamp ? inside.eye : inside.near);
-  if (finite && !counting.depth_clamp) return surface - inside.far;
-  return counting.dark_cap ? surface : surface - inside.infinity;
 }
 
 /** Pixels to the nearest centre whose truth is of another class; null where there is none. */
@@ -166,7 +158,7 @@ function pixelRecord(opened, x, y) {
     inside, crossings, adds_up: blocks.ledger_exact[ledger] === 1,
     techniques: [{
       name: cell.name, test: cellFile.counting.test,
-      predicted: predictedCount(inside, cellFile),
+      predicted: blocks.ledger_predicted[ledger],
       stored: blocks.predicted[pixel], read_back: blocks.read_back[pixel],
       claim: visibilityNames[blocks.claim[pixel]],
       shown: named(opened, blocks.shown[rank]),

@@ -3,6 +3,13 @@ set(entries "")
 foreach(file IN LISTS FILES)
     get_filename_component(name ${file} NAME)
     file(READ ${file} text)
+    # A line "#include NAME" stands for the file of that name.
+    while(text MATCHES "#include ([a-z_.]+)\n")
+        set(included ${CMAKE_MATCH_1})
+        get_filename_component(folder ${file} DIRECTORY)
+        file(READ ${folder}/${included} body)
+        string(REPLACE "#include ${included}\n" "${body}" text "${text}")
+    endwhile()
     string(APPEND entries "    if (file == \"${name}\") return R\"glsl(${text})glsl\";\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by embed.cmake.

@@ -10,13 +10,14 @@ layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: t
 layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
+layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 layout(location = 5) uniform int finite_vertices;
 
 invariant gl_Position;
 
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
-    precise vec3 away = (position - light_high) - light_low;
+    precise vec3 away = (light_w * position - light_high) - light_low;
     gl_Position =
         clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, 0));
 }

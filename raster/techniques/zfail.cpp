@@ -9,14 +9,11 @@ namespace {
 /// the far plane clips: s(surface) - s(far plane). It clips all of the dark cap, which is therefore
 /// not drawn.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    ShadowVolume volume = extrude(scene);
-    volume.dark_cap.clear();
-    return draw_stencil_shadows(gpu, scene, volume,
-                                {.counting = {.test = Counting::Test::depth_fail},
-                                 .steps = {.front = -1, .back = +1},
-                                 .depth_model = {.projection = DepthModel::Projection::finite,
-                                                 .near = scene.camera.near,
-                                                 .far = finite_far(scene)}});
+    return draw_stencil_shadows(
+        gpu, scene,
+        {.counting = {.test = Counting::Test::depth_fail, .dark_cap = false},
+         .steps = {.front = -1, .back = +1},
+         .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
 }
 
 } // namespace

@@ -8,15 +8,13 @@ namespace {
 /// Counts volume faces behind the visible surface; depth clamping keeps what lies past the far
 /// plane, so the whole volume is counted. Where no volume gets there, nothing needs clamping.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    ShadowVolume volume = extrude(scene);
-    if (!plan.dark_cap) volume.dark_cap.clear();
     return draw_stencil_shadows(
-        gpu, scene, volume,
-        {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = plan.volume_meets_far},
+        gpu, scene,
+        {.counting = {.test = Counting::Test::depth_fail,
+                      .depth_clamp = plan.volume_meets_far,
+                      .dark_cap = plan.dark_cap},
          .steps = {.front = -1, .back = +1},
-         .depth_model = {.projection = DepthModel::Projection::finite,
-                         .near = scene.camera.near,
-                         .far = finite_far(scene)}});
+         .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
 }
 
 } // namespace

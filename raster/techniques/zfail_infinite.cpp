@@ -8,13 +8,12 @@ namespace {
 /// Counts volume faces behind the visible surface; the far plane lies at infinity, where the dark
 /// cap is just not clipped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    ShadowVolume volume = extrude(scene);
-    if (!plan.dark_cap) volume.dark_cap.clear();
-    return draw_stencil_shadows(gpu, scene, volume,
-                                {.counting = {.test = Counting::Test::depth_fail},
-                                 .steps = {.front = -1, .back = +1},
-                                 .depth_model = {.projection = DepthModel::Projection::infinite,
-                                                 .near = scene.camera.near}});
+    return draw_stencil_shadows(
+        gpu, scene,
+        {.counting = {.test = Counting::Test::depth_fail, .dark_cap = plan.dark_cap},
+         .steps = {.front = -1, .back = +1},
+         .depth_model = {.projection = DepthModel::Projection::infinite,
+                         .near = scene.camera.near}});
 }
 
 } // namespace

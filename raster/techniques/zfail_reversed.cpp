@@ -8,16 +8,9 @@ namespace {
 /// zfail_infinite where numbers are dense: depth n/t in floating point, far things near zero, and
 /// vertices made relative to the eye before the matrix rounds them.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    ShadowVolume volume = extrude(scene);
-    if (!plan.dark_cap) volume.dark_cap.clear();
-    return draw_stencil_shadows(
-        gpu, scene, volume,
-        {.counting = {.test = Counting::Test::depth_fail},
-         .steps = {.front = -1, .back = +1},
-         .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
-                         .near = scene.camera.near,
-                         .floating = true,
-                         .eye_relative = true}});
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counting.dark_cap = plan.dark_cap;
+    return draw_stencil_shadows(gpu, scene, recipe);
 }
 
 } // namespace

@@ -9,13 +9,7 @@ namespace {
 /// where the near plane lies inside a volume. The dark cap is never in front of anything; the light
 /// cap is only where its own surface is culled, seen from behind.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    return draw_stencil_shadows(
-        gpu, scene, extrude(scene),
-        {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
-         .steps = {.front = +1, .back = -1},
-         .depth_model = {.projection = DepthModel::Projection::finite,
-                         .near = scene.camera.near,
-                         .far = finite_far(scene)}});
+    return draw_stencil_shadows(gpu, scene, zpass_recipe(scene));
 }
 
 } // namespace

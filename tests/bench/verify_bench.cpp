@@ -46,7 +46,12 @@ void classification(benchmark::State& state, const std::string& name, const Tech
     const ShadowDepths depths = count_shadow_depths(tracer, ground, finite_far(scene));
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = render(technique, scene, make_plan(scene), gpu);
-    for (auto _ : state) benchmark::DoNotOptimize(classify(tracer, ground, depths, frame));
+    const Silhouette silhouette(tracer);
+    for (auto _ : state) {
+        const Prediction prediction(tracer, silhouette, ground, depths, frame.counting,
+                                    frame.depth_model);
+        benchmark::DoNotOptimize(classify(tracer, silhouette, ground, depths, frame, prediction));
+    }
 }
 
 const bool registered = [] {

@@ -21,12 +21,13 @@ struct TracedScene {
     Scene scene;
     Plan plan;
     Tracer tracer;
+    Silhouette silhouette;
     GroundTruth truth;
     ShadowDepths depths;
 
     explicit TracedScene(const std::string& name)
-        : scene(load_scene(name, {})), plan(make_plan(scene)), tracer(scene), truth(trace(tracer)),
-          depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
+        : scene(load_scene(name, {})), plan(make_plan(scene)), tracer(scene), silhouette(tracer),
+          truth(trace(tracer)), depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
 };
 
 class Classify : public testing::Test {
@@ -40,7 +41,10 @@ protected:
 
     Comparison compare(const std::string& name, const Technique& technique) {
         TracedScene& t = traced(name);
-        return classify(t.tracer, t.truth, t.depths, render(technique, t.scene, t.plan, gpu_));
+        const Frame frame = render(technique, t.scene, t.plan, gpu_);
+        return classify(
+            t.tracer, t.silhouette, t.truth, t.depths, frame,
+            {t.tracer, t.silhouette, t.truth, t.depths, frame.counting, frame.depth_model});
     }
     Comparison compare(const std::string& name, const std::string& technique) {
         return compare(name, *find_technique(technique));

@@ -18,19 +18,22 @@ namespace {
 struct TabledCell {
     Scene scene;
     Tracer tracer;
+    Silhouette silhouette;
     GroundTruth truth;
     ShadowDepths depths;
     Frame frame;
+    std::optional<Prediction> prediction;
     Comparison comparison;
     LedgerTable table;
 
     TabledCell(const std::string& name, const std::string& technique, int threads = 0)
-        : scene(load_scene(name, {})), tracer(scene, threads), truth(trace(tracer)),
-          depths(count_shadow_depths(tracer, truth, finite_far(scene))) {
+        : scene(load_scene(name, {})), tracer(scene, threads), silhouette(tracer),
+          truth(trace(tracer)), depths(count_shadow_depths(tracer, truth, finite_far(scene))) {
         Gpu gpu(GlPlatform::osmesa);
         frame = render(*find_technique(technique), scene, make_plan(scene), gpu);
-        comparison = classify(tracer, truth, depths, frame);
-        table = list_ledgers(tracer, Silhouette(tracer), truth, depths, frame, comparison.cause);
+        prediction.emplace(tracer, silhouette, truth, depths, frame.counting, frame.depth_model);
+        comparison = classify(tracer, silhouette, truth, depths, frame, *prediction);
+        table = list_ledgers(tracer, truth, frame, *prediction, comparison.cause);
     }
 
     /// Calls visit(i, x, y) for every differing pixel, in rows from the top.
@@ -58,9 +61,7 @@ TEST_P(LedgerTableTest, what_was_counted_adds_up_to_the_prediction_at_every_diff
         for (std::uint32_t k = table.start[ledger]; k < table.start[ledger + 1]; ++k)
             if (table.crossing_tally[k] == static_cast<std::uint8_t>(Tally::counted))
                 count += weight(counting) * table.crossing_change[k];
-        ASSERT_EQ(count,
-                  predicted_count(cell.depths, cell.truth, x, y, counting, cell.frame.depth_model))
-            << x << ", " << y;
+        ASSERT_EQ(count, cell.prediction->counts().at(x, y)) << x << ", " << y;
     });
 }
 
@@ -72,7 +73,7 @@ TEST_P(LedgerTableTest, the_table_holds_what_the_pixels_alone_say) {
         if (i % 997 != 0) return;
         const PixelRecord record = record_pixel(cell.tracer, cell.truth, cell.depths, x, y);
         const TechniqueAtPixel technique =
-            technique_at(record, cell.truth, cell.depths, "", cell.frame, cell.comparison);
+            technique_at(record, *cell.prediction, "", cell.frame, cell.comparison);
         EXPECT_EQ(table.seen[i], record.seen);
         EXPECT_EQ(table.shown[i], technique.shown);
         const std::uint32_t ledger = table.ledger[i];
@@ -118,8 +119,10 @@ TEST(LedgerTable, a_cell_without_a_difference_has_an_empty_table) {
     const Tracer tracer(scene);
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const LedgerTable table = list_ledgers(tracer, Silhouette(tracer), truth, depths, {},
-                                           Image<std::uint8_t>(32, 32, no_difference));
+    const Silhouette silhouette(tracer);
+    const Prediction prediction(tracer, silhouette, truth, depths, {}, {});
+    const LedgerTable table =
+        list_ledgers(tracer, truth, {}, prediction, Image<std::uint8_t>(32, 32, no_difference));
     EXPECT_TRUE(table.ledger.empty());
     EXPECT_TRUE(table.vertex.empty());
     EXPECT_EQ(table.start, std::vector<std::uint32_t>{0});

@@ -11,24 +11,21 @@ namespace shadowproof::tests {
 
 namespace {
 
+/// An extruder whose volumes are then tampered with.
+template <class Tamper>
+std::function<Extruder(const Scene&)> tampered(const Tamper& tamper) {
+    return [tamper](const Scene& scene) -> Extruder {
+        return [&scene, tamper, extrude = by_silhouettes(scene)] {
+            ShadowVolume volume = extrude();
+            tamper(scene, volume);
+            return volume;
+        };
+    };
+}
+
 StencilRecipe clamp_recipe(const Scene& scene) {
     return {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
             .steps = {.front = -1, .back = +1},
-            .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
-}
-
-StencilRecipe reversed_recipe(const Scene& scene) {
-    return {.counting = {.test = Counting::Test::depth_fail},
-            .steps = {.front = -1, .back = +1},
-            .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
-                            .near = scene.camera.near,
-                            .floating = true,
-                            .eye_relative = true}};
-}
-
-StencilRecipe zpass_recipe(const Scene& scene) {
-    return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
-            .steps = {.front = +1, .back = -1},
             .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
 }
 
@@ -50,24 +47,25 @@ std::ptrdiff_t longest_side(const Scene& scene, const std::vector<glm::uvec3>& s
 } // namespace
 
 Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    ShadowVolume volume = extrude(scene);
-    volume.dark_cap.clear();
-    return draw_stencil_shadows(gpu, scene, volume, reversed_recipe(scene));
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) { volume.dark_cap.clear(); });
+    return draw_stencil_shadows(gpu, scene, recipe);
 }
 
 Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = clamp_recipe(scene);
     std::swap(recipe.steps.front, recipe.steps.back);
-    return draw_stencil_shadows(gpu, scene, extrude(scene), recipe);
+    return draw_stencil_shadows(gpu, scene, recipe);
 }
 
 Frame without_one_side(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    ShadowVolume volume = extrude(scene);
-    if (!volume.sides.empty()) {
-        const auto first = volume.sides.begin() + longest_side(scene, volume.sides);
+    StencilRecipe recipe = clamp_recipe(scene);
+    recipe.extruder = tampered([](const Scene& casters, ShadowVolume& volume) {
+        if (volume.sides.empty()) return;
+        const auto first = volume.sides.begin() + longest_side(casters, volume.sides);
         volume.sides.erase(first, first + 2);
-    }
-    return draw_stencil_shadows(gpu, scene, volume, clamp_recipe(scene));
+    });
+    return draw_stencil_shadows(gpu, scene, recipe);
 }
 
 Frame with_wrong_near_plane(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
@@ -75,7 +73,7 @@ Frame with_wrong_near_plane(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) 
     Scene drawn = scene;
     drawn.camera.near *= 2;
     recipe.depth_model.near *= 2;
-    Frame frame = draw_stencil_shadows(gpu, drawn, extrude(drawn), recipe);
+    Frame frame = draw_stencil_shadows(gpu, drawn, recipe);
     frame.depth_model.near = scene.camera.near;
     return frame;
 }
@@ -90,7 +88,7 @@ Frame with_mirrored_light(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     }
     double& x = mirrored.lights[mirrored.light].position.x;
     x = double{low} + double{high} - x;
-    return draw_stencil_shadows(gpu, mirrored, extrude(mirrored), reversed_recipe(mirrored));
+    return draw_stencil_shadows(gpu, mirrored, zfail_reversed_recipe(mirrored));
 }
 
 std::span<const Technique> faulty_techniques() {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
 namespace shadowproof::tests {
@@ -13,7 +14,7 @@ constexpr std::string_view vertex = "#version 450 core\nvoid main() { gl_Positio
 
 std::string message_of(const GlFunctions& gl, const ShaderText& first, const ShaderText& second) {
     try {
-        link(gl, first, second);
+        link(gl, std::array{first, second});
     } catch (const Error& error) {
         return error.what();
     }

@@ -33,6 +33,10 @@ std::size_t unbalanced_edges(const Scene& scene, const ShadowVolume& volume) {
     return unbalanced;
 }
 
+ShadowVolume extrude(const Scene& scene) {
+    return by_silhouettes(scene)();
+}
+
 Scene random_soup(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> lattice(-2, 2); // few places: many shared corners and edges

@@ -39,10 +39,13 @@ void check() {
            "some are shadowed");
 
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
+    const Silhouette silhouette(tracer);
     Gpu gpu(GlPlatform::osmesa);
     const auto compare = [&](const char* technique) {
-        return classify(tracer, truth, depths,
-                        render(*find_technique(technique), scene, plan, gpu));
+        const Frame frame = render(*find_technique(technique), scene, plan, gpu);
+        const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
+                                    frame.depth_model);
+        return classify(tracer, silhouette, truth, depths, frame, prediction);
     };
     const auto pixels = [](const Comparison& comparison, Cause cause) {
         return comparison.causes[static_cast<std::size_t>(cause)];

@@ -1,0 +1,24 @@
+// Whether the light sees a triangle's front, in double, with the products of raster/volume.cpp in
+// their order: both sides must find the same.
+
+bool is_before(vec3 a, vec3 b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+bool faces(vec3 a, vec3 b, vec3 c, dvec3 light) {
+    // From the first of its corners on, so that neighbours that know it in another order agree.
+    for (int turn = 0; turn < 2 && (is_before(b, a) || is_before(c, a)); ++turn) {
+        vec3 first = a;
+        a = b;
+        b = c;
+        c = first;
+    }
+    precise dvec3 ab = dvec3(b) - dvec3(a);
+    precise dvec3 ac = dvec3(c) - dvec3(a);
+    precise dvec3 al = light - dvec3(a);
+    precise double x = ab.y * ac.z - ac.y * ab.z;
+    precise double y = ab.z * ac.x - ac.z * ab.x;
+    precise double z = ab.x * ac.y - ac.x * ab.y;
+    precise double sum = (x * al.x + y * al.y) + z * al.z;
+    return sum > 0;
+}

@@ -1,0 +1,148 @@
+#include "raster/near_plane.h"
+
+#include "raster/near_cap.h"
+#include "raster/shader.h"
+#include "raster/volume.h"
+#include "scenes/topology.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <memory>
+
+namespace shadowproof {
+
+namespace {
+
+/// The ledge's projection.
+glm::mat4 clip_from_view_on_ledge(const Scene& scene, const DepthModel& depth_model) {
+    Camera camera = scene.camera;
+    camera.near = ledge_near(depth_model.near, depth_model.far);
+    return glm::mat4(clip_from_view_finite(camera, depth_model.far));
+}
+
+struct Capped {
+    std::vector<std::uint32_t> welded;
+    Program cut_program;
+    Program cap_program;
+    VertexArray points;
+    Buffer point_buffer;
+    Triangles cut;
+    Triangles light_caps;
+};
+
+} // namespace
+
+VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
+                            const ClipTransform& transform, const DepthModel& depth_model) {
+    const auto made = std::make_shared<Capped>();
+    made->welded = weld_by_position(scene.positions);
+    made->cut_program = link_files(gl, {"view_space.vert", "volume.frag"});
+    const glm::mat4 projection = clip_from_view_on_ledge(scene, depth_model);
+    gl.ProgramUniformMatrix4fv(made->cut_program.name(), 0, 1, GL_FALSE,
+                               glm::value_ptr(projection));
+    made->cap_program = link_projection(gl, "volume.frag", transform, geometry);
+    made->points = make_vertex_array(gl);
+    gl.VertexArrayAttribFormat(made->points.name(), 0, 4, GL_FLOAT, GL_FALSE, 0);
+    gl.VertexArrayAttribBinding(made->points.name(), 0, 0);
+    gl.EnableVertexArrayAttrib(made->points.name(), 0);
+
+    const auto update = [&gl, &scene, made] {
+        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+        const NearCut cut = cut_at_near_plane(scene, made->welded, facing);
+        made->point_buffer =
+            make_filled_buffer(gl, std::array{std::as_bytes(std::span(cut.points))});
+        gl.VertexArrayVertexBuffer(made->points.name(), 0, made->point_buffer.name(), 0,
+                                   sizeof(glm::vec4));
+        made->cut = upload_triangles(gl, std::array{std::span<const glm::uvec3>(cut.sides),
+                                                    std::span<const glm::uvec3>(cut.caps)});
+        std::vector<glm::uvec3> caps;
+        for (const std::uint32_t triangle : facing) caps.push_back(scene.triangles[triangle]);
+        made->light_caps = upload_triangles(gl, std::array{std::span<const glm::uvec3>(caps)});
+    };
+    const auto draw = [&gl, &geometry, made] {
+        gl.DepthRange(0, 1);
+        gl.UseProgram(made->cut_program.name());
+        gl.BindVertexArray(made->points.name());
+        gl.VertexArrayElementBuffer(made->points.name(), made->cut.buffer.name());
+        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * made->cut.count), GL_UNSIGNED_INT,
+                        nullptr);
+        gl.DepthRange(ledge, 1);
+        gl.BindVertexArray(geometry.vertices.name());
+        gl.UseProgram(made->cap_program.name());
+        draw_triangles(gl, geometry, made->light_caps, 0, made->light_caps.count);
+    };
+    return {.update = update, .draw = draw};
+}
+
+namespace {
+
+/// With view coordinates (x, y, depth), a light l and the near plane's depth n, the shadow of a
+/// point p falls on l + (p - l) (n - l.depth) / (p.depth - l.depth). Homogeneous, with the divisor
+/// as w and turned so that w > 0 for what lies on the plane's side of the light.
+glm::dmat4 clip_from_eye_relative(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    const glm::dvec3 from_eye = chosen_light(scene).position - camera.eye;
+    const glm::dvec3 l(glm::dot(camera.right, from_eye), glm::dot(camera.up, from_eye),
+                       glm::dot(camera.forward, from_eye));
+    const double distance = camera.near - l.z;
+    const double sign = distance < 0 ? -1 : 1;
+    const glm::dvec2 extent = half_extent(camera) * camera.near;
+    // Rows: coefficients of (x, y, z) of a point relative to the eye, and the constant.
+    const auto row = [](const glm::dvec3& axis, double constant) {
+        return glm::dvec4(axis, constant);
+    };
+    const glm::dvec4 depth = row(camera.forward, -l.z) * sign; // (p.depth - l.depth) sign
+    const auto across = [&](const glm::dvec3& axis, double of_light, double half) {
+        return (depth * of_light + row(axis, -of_light) * std::abs(distance)) / half;
+    };
+    const std::array<glm::dvec4, 4> rows{across(camera.right, l.x, extent.x),
+                                         across(camera.up, l.y, extent.y), glm::dvec4(0), depth};
+    glm::dmat4 matrix(0);
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) matrix[k][i] = rows[static_cast<std::size_t>(i)][k];
+    return matrix;
+}
+
+struct Occluders {
+    Program program;
+    Triangles triangles;
+};
+
+} // namespace
+
+VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry) {
+    const auto made = std::make_shared<Occluders>();
+    made->program = link_files(gl, {"from_light.vert", "volume.frag"});
+    const auto update = [&gl, &scene, made] {
+        const glm::dvec3& eye = scene.camera.eye;
+        const glm::vec3 high(eye);
+        const glm::vec3 low(eye - glm::dvec3(high));
+        const glm::mat4 matrix(clip_from_eye_relative(scene));
+        const GLuint program = made->program.name();
+        gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, glm::value_ptr(matrix));
+        gl.ProgramUniform3fv(program, 1, 1, glm::value_ptr(high));
+        gl.ProgramUniform3fv(program, 2, 1, glm::value_ptr(low));
+        const double distance =
+            std::abs(scene.camera.near - view_depth(scene.camera, chosen_light(scene).position));
+        gl.ProgramUniform1f(program, 8, static_cast<float>(distance));
+        std::vector<glm::uvec3> facing;
+        for (const std::uint32_t triangle : triangles_facing_light(scene))
+            facing.push_back(scene.triangles[triangle]);
+        made->triangles = upload_triangles(gl, std::array{std::span<const glm::uvec3>(facing)});
+    };
+    const auto draw = [&gl, &geometry, made] {
+        gl.UseProgram(made->program.name());
+        gl.Disable(GL_DEPTH_TEST);
+        gl.Enable(GL_DEPTH_CLAMP);
+        gl.Enable(GL_CLIP_DISTANCE0);
+        draw_triangles(gl, geometry, made->triangles, 0, made->triangles.count);
+        gl.Disable(GL_CLIP_DISTANCE0);
+        gl.Disable(GL_DEPTH_CLAMP);
+        gl.Enable(GL_DEPTH_TEST);
+    };
+    return {.update = update, .draw = draw};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zpass with a counter of one bit: each face turns the stencil over. Right where volumes do not
+/// overlap.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    recipe.counting.operation = Counting::Operation::invert;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique invert_technique() {
+    return {.name = "invert",
+            .summary = "zpass that inverts the stencil instead of counting",
+            .source = "Kilgard 2001; CS448 lecture 11, parity",
+            .needs = "volumes that do not overlap",
+            .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
+                         Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,27 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed with volumes made by a geometry shader, which knows a triangle's neighbours.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.making = VolumeMaking::geometry_shader;
+    recipe.counting.dark_cap = plan.dark_cap;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_geometry_shader_technique() {
+    return {.name = "zfail_geometry_shader",
+            .summary = "zfail_reversed with volumes made by a geometry shader from adjacency",
+            .source = "omni-directional shadows with geometry shaders",
+            .needs = "geometry shaders, and triangles with adjacency",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

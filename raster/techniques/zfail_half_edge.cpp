@@ -1,0 +1,29 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed with volumes from a half-edge mesh: each edge once, with both its triangles. Open
+/// casters are closed first, as the source asks for, by triangles that only cast.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.extruder = by_half_edges;
+    recipe.counting.dark_cap = plan.dark_cap;
+    recipe.counting.holes_filled = plan.hole_filling;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_half_edge_technique() {
+    return {.name = "zfail_half_edge",
+            .summary = "zfail_reversed with silhouettes of a half-edge mesh, holes filled",
+            .source = "VGP353 week 5, half-edge meshes",
+            .needs = "a half-edge mesh; holes are filled",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,26 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed without dark caps: volumes are open at infinity.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counting.dark_cap = false;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_no_dark_cap_technique() {
+    return {.name = "zfail_no_dark_cap",
+            .summary = "zfail_reversed without dark caps",
+            .source = "what Everitt & Kilgard 2002 say is needed, left out",
+            .needs = "rays that leave all volumes again",
+            .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

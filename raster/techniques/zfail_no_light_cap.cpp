@@ -1,0 +1,27 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed without light caps: volumes are open towards the light.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counting.light_cap = false;
+    recipe.counting.dark_cap = plan.dark_cap;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_no_light_cap_technique() {
+    return {.name = "zfail_no_light_cap",
+            .summary = "zfail_reversed without light caps",
+            .source = "what Everitt & Kilgard 2002 say is needed, left out",
+            .needs = "rays that pass no light cap behind the surface",
+            .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

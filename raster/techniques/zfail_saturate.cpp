@@ -1,0 +1,28 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed where the counter stops at 0 and 255 instead of wrapping: a step down before the
+/// step up that belongs to it is lost.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counting.operation = Counting::Operation::saturate;
+    recipe.counting.dark_cap = plan.dark_cap;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_saturate_technique() {
+    return {.name = "zfail_saturate",
+            .summary = "zfail_reversed with a counter that saturates",
+            .source = "Kilgard 2001, before EXT_stencil_wrap",
+            .needs = "faces in an order that never counts below zero",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+#include "scenes/extrusion.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed with volumes that end: extruded by half the diagonal of the scene's bounding box,
+/// and capped there.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counting.extrusion = finite_extrusion(scene);
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_truncated_technique() {
+    return {.name = "zfail_truncated",
+            .summary = "zfail_reversed with volumes extruded by a finite distance",
+            .source = "Kilgard 2001, truncated and capped volumes",
+            .needs = "shadows that end within the distance",
+            .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

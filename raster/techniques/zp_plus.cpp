@@ -1,0 +1,28 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zpass after the occluders between light and near plane were drawn from the light, through that
+/// plane: a layer for each volume that a pixel's ray begins in.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    recipe.counting.start = Counting::Start::near_plane;
+    recipe.near_plane = NearPlane::from_light;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zp_plus_technique() {
+    return {.name = "zp_plus",
+            .summary = "zpass after drawing the near plane's occluders from the light",
+            .source = "Hornus, Hoberock, Lefebvre & Hart 2005, ZP+",
+            .needs = "a light that does not lie in the near plane",
+            .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zpass with volumes closed on the near plane, drawn on a ledge of depths in front of the scene:
+/// what lies between eye and near plane is missed, and the caps count it.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    recipe.counting.start = Counting::Start::near_plane;
+    recipe.near_plane = NearPlane::capped;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zpass_capped_technique() {
+    return {.name = "zpass_capped",
+            .summary = "zpass with volumes capped on the near plane",
+            .source = "Kilgard 2001, \"A New Robust Technique\"",
+            .needs = "a finite projection, and a CPU that cuts volumes",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,27 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zpass with the stencil cleared to the number of volumes around the eye: right as long as the
+/// near plane is in the same ones.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    recipe.counting.start = Counting::Start::eye;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zpass_eye_count_technique() {
+    return {.name = "zpass_eye_count",
+            .summary = "zpass that starts from the number of volumes around the eye",
+            .source = "VGP353 week 5",
+            .needs = "no volume between the eye and a part of the near plane",
+            .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,193 @@
+#include "raster/volume_pass.h"
+
+#include "raster/shader.h"
+#include "raster/volume.h"
+#include "scenes/half_edge.h"
+#include "scenes/topology.h"
+
+#include <array>
+#include <memory>
+#include <numeric>
+
+namespace shadowproof {
+
+namespace {
+
+/// Everything a pass is made of.
+struct Making {
+    const GlFunctions& gl;
+    const Scene& scene;
+    const Geometry& geometry;
+    const ClipTransform& transform;
+    Counting counting;
+};
+
+std::vector<std::span<const glm::uvec3>> drawn_parts(const ShadowVolume& volume,
+                                                     const Counting& counting) {
+    std::vector<std::span<const glm::uvec3>> parts{volume.sides};
+    if (counting.light_cap) parts.emplace_back(volume.light_cap);
+    if (counting.dark_cap) parts.emplace_back(volume.dark_cap);
+    return parts;
+}
+
+VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
+    struct Made {
+        Program program;
+        Triangles faces;
+    };
+    const auto made = std::make_shared<Made>();
+    made->program = link_projection(making.gl, "volume.frag", making.transform, making.geometry);
+    return {.update =
+                [made, making, extruder] {
+                    const ShadowVolume volume = extruder();
+                    made->faces = upload_triangles(making.gl, drawn_parts(volume, making.counting));
+                },
+            .draw =
+                [made, making] {
+                    making.gl.UseProgram(made->program.name());
+                    draw_triangles(making.gl, making.geometry, made->faces, 0, made->faces.count);
+                }};
+}
+
+/// The light where shaders tell its side in double; locations as facing.glsl's users lay them out.
+void set_light(const Making& making, const Program& program) {
+    const glm::dvec3 light = chosen_light(making.scene).position;
+    making.gl.ProgramUniform3d(program.name(), 8, light.x, light.y, light.z);
+}
+
+/// The corner of a half-edge's triangle that is not on it.
+std::uint32_t third_corner(const HalfEdgeMesh& mesh, std::uint32_t half_edge) {
+    return mesh.half_edges[mesh.half_edges[mesh.half_edges[half_edge].next].next].origin;
+}
+
+/// The third corner of the triangle across; the own one where there is none.
+std::uint32_t corner_across(const HalfEdgeMesh& mesh, std::uint32_t half_edge) {
+    const std::uint32_t twin = mesh.half_edges[half_edge].twin;
+    return third_corner(mesh, twin == no_half_edge ? half_edge : twin);
+}
+
+VolumePass geometry_shader_pass(const Making& making) {
+    struct Made {
+        Program program;
+        Buffer indices;
+        GLsizei count = 0;
+    };
+    const auto made = std::make_shared<Made>();
+    const HalfEdgeMesh mesh = connect_all(making.scene);
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t half_edge = 0; half_edge < mesh.half_edges.size(); ++half_edge) {
+        indices.push_back(mesh.half_edges[half_edge].origin);
+        indices.push_back(corner_across(mesh, half_edge));
+    }
+    made->indices = make_filled_buffer(making.gl, std::array{std::as_bytes(std::span(indices))});
+    made->count = static_cast<GLsizei>(indices.size());
+    made->program = link_files(making.gl, {"adjacency.vert", "volume.geom", "volume.frag"});
+    set_transform(making.gl, made->program, making.transform);
+    making.gl.ProgramUniform1i(made->program.name(), 9, making.counting.light_cap ? 1 : 0);
+    making.gl.ProgramUniform1i(made->program.name(), 10, making.counting.dark_cap ? 1 : 0);
+    return {.update = [made, making] { set_light(making, made->program); },
+            .draw =
+                [made, making] {
+                    making.gl.UseProgram(made->program.name());
+                    making.gl.VertexArrayElementBuffer(making.geometry.vertices.name(),
+                                                       made->indices.name());
+                    making.gl.DrawElements(GL_TRIANGLES_ADJACENCY, made->count, GL_UNSIGNED_INT,
+                                           nullptr);
+                }};
+}
+
+/// As degenerate_quads.vert reads it.
+struct QuadEdge {
+    std::uint32_t low = 0;
+    std::uint32_t high = 0;
+    std::uint32_t up = 0;
+    std::uint32_t down = 0;
+};
+
+/// Two triangles in one plane, side by side: the light never sees one of them alone.
+bool is_flat(const Scene& scene, const QuadEdge& edge) {
+    const glm::dvec3 low = scene.positions[edge.low];
+    const glm::dvec3 along = glm::dvec3(scene.positions[edge.high]) - low;
+    const glm::dvec3 to_up = glm::dvec3(scene.positions[edge.up]) - low;
+    const glm::dvec3 to_down = glm::dvec3(scene.positions[edge.down]) - low;
+    const glm::dvec3 up = glm::cross(along, to_up);
+    return glm::dot(up, to_down) == 0 && glm::dot(up, glm::cross(to_down, along)) > 0;
+}
+
+/// All edges that may become silhouettes.
+std::vector<QuadEdge> quad_edges(const Scene& scene) {
+    const HalfEdgeMesh mesh = connect_all(scene);
+    std::vector<QuadEdge> edges;
+    for (const Edge& edge : mesh.edges) {
+        const std::uint32_t a = mesh.half_edges[edge.half_edge].origin;
+        const std::uint32_t b = mesh.half_edges[mesh.half_edges[edge.half_edge].next].origin;
+        const std::uint32_t own = third_corner(mesh, edge.half_edge);
+        const std::uint32_t other = corner_across(mesh, edge.half_edge);
+        const QuadEdge quad = a < b ? QuadEdge{a, b, own, other} : QuadEdge{b, a, other, own};
+        if (edge.twin == no_half_edge || !is_flat(scene, quad)) edges.push_back(quad);
+    }
+    return edges;
+}
+
+VolumePass degenerate_quads_pass(const Making& making) {
+    struct Made {
+        Program quads;
+        Program caps;
+        Buffer edges;
+        Buffer corners;
+        VertexArray no_attributes; ///< shaders ask for vertices themselves
+        GLsizei quad_vertices = 0;
+        GLsizei cap_vertices = 0; ///< of light or dark caps
+    };
+    const auto made = std::make_shared<Made>();
+    const std::vector<QuadEdge> edges = quad_edges(making.scene);
+    made->edges = make_filled_buffer(making.gl, std::array{std::as_bytes(std::span(edges))});
+    made->corners =
+        make_filled_buffer(making.gl, std::array{std::as_bytes(std::span(making.scene.triangles))});
+    made->no_attributes = make_vertex_array(making.gl);
+    made->quad_vertices = static_cast<GLsizei>(6 * edges.size());
+    made->cap_vertices = static_cast<GLsizei>(3 * making.scene.triangles.size());
+    made->quads = link_files(making.gl, {"degenerate_quads.vert", "volume.frag"});
+    made->caps = link_files(making.gl, {"degenerate_caps.vert", "volume.frag"});
+    for (const Program* program : {&made->quads, &made->caps})
+        set_transform(making.gl, *program, making.transform);
+    making.gl.ProgramUniform1i(made->caps.name(), 9, made->cap_vertices);
+    const auto update = [made, making] {
+        set_light(making, made->quads);
+        set_light(making, made->caps);
+    };
+    const auto draw = [made, making] {
+        const GlFunctions& gl = making.gl;
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, making.geometry.positions.name());
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, made->edges.name());
+        gl.BindVertexArray(made->no_attributes.name());
+        gl.UseProgram(made->quads.name());
+        gl.DrawArrays(GL_TRIANGLES, 0, made->quad_vertices);
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, made->corners.name());
+        gl.UseProgram(made->caps.name());
+        const GLsizei light = making.counting.light_cap ? made->cap_vertices : 0;
+        const GLsizei dark = making.counting.dark_cap ? made->cap_vertices : 0;
+        gl.DrawArrays(GL_TRIANGLES, made->cap_vertices - light, light + dark);
+        gl.BindVertexArray(making.geometry.vertices.name());
+    };
+    return {.update = update, .draw = draw};
+}
+
+} // namespace
+
+VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
+                            const ClipTransform& transform, const Counting& counting,
+                            VolumeMaking making, const Extruder& extruder) {
+    const Making all{gl, scene, geometry, transform, counting};
+    switch (making) {
+    case VolumeMaking::on_cpu:
+        break;
+    case VolumeMaking::degenerate_quads:
+        return degenerate_quads_pass(all);
+    case VolumeMaking::geometry_shader:
+        return geometry_shader_pass(all);
+    }
+    return cpu_pass(all, extruder);
+}
+
+} // namespace shadowproof

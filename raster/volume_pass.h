@@ -1,0 +1,35 @@
+// The ways in which the faces of shadow volumes come to be drawn: made on the CPU for each position
+// of the light, or by shaders from what is uploaded once.
+#pragma once
+
+#include "raster/passes.h"
+#include "raster/volume.h"
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <functional>
+
+namespace shadowproof {
+
+enum class VolumeMaking : std::uint8_t {
+    on_cpu,           ///< by an Extruder
+    degenerate_quads, ///< a quad for each edge, stretched out by the vertex shader
+    geometry_shader,  ///< of triangles with adjacency
+};
+
+/// The volume's faces, ready to be drawn again and again.
+struct VolumePass {
+    /// What has to be done anew when the light moves.
+    std::function<void()> update;
+    /// Draws sides, then light caps, then dark caps, as `counting` has them. Binds its programs and
+    /// buffers; all other state is the caller's.
+    std::function<void()> draw;
+};
+
+/// Keeps references to all but `counting`; corners at a volume's far end are transformed as
+/// set_transform says. Throws Error where the driver fails.
+VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
+                            const ClipTransform& transform, const Counting& counting,
+                            VolumeMaking making, const Extruder& extruder);
+
+} // namespace shadowproof

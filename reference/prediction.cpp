@@ -1,0 +1,137 @@
+#include "reference/prediction.h"
+
+#include "reference/faces.h"
+#include "reference/parallel.h"
+#include "reference/tally.h"
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+namespace shadowproof {
+
+namespace {
+
+/// Pixels along the side of the regions whose ledgers are found together.
+constexpr int region_side = 16;
+
+bool is_infinite(const DepthModel& depth_model) {
+    return depth_model.projection != DepthModel::Projection::finite;
+}
+
+/// Whether the formulas of shadow depths hold: each face counts by one, whichever comes first, and
+/// all faces are drawn but the dark cap at infinity.
+bool follows_from_depths(const Counting& counting) {
+    return counting.operation != Counting::Operation::saturate && counting.light_cap;
+}
+
+std::int32_t count_from_depths(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
+                               const Counting& counting, const DepthModel& depth_model) {
+    const bool infinite = is_infinite(depth_model);
+    const bool background = truth.triangle.at(x, y) == no_triangle;
+    const std::int32_t near = depths.at_near.at(x, y);
+    // A clamped or finite picture's background is at its far plane, an infinite one's at infinity.
+    std::int32_t at_surface = depths.at_surface.at(x, y);
+    if (background) at_surface = infinite ? depths.at_infinity.at(x, y) : depths.at_far.at(x, y);
+    at_surface += start_of(counting, depths.at_eye, near);
+    if (counting.test == Counting::Test::depth_pass)
+        return at_surface - (counting.depth_clamp ? depths.at_eye : near);
+    // Faces past a far plane that clips are lost, and with them what contains that plane.
+    if (!infinite && !counting.depth_clamp) return at_surface - depths.at_far.at(x, y);
+    if (!counting.dark_cap) return at_surface - depths.at_infinity.at(x, y);
+    return at_surface;
+}
+
+double depth_of_seen(const Scene& scene, std::uint32_t seen, const glm::dvec3& direction) {
+    const Corners t{corner(scene, seen, 0), corner(scene, seen, 1), corner(scene, seen, 2)};
+    return depth_on_plane(scene.camera.eye, direction, t.a, cap_plane(t));
+}
+
+} // namespace
+
+std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near) {
+    switch (counting.start) {
+    case Counting::Start::zero:
+        break;
+    case Counting::Start::eye:
+        return at_eye;
+    case Counting::Start::near_plane:
+        return at_near;
+    }
+    return 0;
+}
+
+std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
+    if (counting.operation != Counting::Operation::saturate) return count + step;
+    const std::int64_t most = (std::int64_t{1} << counting.stencil_bits) - 1;
+    return std::clamp<std::int64_t>(count + step, 0, most);
+}
+
+bool drawn_before(const Crossing& a, const Crossing& b) {
+    const auto key = [](const Crossing& crossing) {
+        const auto kind = crossing.is_side() ? Crossing::Part::side_0 : crossing.part;
+        return std::tuple(kind, crossing.is_side() ? crossing.edge : crossing.triangle);
+    };
+    return key(a) < key(b);
+}
+
+std::int64_t counted(const CountedRay& ray, double far, const Counting& counting,
+                     const DepthModel& depth_model) {
+    std::vector<Crossing> drawn;
+    for (const Crossing& crossing : ray.crossings)
+        if (tally(crossing, ray.surface, ray.seen, far, counting, depth_model) == Tally::counted)
+            drawn.push_back(crossing);
+    std::stable_sort(drawn.begin(), drawn.end(), drawn_before);
+    std::int64_t count = start_of(counting, ray.at_eye, ray.at_near);
+    for (const Crossing& crossing : drawn)
+        count = stepped(count, weight(counting) * crossing.change, counting);
+    // A ray that ends inside volumes leaves them through their dark caps at infinity.
+    if (tally_of_dark_caps(counting, depth_model) == Tally::counted)
+        for (std::int32_t i = 0; i < ray.at_infinity; ++i)
+            count = stepped(count, -weight(counting), counting);
+    return count;
+}
+
+Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
+                       const ShadowDepths& depths, const Counting& counting,
+                       const DepthModel& depth_model)
+    : volumes_(tracer, silhouette, counting), depths_(volumes_.shadow_depths(truth, depths)) {
+    const Camera& camera = tracer.scene().camera;
+    counts_ = Image<std::int32_t>(camera.width, camera.height);
+    const bool simple = follows_from_depths(counting);
+    const int columns = (camera.width + region_side - 1) / region_side;
+    const int rows = (camera.height + region_side - 1) / region_side;
+    parallel_for(columns * rows, tracer.threads(), [&](int region, int) {
+        const int left = region % columns * region_side;
+        const int top = region / columns * region_side;
+        const int right = std::min(left + region_side, camera.width);
+        const int bottom = std::min(top + region_side, camera.height);
+        if (simple) {
+            for (int y = top; y < bottom; ++y)
+                for (int x = left; x < right; ++x)
+                    counts_.at(x, y) =
+                        count_from_depths(depths_, truth, x, y, counting, depth_model);
+            return;
+        }
+        RegionLedger ledger = volumes_.ledger(corner_rays(camera, left, top, right, bottom));
+        std::vector<Crossing> crossings;
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x) {
+                const glm::dvec3 direction = ray_direction(camera, x + 0.5, y + 0.5);
+                ledger.crossings(direction, crossings);
+                const std::uint32_t seen = truth.triangle.at(x, y);
+                const double surface =
+                    seen == no_triangle ? 0 : depth_of_seen(tracer.scene(), seen, direction);
+                const CountedRay ray{crossings,
+                                     surface,
+                                     seen,
+                                     depths_.at_eye,
+                                     depths_.at_near.at(x, y),
+                                     depths_.at_infinity.at(x, y)};
+                counts_.at(x, y) =
+                    static_cast<std::int32_t>(counted(ray, depths.far, counting, depth_model));
+            }
+    });
+}
+
+} // namespace shadowproof

@@ -1,0 +1,55 @@
+// What a technique's counter should read at each pixel. Where shadow depths alone tell it, they do;
+// where it hangs on single faces (a cap left out, a counter that saturates), all faces on the
+// pixel's eye ray are counted as the technique counts them.
+#pragma once
+
+#include "reference/volumes.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <span>
+
+namespace shadowproof {
+
+/// A pixel's ray as a technique counts along it.
+struct CountedRay {
+    std::span<const Crossing> crossings; ///< by depth
+    double surface = 0;                  ///< view depth of what is seen
+    std::uint32_t seen = no_triangle;
+    std::int32_t at_eye = 0; ///< shadow depths
+    std::int32_t at_near = 0;
+    std::int32_t at_infinity = 0;
+};
+
+/// What the counter holds before the first face.
+std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);
+
+/// One step of a counter. A wrapping one is left to run on, and wraps where it is stored.
+std::int64_t stepped(std::int64_t count, int step, const Counting& counting);
+
+/// Faces in the order in which they are drawn: sides, light caps, dark caps.
+bool drawn_before(const Crossing& a, const Crossing& b);
+
+/// The counter after all faces along a ray.
+std::int64_t counted(const CountedRay& ray, double far, const Counting& counting,
+                     const DepthModel& depth_model);
+
+class Prediction {
+public:
+    /// Keeps references to the first two.
+    Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
+               const ShadowDepths& depths, const Counting& counting, const DepthModel& depth_model);
+
+    /// At the pixels' centres, before a wrapping counter has wrapped.
+    const Image<std::int32_t>& counts() const { return counts_; }
+    const Volumes& volumes() const { return volumes_; }
+    /// Of the volumes that are counted, which may be cut off.
+    const ShadowDepths& depths() const { return depths_; }
+
+private:
+    Volumes volumes_;
+    ShadowDepths depths_;
+    Image<std::int32_t> counts_;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,47 @@
+// The shadow volumes that a technique counts: the casters' own, out to infinity; of casters whose
+// holes are filled; or cut off where they are extruded by a finite distance.
+#pragma once
+
+#include "reference/region_ledger.h"
+#include "scenes/frame.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace shadowproof {
+
+class Volumes {
+public:
+    /// Keeps references to both.
+    Volumes(const Tracer& tracer, const Silhouette& silhouette, const Counting& counting);
+    ~Volumes();
+    Volumes(Volumes&&) noexcept;
+    Volumes& operator=(Volumes&&) noexcept = delete;
+    Volumes(const Volumes&) = delete;
+    Volumes& operator=(const Volumes&) = delete;
+
+    /// The scene that casts; its first triangles are those of the scene that is seen.
+    const Scene& casters() const;
+    int threads() const;
+
+    /// Shadow depths in these volumes, where `depths` are those in the casters' own. A point beyond
+    /// a far end is no longer inside: there the end, taken for a caster, shadows it.
+    ShadowDepths shadow_depths(const GroundTruth& truth, const ShadowDepths& depths) const;
+
+    /// For the rays between four corners, as RegionLedger takes them.
+    RegionLedger ledger(const std::array<glm::dvec3, 4>& corners) const;
+    /// Where the casters' positions lie once extruded; null where that is at infinity.
+    const std::vector<glm::vec3>* far_ends() const;
+    /// Whether they are those of the casters as given, out to infinity.
+    bool are_the_casters() const { return !filled_ && !ends_; }
+
+private:
+    struct Variant; ///< another scene under the same light and camera
+    const Tracer* tracer_;
+    const Silhouette* silhouette_;
+    std::unique_ptr<Variant> filled_;
+    std::unique_ptr<Variant> ends_;
+};
+
+} // namespace shadowproof

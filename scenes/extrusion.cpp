@@ -1,0 +1,32 @@
+#include "scenes/extrusion.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+double finite_extrusion(const Scene& scene) {
+    if (scene.positions.empty()) return 0;
+    glm::dvec3 lower = scene.positions.front();
+    glm::dvec3 upper = lower;
+    for (const glm::dvec3 position : scene.positions) {
+        lower = glm::min(lower, position);
+        upper = glm::max(upper, position);
+    }
+    return 0.5 * glm::length(upper - lower);
+}
+
+std::vector<glm::vec3> extruded_positions(const Scene& scene, double distance) {
+    const glm::dvec3 light = chosen_light(scene).position;
+    std::vector<glm::vec3> extruded;
+    extruded.reserve(scene.positions.size());
+    for (const glm::dvec3 position : scene.positions) {
+        const glm::dvec3 away = position - light;
+        const double length = glm::length(away);
+        // A vertex in the light itself has no direction to go.
+        extruded.emplace_back(length > 0 ? position + away * (distance / length) : position);
+    }
+    return extruded;
+}
+
+} // namespace shadowproof
