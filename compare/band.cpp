@@ -394,7 +394,7 @@ private:
         std::vector<Crossing> drawn;
         for (const Candidate& face : faces)
             if (face.nominally) drawn.push_back(face.crossing);
-        return counted_in_order(drawn, start, last);
+        return counted_in_order(drawn, start, last, frame_.counting);
     }
 
     /// All values that the counter may have with uncertain faces counted or not.
@@ -416,11 +416,11 @@ private:
                 std::vector<Crossing> with = drawn;
                 for (std::size_t i = 0; i < uncertain.size(); ++i)
                     if ((subset >> i & 1U) != 0) with.push_back(uncertain[i]);
-                counts.push_back(counted_in_order(with, start, last));
+                counts.push_back(counted_in_order(with, start, last, frame_.counting));
             }
             return counts;
         }
-        const std::int64_t certain = counted_in_order(drawn, start, last);
+        const std::int64_t certain = counted_in_order(drawn, start, last, frame_.counting);
         std::int64_t least = certain;
         std::int64_t most = certain;
         for (const Crossing& crossing : uncertain)
@@ -432,18 +432,6 @@ private:
     /// Where every face's place in the order of drawing matters, their subsets are tried one by
     /// one: of so many faces at most, the nearest to the eye.
     static constexpr std::size_t most_subsets = 8;
-
-    std::int64_t counted_in_order(std::vector<Crossing> drawn, std::int64_t start,
-                                  std::int64_t last) const {
-        const Counting& counting = frame_.counting;
-        if (counting.operation == Counting::Operation::saturate)
-            std::stable_sort(drawn.begin(), drawn.end(), drawn_before);
-        std::int64_t count = start;
-        for (const Crossing& crossing : drawn)
-            count = stepped(count, weight(counting) * crossing.change, counting);
-        for (std::int64_t i = 0; i < last; ++i) count = stepped(count, 1, counting);
-        return count;
-    }
 };
 
 void sort_out(std::vector<Reading>& readings) {

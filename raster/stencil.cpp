@@ -47,16 +47,19 @@ void begin_counting(const GlFunctions& gl, const Target& target, const StencilRe
     gl.Enable(GL_STENCIL_TEST);
     gl.StencilMask((1U << static_cast<unsigned>(counting.stencil_bits)) - 1);
     gl.StencilFunc(GL_ALWAYS, 0, ~0U);
-    const GLenum front = operation(recipe.steps.front, counting.operation);
-    const GLenum back = operation(recipe.steps.back, counting.operation);
-    if (counting.test == Counting::Test::depth_pass) {
-        gl.StencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, front);
-        gl.StencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, back);
-    } else {
-        gl.StencilOpSeparate(GL_FRONT, GL_KEEP, front, GL_KEEP);
-        gl.StencilOpSeparate(GL_BACK, GL_KEEP, back, GL_KEEP);
-    }
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
+}
+
+void set_steps(const GlFunctions& gl, const Counting& counting, const StencilSteps& steps) {
+    const auto set = [&](GLenum face, int step) {
+        const GLenum counted = operation(step, counting.operation);
+        if (counting.test == Counting::Test::depth_pass)
+            gl.StencilOpSeparate(face, GL_KEEP, GL_KEEP, counted);
+        else
+            gl.StencilOpSeparate(face, GL_KEEP, counted, GL_KEEP);
+    };
+    set(GL_FRONT, steps.front);
+    set(GL_BACK, steps.back);
 }
 
 /// The projection clips at the near plane, and a finite one at the far plane; depth clamping undoes
@@ -144,7 +147,11 @@ struct Frames {
         draw_surface(gl, surface, target, geometry, recipe.depth_model,
                      visible_depths(scene.camera, recipe), start);
         begin_counting(gl, target, recipe);
+        const StencilSteps& steps = recipe.steps;
+        set_steps(gl, recipe.counting, steps);
         volumes.draw();
+        set_steps(gl, recipe.counting, {.front = steps.back, .back = steps.front});
+        volumes.draw_turned();
         if (occluders) {
             gl.StencilOp(GL_KEEP, GL_KEEP, operation(+1, recipe.counting.operation));
             occluders->draw();

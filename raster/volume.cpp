@@ -3,6 +3,7 @@
 #include "scenes/half_edge.h"
 #include "scenes/topology.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -50,18 +51,12 @@ std::vector<std::uint32_t> triangles_facing_light(const Scene& scene) {
 }
 
 void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,
-                 std::vector<glm::uvec3>& sides) {
-    const bool up = a < b;
-    const std::uint32_t low = up ? a : b;
-    const std::uint32_t high = up ? b : a;
-    glm::uvec3 first(high, low, low + position_count);
-    glm::uvec3 second(high, low + position_count, high + position_count);
-    if (!up) {
-        std::swap(first.x, first.y);
-        std::swap(second.x, second.y);
-    }
-    sides.push_back(first);
-    sides.push_back(second);
+                 ShadowVolume& volume) {
+    const std::uint32_t low = std::min(a, b);
+    const std::uint32_t high = std::max(a, b);
+    std::vector<glm::uvec3>& sides = a < b ? volume.sides : volume.turned_sides;
+    sides.emplace_back(high, low, low + position_count);
+    sides.emplace_back(high, low + position_count, high + position_count);
 }
 
 Extruder by_silhouettes(const Scene& scene) {
@@ -70,7 +65,7 @@ Extruder by_silhouettes(const Scene& scene) {
         const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
         ShadowVolume volume = capped(scene, facing);
         for (const auto& [a, b, surplus] : boundary(scene, welded, facing))
-            for (int i = 0; i < surplus; ++i) append_side(a, b, position_count, volume.sides);
+            for (int i = 0; i < surplus; ++i) append_side(a, b, position_count, volume);
         return volume;
     };
 }
@@ -88,7 +83,7 @@ Extruder by_half_edges(const Scene& scene) {
                                faces[mesh.half_edges[half_edge.twin].triangle] != 0;
             if (!inner)
                 append_side(half_edge.origin, mesh.half_edges[half_edge.next].origin,
-                            position_count, volume.sides);
+                            position_count, volume);
         }
         return volume;
     };
@@ -103,7 +98,7 @@ Extruder by_triangles(const Scene& scene) {
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t a = welded[scene.triangles[triangle][k]];
                 const std::uint32_t b = welded[scene.triangles[triangle][(k + 1) % 3]];
-                if (a != b) append_side(a, b, position_count, volume.sides);
+                if (a != b) append_side(a, b, position_count, volume);
             }
         return volume;
     };

@@ -19,7 +19,11 @@ namespace shadowproof {
 struct ShadowVolume {
     std::vector<glm::uvec3> light_cap; ///< the triangles that face the light
     std::vector<glm::uvec3> sides;     ///< two for each silhouette edge and unit of its surplus
-    std::vector<glm::uvec3> dark_cap;  ///< the light cap at the far end, wound in reverse
+    /// Sides that run the other way, wound as if they did not: clockwise from outside. Sides that
+    /// lie in one place are then the same triangles, and rasterize alike bit by bit, whichever
+    /// triangle they stand on.
+    std::vector<glm::uvec3> turned_sides;
+    std::vector<glm::uvec3> dark_cap; ///< the light cap at the far end, wound in reverse
 };
 
 /// Positive where a triangle is wound counter-clockwise as seen from the point, negative where
@@ -47,11 +51,9 @@ Extruder by_half_edges(const Scene& scene);
 /// opposite directions, and cancel in the counter.
 Extruder by_triangles(const Scene& scene);
 
-/// The two triangles of a side beside the edge from a to b of a triangle that faces the light,
-/// appended to `sides`. The diagonal runs from the later of the two corners to the earlier one's
-/// far end, whichever way the edge runs: sides that lie in one place are cut alike, and reversed
-/// ones have the first two corners of both triangles exchanged.
+/// Appends the two triangles of the side beside the edge from a to b of a triangle that faces the
+/// light: to `sides` where a < b, else to `turned_sides`.
 void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,
-                 std::vector<glm::uvec3>& sides);
+                 ShadowVolume& volume);
 
 } // namespace shadowproof

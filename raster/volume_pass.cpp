@@ -34,6 +34,7 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
     struct Made {
         Program program;
         Triangles faces;
+        Triangles turned;
     };
     const auto made = std::make_shared<Made>();
     made->program = link_projection(making.gl, "volume.frag", making.transform, making.geometry);
@@ -41,11 +42,18 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
                 [made, making, extruder] {
                     const ShadowVolume volume = extruder();
                     made->faces = upload_triangles(making.gl, drawn_parts(volume, making.counting));
+                    made->turned = upload_triangles(
+                        making.gl, std::array{std::span<const glm::uvec3>(volume.turned_sides)});
                 },
             .draw =
                 [made, making] {
                     making.gl.UseProgram(made->program.name());
                     draw_triangles(making.gl, making.geometry, made->faces, 0, made->faces.count);
+                },
+            .draw_turned =
+                [made, making] {
+                    making.gl.UseProgram(made->program.name());
+                    draw_triangles(making.gl, making.geometry, made->turned, 0, made->turned.count);
                 }};
 }
 
@@ -83,17 +91,19 @@ VolumePass geometry_shader_pass(const Making& making) {
     made->count = static_cast<GLsizei>(indices.size());
     made->program = link_files(making.gl, {"adjacency.vert", "volume.geom", "volume.frag"});
     set_transform(making.gl, made->program, making.transform);
-    making.gl.ProgramUniform1i(made->program.name(), 9, making.counting.light_cap ? 1 : 0);
-    making.gl.ProgramUniform1i(made->program.name(), 10, making.counting.dark_cap ? 1 : 0);
+    const auto draw = [made, making](bool turned) {
+        const GlFunctions& gl = making.gl;
+        const GLuint program = made->program.name();
+        gl.ProgramUniform1i(program, 9, making.counting.light_cap && !turned ? 1 : 0);
+        gl.ProgramUniform1i(program, 10, making.counting.dark_cap && !turned ? 1 : 0);
+        gl.ProgramUniform1i(program, 12, turned ? 1 : 0);
+        gl.UseProgram(program);
+        gl.VertexArrayElementBuffer(making.geometry.vertices.name(), made->indices.name());
+        gl.DrawElements(GL_TRIANGLES_ADJACENCY, made->count, GL_UNSIGNED_INT, nullptr);
+    };
     return {.update = [made, making] { set_light(making, made->program); },
-            .draw =
-                [made, making] {
-                    making.gl.UseProgram(made->program.name());
-                    making.gl.VertexArrayElementBuffer(making.geometry.vertices.name(),
-                                                       made->indices.name());
-                    making.gl.DrawElements(GL_TRIANGLES_ADJACENCY, made->count, GL_UNSIGNED_INT,
-                                           nullptr);
-                }};
+            .draw = [draw] { draw(false); },
+            .draw_turned = [draw] { draw(true); }};
 }
 
 /// As degenerate_quads.vert reads it.
@@ -156,21 +166,28 @@ VolumePass degenerate_quads_pass(const Making& making) {
         set_light(making, made->quads);
         set_light(making, made->caps);
     };
-    const auto draw = [made, making] {
+    const auto draw_quads = [made, making](bool turned) {
         const GlFunctions& gl = making.gl;
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, making.geometry.positions.name());
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, made->edges.name());
         gl.BindVertexArray(made->no_attributes.name());
+        gl.ProgramUniform1i(made->quads.name(), 12, turned ? 1 : 0);
         gl.UseProgram(made->quads.name());
         gl.DrawArrays(GL_TRIANGLES, 0, made->quad_vertices);
+        gl.BindVertexArray(making.geometry.vertices.name());
+    };
+    const auto draw = [made, making, draw_quads] {
+        draw_quads(false);
+        const GlFunctions& gl = making.gl;
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, made->corners.name());
+        gl.BindVertexArray(made->no_attributes.name());
         gl.UseProgram(made->caps.name());
         const GLsizei light = making.counting.light_cap ? made->cap_vertices : 0;
         const GLsizei dark = making.counting.dark_cap ? made->cap_vertices : 0;
         gl.DrawArrays(GL_TRIANGLES, made->cap_vertices - light, light + dark);
         gl.BindVertexArray(making.geometry.vertices.name());
     };
-    return {.update = update, .draw = draw};
+    return {.update = update, .draw = draw, .draw_turned = [draw_quads] { draw_quads(true); }};
 }
 
 } // namespace

@@ -24,6 +24,8 @@ struct VolumePass {
     /// Draws sides, then light caps, then dark caps, as `counting` has them. Binds its programs and
     /// buffers; all other state is the caller's.
     std::function<void()> draw;
+    /// Draws those sides whose front and back are exchanged (ShadowVolume::turned_sides).
+    std::function<void()> draw_turned;
 };
 
 /// Keeps references to all but `counting`; corners at a volume's far end are transformed as

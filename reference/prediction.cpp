@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -61,18 +62,39 @@ std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_
     return 0;
 }
 
+namespace {
+
 std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
     if (counting.operation != Counting::Operation::saturate) return count + step;
     const std::int64_t most = (std::int64_t{1} << counting.stencil_bits) - 1;
     return std::clamp<std::int64_t>(count + step, 0, most);
 }
 
-bool drawn_before(const Crossing& a, const Crossing& b) {
+} // namespace
+
+std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
+                              std::int64_t dark_caps, const Counting& counting) {
     const auto key = [](const Crossing& crossing) {
         const auto kind = crossing.is_side() ? Crossing::Part::side_0 : crossing.part;
-        return std::tuple(kind, crossing.is_side() ? crossing.edge : crossing.triangle);
+        return std::tuple(crossing.turned, kind,
+                          crossing.is_side() ? crossing.edge : crossing.triangle);
     };
-    return key(a) < key(b);
+    // In any order the sum is the same, unless it stops at a limit on its way.
+    if (counting.operation == Counting::Operation::saturate)
+        std::stable_sort(faces.begin(), faces.end(),
+                         [&](const Crossing& a, const Crossing& b) { return key(a) < key(b); });
+    std::int64_t count = start;
+    auto face = faces.begin();
+    const auto count_while = [&](bool turned) {
+        for (; face != faces.end() && (turned || !face->turned); ++face)
+            count = stepped(count, weight(counting) * face->change, counting);
+    };
+    if (counting.operation != Counting::Operation::saturate) count_while(true);
+    count_while(false);
+    for (std::int64_t i = 0; i < dark_caps; ++i)
+        count = stepped(count, -weight(counting), counting);
+    count_while(true);
+    return count;
 }
 
 std::int64_t counted(const CountedRay& ray, double far, const Counting& counting,
@@ -81,15 +103,10 @@ std::int64_t counted(const CountedRay& ray, double far, const Counting& counting
     for (const Crossing& crossing : ray.crossings)
         if (tally(crossing, ray.surface, ray.seen, far, counting, depth_model) == Tally::counted)
             drawn.push_back(crossing);
-    std::stable_sort(drawn.begin(), drawn.end(), drawn_before);
-    std::int64_t count = start_of(counting, ray.at_eye, ray.at_near);
-    for (const Crossing& crossing : drawn)
-        count = stepped(count, weight(counting) * crossing.change, counting);
     // A ray that ends inside volumes leaves them through their dark caps at infinity.
-    if (tally_of_dark_caps(counting, depth_model) == Tally::counted)
-        for (std::int32_t i = 0; i < ray.at_infinity; ++i)
-            count = stepped(count, -weight(counting), counting);
-    return count;
+    const bool caps = tally_of_dark_caps(counting, depth_model) == Tally::counted;
+    return counted_in_order(std::move(drawn), start_of(counting, ray.at_eye, ray.at_near),
+                            caps ? ray.at_infinity : 0, counting);
 }
 
 Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace shadowproof {
 
@@ -24,11 +25,11 @@ struct CountedRay {
 /// What the counter holds before the first face.
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);
 
-/// One step of a counter. A wrapping one is left to run on, and wraps where it is stored.
-std::int64_t stepped(std::int64_t count, int step, const Counting& counting);
-
-/// Faces in the order in which they are drawn: sides, light caps, dark caps.
-bool drawn_before(const Crossing& a, const Crossing& b);
+/// The counter that began with `start` after `faces`, in any order, and `dark_caps` at infinity,
+/// drawn as they are: sides and caps, then the sides that are turned. A wrapping counter is left to
+/// run on, and wraps where it is stored.
+std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
+                              std::int64_t dark_caps, const Counting& counting);
 
 /// The counter after all faces along a ray.
 std::int64_t counted(const CountedRay& ray, double far, const Counting& counting,

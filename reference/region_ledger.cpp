@@ -88,6 +88,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
         side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
         side.edge = edge_plane(state.eye, a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
+        side.turned = edge.a > edge.b;
     }
     for (const std::uint32_t triangle : casting)
         for (int k = 0; k < 3; ++k) {
@@ -255,7 +256,7 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
         const int change = slope > 0 ? side.surplus : -side.surplus;
         for (int i = 0; i < std::abs(change); ++i)
             found.push_back({-eye / slope, change > 0 ? 1 : -1, side.part, side.triangle,
-                             side.plane, side.number});
+                             side.plane, side.number, side.turned});
     }
     for (const Cap& cap : caps_) {
         if (!cap.is_met_by(direction)) continue;

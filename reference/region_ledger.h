@@ -26,6 +26,7 @@ public:
         std::uint32_t triangle = no_triangle; ///< the first that has it
         Crossing::Part part = Crossing::Part::side_0;
         std::uint32_t number = 0;  ///< of this side, in the order of all
+        bool turned = false;       ///< as Crossing::turned
         glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
         glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
     };

@@ -10,6 +10,7 @@ struct Edge {
     uint up;   // third corner of the triangle that runs the edge from low to high
     uint down; // and of the one that runs it back; each the other's where there is none
 };
+layout(location = 12) uniform bool turned; // those quads that run down, wound as if they ran up
 layout(std430, binding = 2) readonly buffer Edges { Edge edges[]; };
 
 void main() {
@@ -19,10 +20,9 @@ void main() {
     bool up = faces(low, high, position_of(edge.up), light);
     bool down = faces(high, low, position_of(edge.down), light);
     // Low and high here and at infinity: 0, 1, 2, 3. Cut as raster/volume.cpp does.
-    const int sides_up[6] = int[](1, 0, 2, 1, 2, 3);
-    const int sides_down[6] = int[](0, 1, 2, 2, 1, 3);
-    int k = gl_VertexID % 6;
-    int which = up ? sides_up[k] : sides_down[k];
-    gl_Position = up == down ? nowhere()
-                             : projected((which & 1) != 0 ? edge.high : edge.low, which >= 2);
+    const int side[6] = int[](1, 0, 2, 1, 2, 3);
+    int which = side[gl_VertexID % 6];
+    gl_Position = up == down || down != turned
+                      ? nowhere()
+                      : projected((which & 1) != 0 ? edge.high : edge.low, which >= 2);
 }

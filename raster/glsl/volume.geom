@@ -10,6 +10,7 @@ layout(triangle_strip, max_vertices = 24) out;
 layout(location = 8) uniform dvec3 light;
 layout(location = 9) uniform bool light_cap;
 layout(location = 10) uniform bool dark_cap;
+layout(location = 12) uniform bool turned; // those sides that run down, wound as if they ran up
 
 in Corner {
     vec3 world;
@@ -33,16 +34,12 @@ void emit(vec4 a, vec4 b, vec4 c) {
 // Beside the edge from a to b of a triangle that faces the light: cut as raster/volume.cpp does.
 void emit_side(int a, int b) {
     bool up = corner[a].index < corner[b].index;
+    if (up == turned) return;
     int low = up ? a : b;
     int high = up ? b : a;
     vec4 far = corner[low].at_infinity;
-    if (up) {
-        emit(corner[high].here, corner[low].here, far);
-        emit(corner[high].here, far, corner[high].at_infinity);
-    } else {
-        emit(corner[low].here, corner[high].here, far);
-        emit(far, corner[high].here, corner[high].at_infinity);
-    }
+    emit(corner[high].here, corner[low].here, far);
+    emit(corner[high].here, far, corner[high].at_infinity);
 }
 
 void main() {

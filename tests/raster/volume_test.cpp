@@ -6,6 +6,7 @@
 
 #include <map>
 #include <random>
+#include <utility>
 
 namespace shadowproof::tests {
 namespace {
@@ -17,7 +18,10 @@ std::size_t unbalanced_edges(const Scene& scene, const ShadowVolume& volume) {
     const auto n = static_cast<std::uint32_t>(scene.positions.size());
     const auto weld = [&](std::uint32_t i) { return i < n ? welded[i] : welded[i - n] + n; };
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> surplus;
-    for (const auto* part : {&volume.light_cap, &volume.sides, &volume.dark_cap}) {
+    std::vector<glm::uvec3> turned_back = volume.turned_sides;
+    for (glm::uvec3& triangle : turned_back) std::swap(triangle.x, triangle.y);
+    for (const std::vector<glm::uvec3>* part :
+         {&volume.light_cap, &volume.sides, &volume.dark_cap, &std::as_const(turned_back)}) {
         for (const glm::uvec3& triangle : *part) {
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t a = weld(triangle[k]);
@@ -60,7 +64,7 @@ TEST(Volume, of_a_box_below_the_light_is_its_top_and_four_sides) {
     add_box(scene, {-1, 1, -1}, {1, 2, 1});
     const ShadowVolume volume = extrude(scene);
     EXPECT_EQ(volume.light_cap.size(), 2U);
-    EXPECT_EQ(volume.sides.size(), 8U);
+    EXPECT_EQ(volume.sides.size() + volume.turned_sides.size(), 8U);
     EXPECT_EQ(volume.dark_cap.size(), 2U);
     for (const glm::uvec3& triangle : volume.light_cap)
         for (int k = 0; k < 3; ++k) EXPECT_EQ(scene.positions[triangle[k]].y, 2.0F);
@@ -97,7 +101,7 @@ TEST(Volume, of_two_equal_triangles_has_each_side_twice) {
     scene.meshes.push_back({.name = "pair", .triangle_count = 2});
     const ShadowVolume volume = extrude(scene);
     EXPECT_EQ(volume.light_cap.size(), 2U);
-    EXPECT_EQ(volume.sides.size(), 12U);
+    EXPECT_EQ(volume.sides.size() + volume.turned_sides.size(), 12U);
     EXPECT_EQ(unbalanced_edges(scene, volume), 0U);
 }
 
