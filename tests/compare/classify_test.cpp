@@ -93,13 +93,17 @@ TEST_F(Classify, zfail_miscounts_where_the_far_plane_cuts_a_volume_and_zpass_doe
     EXPECT_EQ(pixels_beyond(compare("far_plane", "zpass"), {Cause::edge, Cause::precision}), 0U);
 }
 
-TEST_F(Classify, the_robust_techniques_differ_by_nothing_but_edge_and_precision) {
+TEST_F(Classify, the_robust_techniques_differ_by_edge_and_precision_and_else_only_as_provoked) {
     std::uint64_t reversed_precision = 0;
     for (const BundledScene& scene : bundled_scenes())
         for (const char* technique : {"zfail_clamp", "zfail_infinite", "zfail_reversed"}) {
             SCOPED_TRACE(std::string(technique) + " on " + std::string(scene.name));
             const Comparison comparison = compare(std::string(scene.name), technique);
-            EXPECT_EQ(pixels_beyond(comparison, {Cause::edge, Cause::precision}), 0U);
+            std::uint64_t beyond = pixels_beyond(comparison, {Cause::edge, Cause::precision});
+            for (const Cause cause : load_scene(std::string(scene.name), {}).provokes)
+                if (cause == Cause::counter || cause == Cause::open_mesh)
+                    beyond -= pixels_of(comparison, cause);
+            EXPECT_EQ(beyond, 0U);
             if (technique == std::string("zfail_reversed"))
                 reversed_precision += pixels_of(comparison, Cause::precision);
         }

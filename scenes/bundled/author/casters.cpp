@@ -54,9 +54,9 @@ Stage overlapping() {
         glm::dvec3 shadow;
         double height;
     };
-    const std::array<Coin, 3> coins{{{"copper", coral, {0.413, 0, 1.913}, 1.913},
-                                     {"verdigris", teal, {1.971, 0, 1.413}, 2.471},
-                                     {"gold", amber, {0.771, 0, 0.313}, 3.013}}};
+    const std::array<Coin, 3> coins{{{"copper", coral, {0.523, 0, 1.813}, 1.913},
+                                     {"verdigris", teal, {1.793, 0, 1.413}, 2.471},
+                                     {"gold", amber, {0.813, 0, 0.471}, 3.013}}};
     for (const auto& [name, color, shadow, height] : coins)
         add(stage, {{.name = name,
                      .shape = disc(0.813, 0.0613, 64),

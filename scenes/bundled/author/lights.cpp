@@ -16,7 +16,7 @@ Stage light_inside() {
                                       "The light stands inside a closed ball that darkens all "
                                       "the world around it, and no volume says so.",
                                       {"open_mesh"});
-    stage.light.position = {-2.471, 6.177, 3.013};
+    stage.light.position = {-1.471, 7.377, 1.513};
     add(stage, {{.name = "glass",
                  .shape = ball(7.713, 4),
                  .color = {0.93, 0.95, 0.96},
