@@ -71,8 +71,12 @@ TEST_F(Classify, the_predicted_counter_is_read_back_at_every_pixel_outside_the_b
             EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
             EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
                       comparison.cause.pixels.size());
-            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need.
-            EXPECT_LT(comparison.ledger.in_band, comparison.cause.pixels.size() * 3 / 1000);
+            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need. Only
+            // where the light is in the plane of a seen face, a side of the volume lies in the face
+            // itself, and all pixels of the face are in the band: 1.8 % of the picture.
+            const bool in_plane = scene.name == "light_in_plane";
+            EXPECT_LT(comparison.ledger.in_band,
+                      comparison.cause.pixels.size() * (in_plane ? 20 : 3) / 1000);
         }
 }
 
