@@ -17,7 +17,8 @@ foreach(room scenes reference raster compare)
         PATTERN glsl EXCLUDE PATTERN techniques EXCLUDE)
 endforeach()
 install(DIRECTORY scenes/bundled/ DESTINATION ${scenes_folder}
-    FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "*.bin" PATTERN author EXCLUDE)
+    FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "*.bin"
+    PATTERN author EXCLUDE PATTERN unlisted EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof)
 # Where the README links to them.

@@ -19,6 +19,22 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"near_plane", "a volume passes between the eye and a part of the near plane"},
         {"far_plane", "volumes run through the far plane behind lit surfaces"},
         {"eye_inside", "the eye stands in the shadow of a canopy"},
+        {"near_cap_all", "all of a small ring is projected onto the near plane"},
+        {"near_cap_some", "one end of a rod through the near plane is projected onto it"},
+        {"near_cap_none", "a ring behind the near plane, nothing of it projected there"},
+        {"eye_on_side", "the eye lies exactly on a side of a shadow volume"},
+        {"far_cut", "the far plane cuts the casters themselves"},
+        {"light_inside", "the light is inside a closed ball, and darkness around it"},
+        {"light_in_plane", "the light lies exactly in the planes of several faces"},
+        {"long_shadow", "shadows longer than the scene's radius, under a low light"},
+        {"moving_light", "an animated light over a sundial, chosen by --time"},
+        {"many_lights", "three lights over a sundial, chosen by --light"},
+        {"nested", "300 nested gems: the shadow is 256 deep where an 8-bit counter reads 0"},
+        {"overlapping", "the shadows of three coins overlap by twos and threes"},
+        {"open_lid", "light falls into a box without a lid"},
+        {"inverted", "a box wound inside out"},
+        {"non_manifold", "two boxes share an edge of four triangles"},
+        {"t_junctions", "a closed box whose faces meet corner against edge"},
     };
     return scenes;
 }

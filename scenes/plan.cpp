@@ -2,12 +2,14 @@
 
 #include "scenes/topology.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <span>
+#include <utility>
 
 namespace shadowproof {
 
@@ -128,17 +130,20 @@ bool volume_reaches_infinity(const Scene& scene) {
     return false;
 }
 
-/// Whether each mesh is closed, or else all open ones together are (one body in several
-/// materials).
-bool all_casters_closed(const Scene& scene) {
-    std::vector<std::uint32_t> open;
-    for (const CasterReport& report : inspect_casters(scene)) {
-        if (report.closed()) continue;
-        const Mesh& mesh = scene.meshes[report.mesh];
-        open.resize(open.size() + mesh.triangle_count);
-        std::iota(open.end() - mesh.triangle_count, open.end(), mesh.first_triangle);
-    }
-    return open.empty() || boundary(scene, weld_by_position(scene.positions), open).empty();
+/// A scan may come in thousands of open pieces: so many are listed, the others counted.
+constexpr std::size_t most_faults = 20;
+
+std::vector<std::string> list_faults(const Scene& scene, const std::vector<CasterReport>& reports) {
+    std::vector<std::string> faults;
+    for (const CasterReport& report : reports)
+        if (std::string words = words_of(scene, report); !words.empty())
+            faults.push_back(std::move(words));
+    if (faults.size() <= most_faults) return faults;
+    const std::size_t unlisted = faults.size() - most_faults;
+    faults.resize(most_faults);
+    faults.push_back(
+        fmt::format("{} more casters are open, inverted or not two-manifold", unlisted));
+    return faults;
 }
 
 } // namespace
@@ -146,7 +151,10 @@ bool all_casters_closed(const Scene& scene) {
 Plan make_plan(const Scene& scene) {
     Plan plan;
     plan.left_out.push_back("tangents: no normal map is evaluated, visibility only");
-    plan.hole_filling = !all_casters_closed(scene);
+    const std::vector<CasterReport> casters = inspect_casters(scene);
+    plan.faults = list_faults(scene, casters);
+    plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
+                                     [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
     // A directional light has no position to make a hull with: nothing is claimed for it.
     if (chosen_light(scene).kind == Light::Kind::directional) return plan;

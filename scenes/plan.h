@@ -15,6 +15,7 @@ struct Plan {
     bool volume_meets_near = true;     ///< some volume may contain a point of the near rectangle
     bool volume_meets_far = true;      ///< some volume may contain a point of the far rectangle
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
+    std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line a faulty caster
 };
 
 Plan make_plan(const Scene& scene);

@@ -1,11 +1,13 @@
-// Half-edge adjacency of a triangle soup welded by position: closed and two-manifold checks,
-// boundary rings.
+// What a triangle soup welded by position bounds: the surplus of its edges, and for each caster
+// whether it is closed, two-manifold and wound outwards.
 #pragma once
 
+#include "scenes/half_edge.h"
 #include "scenes/scene.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,13 +34,23 @@ std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint3
 /// One mesh's state as a caster.
 struct CasterReport {
     std::uint32_t mesh = 0;
-    std::size_t boundary_edges = 0; ///< edges with a surplus: more triangles on one side
-    std::size_t rings = 0;          ///< closed chains of boundary edges; those that touch are one
-    std::size_t non_manifold_edges = 0; ///< edges with more than two triangles
+    std::size_t boundary_edges = 0;       ///< edges with a surplus: more triangles on one side
+    std::size_t rings = 0;                ///< closed chains of boundary edges, each vertex once
+    std::size_t non_manifold_edges = 0;   ///< edges with more than two triangles
+    std::size_t inconsistent_edges = 0;   ///< edges whose two triangles run them the same way
+    std::optional<EdgeFault> first_fault; ///< of the edges of the last two kinds
+    bool closed_by_others = false; ///< open alone; all open meshes together leave it no boundary
+                                   ///< (one body in several materials)
+    bool inverted = false;         ///< closed, and its volume negative: wound inside out
     bool closed() const { return boundary_edges == 0; }
+    bool encloses_volume() const { return closed() || closed_by_others; }
 };
 
 /// In the order of scene.meshes.
 std::vector<CasterReport> inspect_casters(const Scene& scene);
+
+/// One line for a person about a caster that is open, inconsistently wound, inverted or not
+/// two-manifold; empty where it is none of these.
+std::string words_of(const Scene& scene, const CasterReport& report);
 
 } // namespace shadowproof

@@ -160,6 +160,7 @@ void verify_scene(const Run& run, SceneResult& result) {
     result.provokes = cause_names(scene.provokes);
     result.notes = scene.notes;
     const Plan plan = make_plan(scene);
+    result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
     describe(console, result);
 

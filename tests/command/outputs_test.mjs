@@ -65,3 +65,29 @@ test("explain's crossings lead from the count at the eye to the count at infinit
                  pixel.inside.infinity);
   }
 });
+
+test('a moving light is judged where it is at --time', () => {
+  const at = (time) => {
+    const run = shadowproof(['verify', 'moving_light', '--size', '128x128', '--time', time,
+                             '--json', `${time}.json`]);
+    assert.equal(run.code, 0, run.out + run.err);
+    return JSON.parse(readFileSync(join(scratch, `${time}.json`), 'utf8')).scenes[0];
+  };
+  const [early, late] = [at('0'), at('3')];
+  assert.notEqual(early.digest, late.digest);
+  assert.notEqual(early.reference.lit, late.reference.lit);
+  assert.ok(late.notes.some((note) => note.includes('3 s')), late.notes.join());
+});
+
+test('an open caster is named before anything is drawn, and a closed one is not', () => {
+  const notesOf = (scene) => {
+    shadowproof(['verify', scene, '--size', '64x64', '--json', 'notes.json']);
+    return JSON.parse(readFileSync(join(scratch, 'notes.json'), 'utf8')).scenes[0].notes;
+  };
+  assert.deepEqual(notesOf('open_lid'), [
+    "caster 'open box' is open: 16 boundary edges in 1 ring; techniques that need closed volumes " +
+    'may fail (open_mesh)']);
+  assert.deepEqual(notesOf('ordinary'), []);
+  const { out } = shadowproof(['verify', 'open_lid', '--size', '64x64']);
+  assert.ok(out.indexOf("note: caster 'open box'") < out.indexOf('zpass '), out);
+});

@@ -75,8 +75,12 @@ TEST_F(Classify, the_predicted_counter_is_read_back_at_every_pixel_outside_the_b
             EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
             EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
                       comparison.cause.pixels.size());
-            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need.
-            EXPECT_LT(comparison.ledger.in_band, comparison.cause.pixels.size() * 3 / 1000);
+            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need. Only
+            // where the light is in the plane of a seen face, a side of the volume lies in the face
+            // itself, and all pixels of the face are in the band: 1.8 % of the picture.
+            const bool in_plane = scene.name == "light_in_plane";
+            EXPECT_LT(comparison.ledger.in_band,
+                      comparison.cause.pixels.size() * (in_plane ? 20 : 3) / 1000);
         }
 }
 
@@ -97,13 +101,17 @@ TEST_F(Classify, zfail_miscounts_where_the_far_plane_cuts_a_volume_and_zpass_doe
     EXPECT_EQ(pixels_beyond(compare("far_plane", "zpass"), {Cause::edge, Cause::precision}), 0U);
 }
 
-TEST_F(Classify, the_robust_techniques_differ_by_nothing_but_edge_and_precision) {
+TEST_F(Classify, the_robust_techniques_differ_by_edge_and_precision_and_else_only_as_provoked) {
     std::uint64_t reversed_precision = 0;
     for (const BundledScene& scene : bundled_scenes())
         for (const char* technique : {"zfail_clamp", "zfail_infinite", "zfail_reversed"}) {
             SCOPED_TRACE(std::string(technique) + " on " + std::string(scene.name));
             const Comparison comparison = compare(std::string(scene.name), technique);
-            EXPECT_EQ(pixels_beyond(comparison, {Cause::edge, Cause::precision}), 0U);
+            std::uint64_t beyond = pixels_beyond(comparison, {Cause::edge, Cause::precision});
+            for (const Cause cause : load_scene(std::string(scene.name), {}).provokes)
+                if (cause == Cause::counter || cause == Cause::open_mesh)
+                    beyond -= pixels_of(comparison, cause);
+            EXPECT_EQ(beyond, 0U);
             if (technique == std::string("zfail_reversed"))
                 reversed_precision += pixels_of(comparison, Cause::precision);
         }

@@ -115,6 +115,23 @@ TEST(plan, nothing_that_random_rays_find_was_ruled_out) {
     EXPECT_GT(ruled_out, 3000);
 }
 
+TEST(plan, each_faulty_caster_gets_a_line_up_to_twenty_and_the_others_are_counted) {
+    Scene scene = one_triangle({-1, 0, -5}, {1, 0, -5}, {0, 0, -6}, {0, 3, -5});
+    EXPECT_EQ(make_plan(scene).faults.size(), 1U);
+    EXPECT_EQ(make_plan(scene).faults[0].find("caster 'triangle' is open: 3 boundary edges in 1"),
+              0U);
+    for (unsigned i = 1; i < 23; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.positions.size());
+        for (unsigned k = 0; k < 3; ++k)
+            scene.positions.push_back(scene.positions[k] + glm::vec3(0, i, 0));
+        scene.meshes.push_back({"triangle", i, 1, 0});
+        scene.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    const std::vector<std::string> faults = make_plan(scene).faults;
+    ASSERT_EQ(faults.size(), 21U);
+    EXPECT_EQ(faults.back(), "3 more casters are open, inverted or not two-manifold");
+}
+
 TEST(plan, bundled_scenes_need_what_they_provoke_and_no_more) {
     const auto plan_of = [](const char* name) { return make_plan(load_scene(name, {})); };
     const Plan ordinary = plan_of("ordinary");

@@ -1,44 +1,18 @@
 #include "scenes/topology.h"
+#include "tests/scenes/soups.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
 
 namespace shadowproof {
 namespace {
 
-Scene soup(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles) {
-    Scene scene;
-    scene.positions = std::move(positions);
-    scene.triangles = std::move(triangles);
-    scene.meshes = {{"soup", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
-    scene.materials = {{"plain", false}};
-    scene.lights.emplace_back();
-    return scene;
-}
-
-/// Corner i at (i & 1, i >> 1 & 1, i >> 2); the last two triangles are the top, z = 1.
-Scene cube() {
-    std::vector<glm::vec3> corners;
-    for (unsigned i = 0; i < 8; ++i) corners.emplace_back(i & 1U, i >> 1U & 1U, i >> 2U);
-    return soup(corners, {{0, 2, 3},
-                          {0, 3, 1},
-                          {0, 1, 5},
-                          {0, 5, 4},
-                          {1, 3, 7},
-                          {1, 7, 5},
-                          {3, 2, 6},
-                          {3, 6, 7},
-                          {2, 0, 4},
-                          {2, 4, 6},
-                          {4, 5, 7},
-                          {4, 7, 6}});
-}
+using test::cube;
+using test::soup;
 
 std::vector<SurplusEdge> whole_boundary(const Scene& scene) {
-    std::vector<std::uint32_t> all(scene.triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
-    return boundary(scene, weld_by_position(scene.positions), all);
+    return boundary(scene, weld_by_position(scene.positions), test::all_triangles(scene));
 }
 
 TEST(weld, equal_positions_become_the_first_and_minus_zero_is_zero) {
@@ -69,8 +43,7 @@ TEST(topology, a_cube_stays_closed_when_every_triangle_has_its_own_vertices) {
 
 TEST(topology, a_cube_without_its_top_has_one_ring_of_four) {
     Scene scene = cube();
-    scene.triangles.resize(10);
-    scene.meshes[0].triangle_count = 10;
+    test::keep_triangles(scene, 10);
     const CasterReport report = inspect_casters(scene).at(0);
     EXPECT_EQ(report.boundary_edges, 4U);
     EXPECT_EQ(report.rings, 1U);
@@ -112,6 +85,102 @@ TEST(topology, a_triangle_without_area_takes_no_part) {
     scene.triangles.emplace_back(0, 0, 1);
     scene.meshes[0].triangle_count = 13;
     EXPECT_TRUE(inspect_casters(scene).at(0).closed());
+}
+
+std::string words_of_first(const Scene& scene) {
+    return words_of(scene, inspect_casters(scene).at(0));
+}
+
+TEST(topology, a_closed_caster_wound_outwards_is_not_worth_a_word) {
+    EXPECT_EQ(words_of_first(cube()), "");
+}
+
+TEST(topology, an_open_caster_is_named_with_its_edges_and_rings) {
+    Scene scene = cube();
+    test::keep_triangles(scene, 10);
+    scene.meshes[0].name = "lid";
+    EXPECT_EQ(words_of_first(scene), "caster 'lid' is open: 4 boundary edges in 1 ring; techniques "
+                                     "that need closed volumes may fail (open_mesh)");
+}
+
+TEST(topology, a_cube_inside_out_is_inverted_and_a_cube_is_not) {
+    Scene scene = cube();
+    EXPECT_FALSE(inspect_casters(scene).at(0).inverted);
+    for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
+    EXPECT_TRUE(inspect_casters(scene).at(0).inverted);
+    EXPECT_EQ(words_of_first(scene), "caster 'soup' is wound inside out: the volume it encloses is "
+                                     "negative; techniques that need closed volumes may fail "
+                                     "(open_mesh)");
+}
+
+TEST(topology, an_open_caster_is_never_called_inverted) {
+    Scene scene = cube();
+    for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
+    test::keep_triangles(scene, 11);
+    EXPECT_FALSE(inspect_casters(scene).at(0).inverted);
+}
+
+TEST(topology, two_sides_of_one_sheet_enclose_nothing_and_are_not_inverted) {
+    const Scene sheet = soup({{0, 0, 0}, {1, 0, 0.3F}, {0, 1, 0.7F}}, {{0, 1, 2}, {2, 1, 0}});
+    EXPECT_TRUE(inspect_casters(sheet).at(0).closed());
+    EXPECT_FALSE(inspect_casters(sheet).at(0).inverted);
+}
+
+TEST(topology, far_from_the_origin_an_inverted_cube_is_still_told_from_a_cube) {
+    for (const bool turned : {false, true}) {
+        Scene scene = cube();
+        for (glm::vec3& position : scene.positions) position += glm::vec3(8e6F, -8e6F, 8e6F);
+        if (turned)
+            for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
+        EXPECT_EQ(inspect_casters(scene).at(0).inverted, turned);
+    }
+}
+
+TEST(topology, a_turned_triangle_is_reported_as_edges_run_the_same_way) {
+    Scene scene = cube();
+    std::swap(scene.triangles[5].y, scene.triangles[5].z); // corners 1, 7, 5
+    const CasterReport report = inspect_casters(scene).at(0);
+    EXPECT_EQ(report.inconsistent_edges, 3U);
+    EXPECT_EQ(report.non_manifold_edges, 0U);
+    EXPECT_EQ(
+        words_of_first(scene),
+        "caster 'soup' is open: 3 boundary edges in 2 rings, 3 edges run the same way by both "
+        "triangles (first (1, 0, 0) to (1, 0, 1)); techniques that need closed volumes may "
+        "fail (open_mesh)");
+}
+
+TEST(topology, cubes_that_share_an_edge_are_closed_and_not_two_manifold) {
+    Scene scene = cube();
+    const auto count = static_cast<std::uint32_t>(scene.positions.size());
+    for (std::uint32_t i = 0; i < count; ++i)
+        scene.positions.push_back(scene.positions[i] + glm::vec3(1, 1, 0));
+    for (std::uint32_t i = 0; i < 12; ++i)
+        scene.triangles.push_back(scene.triangles[i] + glm::uvec3(count));
+    scene.meshes[0].triangle_count = 24;
+    const CasterReport report = inspect_casters(scene).at(0);
+    EXPECT_TRUE(report.closed());
+    EXPECT_EQ(report.non_manifold_edges, 1U);
+    EXPECT_EQ(words_of_first(scene),
+              "caster 'soup' is not two-manifold: 1 edge of more than two triangles (first "
+              "(1, 1, 0) to (1, 1, 1)); it encloses a volume all the same");
+}
+
+TEST(topology, a_body_in_two_materials_is_closed_by_its_other_part_and_not_by_less) {
+    Scene scene = cube();
+    const std::vector<glm::uvec3> top(scene.triangles.end() - 2, scene.triangles.end());
+    test::keep_triangles(scene, 10);
+    test::add_mesh(scene, "top", top);
+    for (const CasterReport& report : inspect_casters(scene)) {
+        EXPECT_FALSE(report.closed());
+        EXPECT_TRUE(report.closed_by_others);
+        EXPECT_EQ(words_of(scene, report), "");
+    }
+    scene.triangles.pop_back(); // half of the top
+    --scene.meshes[1].triangle_count;
+    for (const CasterReport& report : inspect_casters(scene)) {
+        EXPECT_FALSE(report.encloses_volume());
+        EXPECT_NE(words_of(scene, report), "");
+    }
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace shadowproof::author {
 
@@ -52,19 +53,20 @@ struct Buffer {
             bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
     }
 
-    /// A view from `offset` to the end, the buffer then padded to whole words. Its index.
-    std::size_t close_view(std::size_t offset, int target) {
-        views.push_back({{"buffer", 0},
-                         {"byteOffset", offset},
-                         {"byteLength", bytes.size() - offset},
-                         {"target", target}});
+    /// A view from `offset` to the end, the buffer then padded to whole words. Its index. Key
+    /// frames have no target.
+    std::size_t close_view(std::size_t offset, std::optional<int> target) {
+        Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size() - offset}};
+        if (target) view["target"] = *target;
+        views.push_back(view);
         while (bytes.size() % 4 != 0) bytes.push_back(0);
         return views.size() - 1;
     }
 };
 
 /// Index of the new accessor.
-std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertices) {
+std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertices,
+                          std::optional<int> target = target_vertices) {
     const std::size_t offset = buffer.bytes.size();
     glm::vec3 low(vertices.front());
     glm::vec3 high = low;
@@ -74,7 +76,7 @@ std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertice
         high = glm::max(high, rounded);
         for (int k = 0; k < 3; ++k) buffer.append(std::bit_cast<std::uint32_t>(rounded[k]), 4);
     }
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target)},
                                 {"componentType", component_float},
                                 {"count", vertices.size()},
                                 {"type", "VEC3"},
@@ -94,12 +96,27 @@ std::size_t add_indices(Buffer& buffer, const std::vector<glm::uvec3>& triangles
     return buffer.accessors.size() - 1;
 }
 
+/// Seconds, of the key frames of an animation.
+std::size_t add_times(Buffer& buffer, const std::vector<float>& times) {
+    const std::size_t offset = buffer.bytes.size();
+    for (const float time : times) buffer.append(std::bit_cast<std::uint32_t>(time), 4);
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, std::nullopt)},
+                                {"componentType", component_float},
+                                {"count", times.size()},
+                                {"type", "SCALAR"},
+                                {"min", Json::array({times.front()})},
+                                {"max", Json::array({times.back()})}});
+    return buffer.accessors.size() - 1;
+}
+
 Json material_of(const Placed& thing) {
     Json color = array(thing.color);
     color.push_back(1);
-    return {{"name", thing.name},
-            {"pbrMetallicRoughness",
-             {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
+    Json material{{"name", thing.name},
+                  {"pbrMetallicRoughness",
+                   {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
+    if (thing.double_sided) material["doubleSided"] = true;
+    return material;
 }
 
 Json node_of(const Placed& thing, std::size_t mesh) {
@@ -109,21 +126,42 @@ Json node_of(const Placed& thing, std::size_t mesh) {
             {"rotation", array(glm::angleAxis(thing.turn, glm::normalize(thing.turn_axis)))}};
 }
 
-/// Looks down its own -z, y up.
-Json camera_node(const Stage& stage) {
-    const glm::dvec3 back = glm::normalize(stage.eye - stage.target);
+/// Of a node that looks or shines down its own -z, y up.
+glm::dquat looking(const glm::dvec3& from, const glm::dvec3& to) {
+    const glm::dvec3 back = glm::normalize(from - to);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
-    const glm::dquat rotation(glm::dmat3(right, glm::cross(back, right), back));
+    return glm::normalize(glm::dquat(glm::dmat3(right, glm::cross(back, right), back)));
+}
+
+Json camera_node(const Stage& stage) {
     return {{"name", "camera"},
             {"camera", 0},
             {"translation", array(stage.eye)},
-            {"rotation", array(glm::normalize(rotation))}};
+            {"rotation", array(looking(stage.eye, stage.target))}};
 }
 
-Json light_node(const Stage& stage) {
-    return {{"name", "light"},
-            {"translation", array(stage.light)},
-            {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+std::vector<Lamp> lamps_of(const Stage& stage) {
+    std::vector<Lamp> lamps{stage.light};
+    lamps.insert(lamps.end(), stage.more_lights.begin(), stage.more_lights.end());
+    return lamps;
+}
+
+Json light_node(const Lamp& lamp, std::size_t index) {
+    Json node{{"name", lamp.name}, {"translation", array(lamp.position)}};
+    if (lamp.type != "point") node["rotation"] = array(looking(lamp.position, lamp.target));
+    node["extensions"] = {{"KHR_lights_punctual", {{"light", index}}}};
+    return node;
+}
+
+/// The lamp's way as the one animation of the file.
+Json animations_of(Buffer& buffer, const Lamp& lamp, std::size_t node) {
+    constexpr float seconds = 4;
+    const std::size_t times = add_times(buffer, {0, seconds});
+    const std::size_t places = add_positions(buffer, {lamp.position, *lamp.moves_to}, std::nullopt);
+    return {
+        {{"name", "way of the light"},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", times}, {"interpolation", "LINEAR"}, {"output", places}}}}}};
 }
 
 Json cameras_of(const Stage& stage) {
@@ -134,8 +172,15 @@ Json cameras_of(const Stage& stage) {
 }
 
 Json lights_of(const Stage& stage) {
-    return {{"KHR_lights_punctual",
-             {{"lights", {{{"name", "light"}, {"type", "point"}, {"intensity", stage.candela}}}}}}};
+    Json lights = Json::array();
+    for (const Lamp& lamp : lamps_of(stage)) {
+        Json light{{"name", lamp.name}, {"type", lamp.type}, {"intensity", lamp.intensity}};
+        if (lamp.type == "spot")
+            light["spot"] = {{"innerConeAngle", 0.8 * lamp.outer_cone},
+                             {"outerConeAngle", lamp.outer_cone}};
+        lights.push_back(light);
+    }
+    return {{"KHR_lights_punctual", {{"lights", lights}}}};
 }
 
 } // namespace
@@ -157,7 +202,9 @@ std::string write_gltf(const Stage& stage) {
         materials.push_back(material_of(thing));
     }
     nodes.push_back(camera_node(stage));
-    nodes.push_back(light_node(stage));
+    const std::size_t first_light = nodes.size();
+    const std::vector<Lamp> lamps = lamps_of(stage);
+    for (std::size_t i = 0; i < lamps.size(); ++i) nodes.push_back(light_node(lamps[i], i));
     Json roots = Json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
 
@@ -174,6 +221,7 @@ std::string write_gltf(const Stage& stage) {
     gltf["cameras"] = cameras_of(stage);
     gltf["meshes"] = meshes;
     gltf["materials"] = materials;
+    if (stage.light.moves_to) gltf["animations"] = animations_of(buffer, stage.light, first_light);
     gltf["accessors"] = buffer.accessors;
     gltf["bufferViews"] = buffer.views;
     gltf["buffers"] = {{{"byteLength", buffer.bytes.size()},

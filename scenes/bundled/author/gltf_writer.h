@@ -1,10 +1,11 @@
-// A stage (placed shapes, one camera, one point light) to the text of a .gltf with an embedded
+// A stage (placed shapes, one camera, lights) to the text of a .gltf with an embedded
 // buffer. The same stage gives the same bytes.
 #pragma once
 
 #include "scenes/bundled/author/shapes.h"
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,17 @@ struct Placed {
     glm::dvec3 position{0, 0, 0};
     glm::dvec3 turn_axis{0, 1, 0};
     double turn = 0; ///< radians about turn_axis
+    bool double_sided = false;
+};
+
+struct Lamp {
+    std::string name = "light";
+    std::string type = "point"; ///< as KHR_lights_punctual says it
+    glm::dvec3 position{0, 10, 0};
+    glm::dvec3 target{0, 0, 0};         ///< where a spot or a directional light shines to
+    double intensity = 2000;            ///< candela, or lux of a directional light
+    double outer_cone = 0.785;          ///< of a spot, radians
+    std::optional<glm::dvec3> moves_to; ///< where it is after four seconds, by a straight way
 };
 
 struct Stage {
@@ -29,8 +41,8 @@ struct Stage {
     double yfov = 0.6; ///< radians
     double znear = 0.5;
     double zfar = 100;
-    glm::dvec3 light{0, 10, 0};
-    double candela = 2000;
+    Lamp light;
+    std::vector<Lamp> more_lights;
 };
 
 std::string write_gltf(const Stage& stage);

@@ -1,4 +1,5 @@
-// shadowproof_author FOLDER: writes the bundled scenes there.
+// shadowproof_author FOLDER: writes the bundled scenes there, and those that no catalog lists to
+// its subfolder unlisted/.
 #include "scenes/bundled/author/stages.h"
 
 #include <cstdlib>
@@ -6,20 +7,34 @@
 #include <fstream>
 #include <iostream>
 
+namespace {
+
+bool write_all(const std::vector<shadowproof::author::Stage>& stages,
+               const std::filesystem::path& folder) {
+    for (const shadowproof::author::Stage& stage : stages) {
+        const std::filesystem::path file = folder / (stage.name + ".gltf");
+        std::ofstream stream(file, std::ios::binary);
+        stream << write_gltf(stage);
+        if (!stream.flush()) {
+            std::cerr << file.string() << ": cannot be written\n";
+            return false;
+        }
+        std::cout << file.string() << '\n';
+    }
+    return true;
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
     if (argc != 2) {
         std::cerr << "usage: shadowproof_author FOLDER\n";
         return 2;
     }
-    for (const shadowproof::author::Stage& stage : shadowproof::author::all_stages()) {
-        const std::filesystem::path file = std::filesystem::path(argv[1]) / (stage.name + ".gltf");
-        std::ofstream stream(file, std::ios::binary);
-        stream << write_gltf(stage);
-        if (!stream.flush()) {
-            std::cerr << file.string() << ": cannot be written\n";
-            return 3;
-        }
-        std::cout << file.string() << '\n';
-    }
-    return 0;
+    using namespace shadowproof::author;
+    const std::filesystem::path folder = argv[1];
+    std::filesystem::create_directories(folder / "unlisted");
+    const bool written =
+        write_all(all_stages(), folder) && write_all(unlisted_stages(), folder / "unlisted");
+    return written ? 0 : 3;
 }

@@ -77,11 +77,16 @@ Shape subdivided(const Shape& coarse) {
 } // namespace
 
 Shape box(const glm::dvec3& half_size, unsigned segments) {
+    return box(half_size, glm::uvec3(segments));
+}
+
+Shape box(const glm::dvec3& half_size, const glm::uvec3& segments) {
     Shape shape;
     Welder welder(shape);
-    const auto step = [&](unsigned i) { return 2.0 * i / segments - 1; };
     for (int axis = 0; axis < 3; ++axis)
         for (const int side : {-1, 1}) {
+            const unsigned count = segments[axis];
+            const auto step = [&](unsigned i) { return 2.0 * i / count - 1; };
             // u, v and the outward normal are a right-handed frame on both sides.
             const int u = side > 0 ? (axis + 1) % 3 : (axis + 2) % 3;
             const int v = side > 0 ? (axis + 2) % 3 : (axis + 1) % 3;
@@ -92,8 +97,8 @@ Shape box(const glm::dvec3& half_size, unsigned segments) {
                 point[v] = step(j) * half_size[v];
                 return welder.vertex(point);
             };
-            for (unsigned i = 0; i < segments; ++i)
-                for (unsigned j = 0; j < segments; ++j)
+            for (unsigned i = 0; i < count; ++i)
+                for (unsigned j = 0; j < count; ++j)
                     add_square(shape, corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
                                corner(i, j + 1));
         }
@@ -141,6 +146,29 @@ Shape disc(double radius, double half_height, unsigned sides) {
         add_square(shape, top, next, next + 1, top + 1);
     }
     return shape;
+}
+
+Shape gem(double radius, double half_height, unsigned sides) {
+    Shape shape{{{0, half_height, 0}, {0, -half_height, 0}}, {}};
+    for (unsigned i = 0; i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        shape.vertices.emplace_back(radius * std::cos(angle), 0, radius * std::sin(angle));
+        const unsigned here = 2 + i;
+        const unsigned next = 2 + (i + 1) % sides;
+        shape.triangles.emplace_back(0, next, here);
+        shape.triangles.emplace_back(1, here, next);
+    }
+    return shape;
+}
+
+Shape welded(const Shape& shape) {
+    Shape result;
+    Welder welder(result);
+    for (const glm::uvec3& triangle : shape.triangles)
+        result.triangles.emplace_back(welder.vertex(shape.vertices[triangle.x]),
+                                      welder.vertex(shape.vertices[triangle.y]),
+                                      welder.vertex(shape.vertices[triangle.z]));
+    return result;
 }
 
 } // namespace shadowproof::author

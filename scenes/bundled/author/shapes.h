@@ -1,5 +1,5 @@
-// Closed triangle meshes, counter-clockwise from outside, every vertex shared: each welds to a
-// two-manifold.
+// Closed triangle meshes, counter-clockwise from outside. Each welds to a two-manifold, but for
+// boxes whose faces are not split alike.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,6 +15,10 @@ struct Shape {
 /// Axis-aligned, around the origin, each face `segments` by `segments` squares.
 Shape box(const glm::dvec3& half_size, unsigned segments);
 
+/// The same with `segments[axis]` on the two faces across that axis: where they are not all equal,
+/// corners of one face lie within edges of another.
+Shape box(const glm::dvec3& half_size, const glm::uvec3& segments);
+
 /// An icosahedron, each triangle split in four `subdivisions` times, on the sphere.
 Shape ball(double radius, unsigned subdivisions);
 
@@ -23,5 +27,11 @@ Shape torus(double ring_radius, double tube_radius, unsigned ring, unsigned tube
 
 /// An upright cylinder around the origin.
 Shape disc(double radius, double half_height, unsigned sides);
+
+/// Two pyramids, base to base: points at +-half_height above a round girdle.
+Shape gem(double radius, double half_height, unsigned sides);
+
+/// The same with equal points made one vertex.
+Shape welded(const Shape& shape);
 
 } // namespace shadowproof::author

@@ -1,5 +1,7 @@
 #include "scenes/bundled/author/stages.h"
 
+#include "scenes/bundled/author/parts.h"
+
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -8,43 +10,9 @@ namespace shadowproof::author {
 
 namespace {
 
-// Positions and angles are odd on purpose: no edge, ray or face lies on a grid line of another.
-
-constexpr glm::dvec3 sand{0.72, 0.66, 0.55};
-constexpr glm::dvec3 coral{0.85, 0.29, 0.20};
-constexpr glm::dvec3 teal{0.10, 0.46, 0.48};
-constexpr glm::dvec3 amber{0.90, 0.60, 0.13};
-constexpr glm::dvec3 slate{0.28, 0.32, 0.40};
-
-/// A round slab whose top is at height 0.
-Placed floor(double radius) {
-    constexpr double half_height = 0.11;
-    return {"floor", disc(radius, half_height, 120), sand, {0.013, -half_height, -0.021}, {0, 1, 0},
-            0.0171};
-}
-
-/// The eye looks along a small floor under a light that stands high: every ray leaves the cones of
-/// the shadows again before the far plane, and none points into one for ever.
-Stage looking_along_floor() {
-    Stage stage;
-    stage.things = {floor(4.43)};
-    stage.eye = {1.337, 5.273, 12.617};
-    stage.target = {0.041, -0.241, 0.013};
-    stage.yfov = 0.6137;
-    stage.znear = 0.913;
-    stage.zfar = 71.3;
-    stage.light = {-3.471, 8.877, -0.683};
-    return stage;
-}
-
-void add(Stage& stage, std::vector<Placed> things) {
-    stage.things.insert(stage.things.end(), things.begin(), things.end());
-}
-
 Stage ordinary() {
-    Stage stage = looking_along_floor();
-    stage.name = "ordinary";
-    stage.title = "A box, a torus and a ball on a floor, all closed; no technique fails here.";
+    Stage stage = looking_along_floor(
+        "ordinary", "A box, a torus and a ball on a floor, all closed; no technique fails here.");
     add(stage,
         {{"box", box({0.83, 0.83, 0.83}, 6), slate, {-1.637, 0.861, -0.893}, {0, 1, 0}, 0.5371},
          {"torus",
@@ -60,10 +28,9 @@ Stage ordinary() {
 /// A ring hangs off the picture, between the light and the near plane. Its shadow crosses the near
 /// plane at a slant and passes the eye by.
 Stage near_plane() {
-    Stage stage = looking_along_floor();
-    stage.name = "near_plane";
-    stage.title = "The shadow of a ring off the picture crosses a part of the near plane.";
-    stage.provokes = {"near_plane"};
+    Stage stage = looking_along_floor(
+        "near_plane", "The shadow of a ring off the picture crosses a part of the near plane.",
+        {"near_plane"});
     add(stage,
         {{"planet", ball(1.213, 4), amber, {-0.371, 1.493, 0.117}, {0.31, 0.83, 0.47}, 0.7331},
          {"belt",
@@ -85,10 +52,9 @@ Stage near_plane() {
 /// The far plane lies close behind the floor: rays that go through the near half of the floor are
 /// still in its shadow there, rays that graze the far half have left it.
 Stage far_plane() {
-    Stage stage = looking_along_floor();
-    stage.name = "far_plane";
-    stage.title = "Shadows run out through the far plane behind surfaces that are lit.";
-    stage.provokes = {"far_plane"};
+    Stage stage = looking_along_floor(
+        "far_plane", "Shadows run out through the far plane behind surfaces that are lit.",
+        {"far_plane"});
     constexpr int stones = 5;
     for (int i = 0; i < stones; ++i) {
         const double angle = 0.413 + 0.587 * i; // radians, an arc open to the eye
@@ -103,16 +69,15 @@ Stage far_plane() {
     add(stage,
         {{"ball", ball(0.917, 4), coral, {-0.213, 0.949, 0.671}, {0.31, 0.83, 0.47}, 0.7331}});
     stage.zfar = 20.3;
-    stage.light = {-2.971, 5.477, 8.383};
+    stage.light.position = {-2.971, 5.477, 8.383};
     return stage;
 }
 
 /// A canopy shades the eye and the whole near plane, and nothing that is seen.
 Stage eye_inside() {
-    Stage stage = looking_along_floor();
-    stage.name = "eye_inside";
-    stage.title = "The eye stands in the shadow of a canopy and looks out into the light.";
-    stage.provokes = {"eye_inside"};
+    Stage stage = looking_along_floor(
+        "eye_inside", "The eye stands in the shadow of a canopy and looks out into the light.",
+        {"eye_inside"});
     add(stage,
         {{"torus", torus(1.187, 0.413, 88, 32), amber, {-0.809, 0.447, 0.343}, {1, 0, 0}, 0.0213},
          {"ball", ball(0.713, 4), coral, {-0.793, 0.957, 0.371}, {0.31, 0.83, 0.47}, 0.7331},
@@ -130,7 +95,10 @@ Stage eye_inside() {
 } // namespace
 
 std::vector<Stage> all_stages() {
-    return {ordinary(), near_plane(), far_plane(), eye_inside()};
+    std::vector<Stage> stages{ordinary(), near_plane(), far_plane(), eye_inside()};
+    for (const auto& more : {stages_of_planes(), stages_of_lights(), stages_of_casters()})
+        stages.insert(stages.end(), more.begin(), more.end());
+    return stages;
 }
 
 } // namespace shadowproof::author
