@@ -24,6 +24,7 @@ public:
         std::uint32_t triangle = no_triangle; ///< the first that has it
         Crossing::Part part = Crossing::Part::side_0;
         glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
+        double eye = 0;            ///< the eye against that plane
         glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
     };
     struct Vertex {

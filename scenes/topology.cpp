@@ -122,6 +122,7 @@ std::vector<CasterReport> inspect_casters(const Scene& scene) {
     const std::vector<std::uint32_t> welded = weld_by_position(scene.positions);
     std::vector<CasterReport> reports;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        if (!scene.meshes[mesh].casts) continue;
         std::vector<std::uint32_t> triangles(scene.meshes[mesh].triangle_count);
         std::iota(triangles.begin(), triangles.end(), scene.meshes[mesh].first_triangle);
         const std::vector<EdgeUse> edges = edges_used(scene, welded, triangles);

@@ -38,7 +38,7 @@ struct CasterReport {
     bool closed() const { return boundary_edges == 0; }
 };
 
-/// In the order of scene.meshes.
+/// Of the meshes that cast, in the order of scene.meshes.
 std::vector<CasterReport> inspect_casters(const Scene& scene);
 
 } // namespace shadowproof
