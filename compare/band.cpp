@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// point of a volume's side was extruded from the light, and that direction is rounded too.
 double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const Camera& camera = scene.camera;
-    const glm::dvec3 light = chosen_light(scene).position;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
     double largest = 0;
     for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
         const auto terms = [&](const glm::dvec3& p) {
@@ -31,7 +31,7 @@ double transform_terms(const Scene& scene, const DepthModel& depth_model, const 
         };
         const double position = depth_model.eye_relative ? 2 * terms(point - camera.eye)
                                                          : terms(point) + terms(camera.eye);
-        largest = std::max(largest, position + terms(point - light));
+        largest = std::max(largest, position + terms(light.w * point - glm::dvec3(light)));
     }
     return largest;
 }

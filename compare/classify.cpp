@@ -29,6 +29,7 @@ struct Context {
     const ShadowDepths& depths;
     const Frame& frame;
     const Prediction& prediction;
+    std::vector<std::uint8_t> receives; ///< a flag a triangle
 
     std::int64_t stored(std::int64_t count) const {
         return shadowproof::stored(count, frame.counting);
@@ -46,7 +47,8 @@ struct Context {
 /// The claim that follows from a counter and a triangle.
 Visibility claim_of(const Context& context, std::int64_t count, std::uint32_t triangle) {
     if (triangle == no_triangle) return Visibility::background;
-    const bool lit = context.stored(count) == 0 && sides_of(context.tracer, triangle).faces_light();
+    const bool unshadowed = context.receives[triangle] == 0 || context.stored(count) == 0;
+    const bool lit = unshadowed && sides_of(context.tracer, triangle).faces_light();
     return lit ? Visibility::lit : Visibility::shadowed;
 }
 
@@ -349,7 +351,8 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
     const int width = truth.visibility.width;
     const int height = truth.visibility.height;
     assert(frame.claim.width == width && frame.claim.height == height);
-    const Context context{tracer, silhouette, truth, depths, frame, prediction};
+    const Context context{
+        tracer, silhouette, truth, depths, frame, prediction, receiving_triangles(tracer.scene())};
 
     Comparison comparison;
     comparison.cause = Image<std::uint8_t>(width, height, no_difference);

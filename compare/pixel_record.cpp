@@ -1,5 +1,7 @@
 #include "compare/pixel_record.h"
 
+#include "compare/light_json.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -155,7 +157,9 @@ PixelRecord record_pixel(const Tracer& tracer, const GroundTruth& truth, const S
     record.seen = truth.triangle.at(x, y);
     if (record.seen != no_triangle)
         record.faces_light = sides_of(tracer, record.seen).faces_light();
-    record.occluder = trace_ray(tracer, record.direction).occluder;
+    const RayTruth truth_again = trace_ray(tracer, record.direction);
+    record.in_cone = truth_again.in_cone;
+    record.occluder = truth_again.occluder;
     record.far = depths.far;
     record.ledger = pixel_ledger(tracer, truth, depths, x, y);
     record.depth_margin = depth_margin(record.ledger, record.seen);
@@ -192,7 +196,6 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
 
 nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
     const Camera& camera = scene.camera;
-    const Light& light = chosen_light(scene);
     const RayCounts& counts = record.ledger.counts;
     const bool seen = record.seen != no_triangle;
     Json json{{"schema", "shadowproof/pixel/1"},
@@ -205,7 +208,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
               {"direction", vector_json(record.direction)},
               {"near", camera.near},
               {"far", record.far},
-              {"light", {{"name", light.name}, {"position", vector_json(light.position)}}},
+              {"light", light_json(chosen_light(scene))},
               {"truth", name_of(record.visibility)},
               {"exactness", name_of(record.exactness)},
               {"seen", triangle_json(scene, record.seen)},
@@ -229,6 +232,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
         json["seen"]["point"] = vector_json(camera.eye + depth * record.direction);
         json["seen"]["corners"] = corners_json(scene, record.seen);
         json["seen"]["faces_light"] = record.faces_light;
+        if (chosen_light(scene).kind == Light::Kind::spot) json["seen"]["in_cone"] = record.in_cone;
     }
     for (const Crossing& crossing : record.ledger.crossings)
         json["crossings"].push_back(crossing_json(scene, crossing, {}));

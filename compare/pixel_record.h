@@ -41,6 +41,7 @@ struct PixelRecord {
     Exactness exactness = Exactness::filtered;
     std::uint32_t seen = no_triangle;
     bool faces_light = false;             ///< the seen side is the light's
+    bool in_cone = true;                  ///< false outside a spot light's cone
     std::uint32_t occluder = no_triangle; ///< where shadowed by one: some triangle in between
     double far = 0;                       ///< the finite far plane's depth
     PixelLedger ledger;

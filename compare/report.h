@@ -41,9 +41,9 @@ struct SceneResult {
     int width = 0;
     int height = 0;
     std::size_t triangles = 0;
-    std::string digest; ///< of the scene's content, as digest_of gives it
-    std::string light;
-    glm::dvec3 light_position{0, 0, 0};
+    std::string digest;       ///< of the scene's content, as digest_of gives it
+    Light light;              ///< the one that is judged
+    bool one_of_many = false; ///< the file's other lights are judged too, each by itself
     Camera camera;
     double far = 0; ///< the finite far plane of the techniques that have one
     std::vector<Mesh> meshes;

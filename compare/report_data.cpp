@@ -1,6 +1,7 @@
 #include "compare/report_data.h"
 
 #include "compare/blocks.h"
+#include "compare/light_json.h"
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ std::string scene_script(const SceneResult& scene) {
                   {"tan_half_height", camera.tan_half_height},
                   {"near", camera.near}}},
                 {"far", scene.far},
-                {"light", {{"name", scene.light}, {"position", vector_json(scene.light_position)}}},
+                {"light", light_json(scene.light)},
                 {"meshes", Json::array()}};
     for (const Mesh& mesh : scene.meshes)
         header["meshes"].push_back(

@@ -73,7 +73,7 @@ Json scene_of(const Report& report, const SceneResult& scene) {
     json["folder"] = folder_of(scene);
     json["digest"] = scene.digest;
     json["triangles"] = scene.triangles;
-    json["light"] = scene.light;
+    json["light"] = scene.light.name;
     json["provokes"] = scene.provokes;
     json["no_longer_provoked"] = scene.no_longer_provoked;
     json["left_out"] = scene.left_out;

@@ -81,6 +81,7 @@ std::string command_for(const Report& report, const SceneResult& scene,
     std::string command = "shadowproof verify " +
                           shell_quoted(scene.argument.empty() ? scene.name : scene.argument) +
                           technique;
+    if (scene.one_of_many) command += " --light " + shell_quoted(scene.light.choice);
     for (const std::string& argument : report.arguments) command += " " + shell_quoted(argument);
     return command;
 }

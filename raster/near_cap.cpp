@@ -18,7 +18,8 @@ class Cutter {
 public:
     explicit Cutter(const Scene& scene)
         : scene_(scene), count_(static_cast<std::uint32_t>(scene.positions.size())),
-          light_(chosen_light(scene).position), point_of_node_(2 * std::size_t{count_}, unmade) {}
+          light_(homogeneous(chosen_light(scene))),
+          point_of_node_(2 * std::size_t{count_}, unmade) {}
 
     std::uint32_t at_infinity(std::uint32_t node) const { return node + count_; }
 
@@ -56,7 +57,7 @@ private:
 
     const Scene& scene_;
     std::uint32_t count_;
-    glm::dvec3 light_;
+    glm::dvec4 light_;
     std::vector<std::uint32_t> point_of_node_;
     std::unordered_map<std::uint64_t, std::uint32_t> point_of_edge_;
     std::vector<glm::vec4> points_;
@@ -66,7 +67,8 @@ private:
         const Camera& camera = scene_.camera;
         const bool infinite = node >= count_;
         const glm::dvec3 position = scene_.positions[infinite ? node - count_ : node];
-        const glm::dvec3 from = position - (infinite ? light_ : camera.eye);
+        const glm::dvec3 from =
+            infinite ? light_.w * position - glm::dvec3(light_) : position - camera.eye;
         return {glm::dot(camera.right, from), glm::dot(camera.up, from),
                 -glm::dot(camera.forward, from), infinite ? 0 : 1};
     }

@@ -78,27 +78,27 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
 
 namespace {
 
-/// With view coordinates (x, y, depth), a light l and the near plane's depth n, the shadow of a
-/// point p falls on l + (p - l) (n - l.depth) / (p.depth - l.depth). Homogeneous, with the divisor
-/// as w and turned so that w > 0 for what lies on the plane's side of the light.
+/// With view coordinates (x, y, depth), a homogeneous light (l, w) and the near plane's depth n,
+/// the shadow of a point p falls on (p (l.depth - w n) - l (p.depth - n)) / (l.depth - w p.depth):
+/// homogeneous, turned so that the divisor is positive for what lies on the plane's side of the
+/// light. Row z tells how far p lies on the light's side of the plane.
 glm::dmat4 clip_from_eye_relative(const Scene& scene) {
     const Camera& camera = scene.camera;
-    const glm::dvec3 from_eye = chosen_light(scene).position - camera.eye;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const glm::dvec3 from_eye = glm::dvec3(light) - light.w * camera.eye;
     const glm::dvec3 l(glm::dot(camera.right, from_eye), glm::dot(camera.up, from_eye),
                        glm::dot(camera.forward, from_eye));
-    const double distance = camera.near - l.z;
-    const double sign = distance < 0 ? -1 : 1;
+    const double to_plane = light.w * camera.near - l.z;
+    const double sign = to_plane < 0 ? -1 : 1;
     const glm::dvec2 extent = half_extent(camera) * camera.near;
-    // Rows: coefficients of (x, y, z) of a point relative to the eye, and the constant.
-    const auto row = [](const glm::dvec3& axis, double constant) {
-        return glm::dvec4(axis, constant);
-    };
-    const glm::dvec4 depth = row(camera.forward, -l.z) * sign; // (p.depth - l.depth) sign
+    // Rows: coefficients of a point relative to the eye, and the constant.
+    const glm::dvec4 beyond(camera.forward, -camera.near); // p.depth - n
     const auto across = [&](const glm::dvec3& axis, double of_light, double half) {
-        return (depth * of_light + row(axis, -of_light) * std::abs(distance)) / half;
+        return (glm::dvec4(axis, 0) * std::abs(to_plane) + beyond * (sign * of_light)) / half;
     };
     const std::array<glm::dvec4, 4> rows{across(camera.right, l.x, extent.x),
-                                         across(camera.up, l.y, extent.y), glm::dvec4(0), depth};
+                                         across(camera.up, l.y, extent.y), -sign * beyond,
+                                         sign * glm::dvec4(light.w * camera.forward, -l.z)};
     glm::dmat4 matrix(0);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 4; ++k) matrix[k][i] = rows[static_cast<std::size_t>(i)][k];
@@ -124,9 +124,6 @@ VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const G
         gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, glm::value_ptr(matrix));
         gl.ProgramUniform3fv(program, 1, 1, glm::value_ptr(high));
         gl.ProgramUniform3fv(program, 2, 1, glm::value_ptr(low));
-        const double distance =
-            std::abs(scene.camera.near - view_depth(scene.camera, chosen_light(scene).position));
-        gl.ProgramUniform1f(program, 8, static_cast<float>(distance));
         std::vector<glm::uvec3> facing;
         for (const std::uint32_t triangle : triangles_facing_light(scene))
             facing.push_back(scene.triangles[triangle]);

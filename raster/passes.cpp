@@ -114,7 +114,9 @@ ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) 
     } else {
         transform.clip_from_relative = glm::mat4(projection * view_from_world(scene.camera));
     }
-    split(chosen_light(scene).position, transform.light_high, transform.light_low);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    split(light, transform.light_high, transform.light_low);
+    transform.light_w = static_cast<float>(light.w);
     return transform;
 }
 
@@ -177,16 +179,21 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
     geometry.surface = upload_triangles(gl, std::array{std::span(scene.triangles)});
 
     std::vector<std::uint32_t> indices;
-    std::vector<glm::uvec3> lit_sides;
-    const glm::dvec3 light = chosen_light(scene).position;
+    const std::vector<std::uint8_t> receives = receiving_triangles(scene);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const glm::dvec4 eye(scene.camera.eye, 1);
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
         const double of_light = side(scene, triangle, light);
-        const double of_eye = side(scene, triangle, scene.camera.eye);
-        if ((of_light > 0 && of_eye > 0) || (of_light < 0 && of_eye < 0)) {
+        const double of_eye = side(scene, triangle, eye);
+        if ((of_light > 0 && of_eye > 0) || (of_light < 0 && of_eye < 0))
             indices.push_back(triangle);
-            lit_sides.push_back(scene.triangles[triangle]);
-        }
     }
+    const auto others =
+        std::stable_partition(indices.begin(), indices.end(),
+                              [&](std::uint32_t triangle) { return receives[triangle] != 0; });
+    geometry.receivers = static_cast<std::uint32_t>(others - indices.begin());
+    std::vector<glm::uvec3> lit_sides;
+    for (const std::uint32_t triangle : indices) lit_sides.push_back(scene.triangles[triangle]);
     geometry.lit_sides = upload_triangles(gl, std::array{std::span<const glm::uvec3>(lit_sides)});
     geometry.lit_side_indices =
         make_filled_buffer(gl, std::array{std::as_bytes(std::span(indices))});
@@ -291,7 +298,13 @@ void draw_light(const GlFunctions& gl, const Program& light, const Target& targe
     gl.UseProgram(light.name());
     gl.BindTextureUnit(0, target.triangle.name());
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.lit_side_indices.name());
-    draw_triangles(gl, geometry, geometry.lit_sides, 0, geometry.lit_sides.count);
+    const auto draw = [&](std::uint32_t first, std::uint32_t count) {
+        gl.ProgramUniform1ui(light.name(), 7, first);
+        draw_triangles(gl, geometry, geometry.lit_sides, first, count);
+    };
+    draw(0, geometry.receivers);
+    gl.StencilFunc(GL_ALWAYS, 0, ~0U);
+    draw(geometry.receivers, geometry.lit_sides.count - geometry.receivers);
     check(gl, "the light pass");
 }
 

@@ -73,8 +73,9 @@ struct Geometry {
     VertexArray vertices{};
     Triangles surface{}; ///< the scene's triangles
     std::vector<SurfaceRun> runs{};
-    Triangles lit_sides{};     ///< those whose side seen from the eye is the light's
-    Buffer lit_side_indices{}; ///< their indices into Scene::triangles
+    Triangles lit_sides{};       ///< those whose side seen from the eye is the light's
+    std::uint32_t receivers = 0; ///< the first of them, which show shadows
+    Buffer lit_side_indices{};   ///< their indices into Scene::triangles
 };
 /// `far_ends`: a position each of the scene's, or empty for infinity.
 Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends);
@@ -108,8 +109,8 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 
-/// Draws the lit sides again where the stencil is zero and the depth equal: `lit`. Writes neither
-/// stencil nor depth.
+/// Draws the lit sides again where the depth is equal and the stencil zero, or where they show no
+/// shadows: `lit`. Writes neither stencil nor depth.
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
                 const Geometry& geometry);
 

@@ -9,16 +9,13 @@ namespace shadowproof {
 
 namespace {
 
-void require_drawable(const Scene& scene, const DriverInfo& driver) {
+void require_drawable(const DriverInfo& driver) {
     constexpr int llvmpipe_subpixel_bits = 8;
     if (driver.subpixel_bits < llvmpipe_subpixel_bits)
         throw Error("OpenGL",
                     driver.renderer + " snaps vertices to " + std::to_string(driver.subpixel_bits) +
                         " bits of a pixel",
                     "use a driver with at least 8 (llvmpipe)");
-    if (chosen_light(scene).kind == Light::Kind::directional)
-        throw Error(scene.name, "light '" + chosen_light(scene).name + "' is directional",
-                    "choose a point or spot light with --light");
 }
 
 /// Written so that NaN fails.
@@ -46,7 +43,7 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 } // namespace
 
 Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
-    require_drawable(scene, gpu.driver());
+    require_drawable(gpu.driver());
     gpu.make_current();
     Frame frame = technique.run(gpu, scene, plan);
     require_picture(frame, scene, technique.name);

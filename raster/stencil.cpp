@@ -73,27 +73,40 @@ VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) 
     return visible;
 }
 
-/// Whether the segment from a point to the light meets a triangle that faces the light: the three
-/// sides of the cone over it hold the point, and its plane lies between.
-bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec3& light,
+/// Whether the way from a point to the light (l, w) meets a triangle that faces the light: the
+/// point lies behind the triangle, and on the inner side of the three planes through light and
+/// edges.
+bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec4& light,
              const glm::dvec3& point) {
-    if (side(scene, triangle, point) >= 0) return false;
-    const glm::dvec3 to_point = point - light;
+    if (side(scene, triangle, glm::dvec4(point, 1)) >= 0) return false;
     for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 a = corner(scene, triangle, k) - light;
-        const glm::dvec3 b = corner(scene, triangle, (k + 1) % 3) - light;
-        if (glm::dot(glm::cross(a, b), to_point) > 0) return false;
+        const glm::dvec3 a = corner(scene, triangle, k);
+        const glm::dvec3 b = corner(scene, triangle, (k + 1) % 3);
+        const glm::dvec3 plane = glm::cross(light.w * a - glm::dvec3(light), b - a);
+        if (glm::dot(plane, point - a) > 0) return false;
     }
     return true;
 }
 
 /// Volumes around the eye, by asking every triangle that faces the light.
 std::size_t volumes_around_eye(const Scene& scene) {
-    const glm::dvec3 light = chosen_light(scene).position;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
     std::size_t count = 0;
     for (const std::uint32_t triangle : triangles_facing_light(scene))
         count += shadows(scene, triangle, light, scene.camera.eye) ? 1U : 0U;
     return count;
+}
+
+/// The scene without what casts no shadow, its holes filled where the recipe asks for it.
+Scene casters_of(const Scene& scene, const Counting& counting) {
+    Scene casters = counting.holes_filled ? with_holes_filled(scene) : scene;
+    const std::vector<std::uint8_t> casts = casting_triangles(casters);
+    std::size_t kept = 0;
+    for (std::size_t triangle = 0; triangle < casts.size(); ++triangle)
+        if (casts[triangle] != 0) casters.triangles[kept++] = casters.triangles[triangle];
+    casters.triangles.resize(kept);
+    casters.meshes.clear(); // they no longer say which triangles are whose
+    return casters;
 }
 
 /// What the passes of one frame draw with.
@@ -112,8 +125,7 @@ struct Frames {
     std::uint8_t start = 0;
 
     Frames(Gpu& gpu, const Scene& drawn, const StencilRecipe& with)
-        : gl(gpu.gl()), scene(drawn), recipe(with),
-          casters(with.counting.holes_filled ? with_holes_filled(drawn) : drawn),
+        : gl(gpu.gl()), scene(drawn), recipe(with), casters(casters_of(drawn, with.counting)),
           target(make_target(gl, drawn.camera, with.depth_model.floating)),
           geometry(upload(gl, drawn,
                           std::isfinite(with.counting.extrusion)

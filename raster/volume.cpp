@@ -31,7 +31,7 @@ ShadowVolume capped(const Scene& scene, std::span<const std::uint32_t> facing) {
 
 } // namespace
 
-double side(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
+double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point) {
     glm::dvec3 a = corner(scene, triangle, 0);
     glm::dvec3 b = corner(scene, triangle, 1);
     glm::dvec3 c = corner(scene, triangle, 2);
@@ -39,11 +39,11 @@ double side(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point)
         std::swap(a, b);
         std::swap(b, c);
     }
-    return glm::dot(glm::cross(b - a, c - a), point - a);
+    return glm::dot(glm::cross(b - a, c - a), glm::dvec3(point) - point.w * a);
 }
 
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene) {
-    const glm::dvec3 light = chosen_light(scene).position;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
     std::vector<std::uint32_t> facing;
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
         if (side(scene, triangle, light) > 0) facing.push_back(triangle);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <vector>
 
 namespace shadowproof {
@@ -26,12 +27,12 @@ struct ShadowVolume {
     std::vector<glm::uvec3> dark_cap; ///< the light cap at the far end, wound in reverse
 };
 
-/// Positive where a triangle is wound counter-clockwise as seen from the point, negative where
-/// clockwise: (b - a) x (c - a) . (point - a) in double, from the first of its corners (by x, y, z)
-/// on. Zero without area or in its plane.
-double side(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);
+/// Positive where a triangle is wound counter-clockwise as seen from a homogeneous point (l, w),
+/// negative where clockwise: (b - a) x (c - a) . (l - w a) in double, from the first of its corners
+/// (by x, y, z) on. Zero without area or in its plane.
+double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
 
-/// Indices of the triangles that cast and face the chosen light, in order. Every material casts.
+/// Indices of the triangles that face the chosen light, in order. Every material casts.
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene);
 
 /// Makes the volume of the chosen light where it is when called; all that does not depend on the

@@ -59,7 +59,7 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
 
 /// The light where shaders tell its side in double; locations as facing.glsl's users lay them out.
 void set_light(const Making& making, const Program& program) {
-    const glm::dvec3 light = chosen_light(making.scene).position;
+    const glm::dvec4 light = homogeneous(chosen_light(making.scene));
     making.gl.ProgramUniform3d(program.name(), 8, light.x, light.y, light.z);
 }
 

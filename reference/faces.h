@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace shadowproof {
 
@@ -15,11 +16,16 @@ inline bool before(const glm::dvec3& a, const glm::dvec3& b) {
     return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
 }
 
-/// Normal of the plane through the light and the edge from a to b, any length. Both triangles at an
-/// edge must find the same bits, so the edge is always taken one way.
-inline glm::dvec3 side_plane(const glm::dvec3& light, const glm::dvec3& a, const glm::dvec3& b) {
+/// Normal of the plane through the light L = (l, w) and the edge from a to b, any length. Both
+/// triangles at an edge must find the same bits, so the edge is always taken one way.
+inline glm::dvec3 side_plane(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b) {
     if (before(b, a)) return -side_plane(light, b, a);
-    return glm::cross(a - light, b - a);
+    return glm::cross(light.w * a - glm::dvec3(light), b - a);
+}
+
+/// A point of that plane: the light, or the edge's first end where the light is a direction.
+inline glm::dvec3 side_point(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b) {
+    return light.w != 0 ? glm::dvec3(light) : (before(b, a) ? b : a);
 }
 
 /// Normal of a triangle, into the volume behind it where the light sees its front.

@@ -86,6 +86,55 @@ void prepare(RayPacket& packet) {
     packet.pad = std::min(4.0F, hn::GetLane(hn::MaxOfLanes(floats, pad)));
 }
 
+// Parallel rays. u and v are off by 2^-24 of rounding to float, and by `error` as w is: the pad has
+// twice that, error over w's third component, and 2^-21 where |u| <= 2 (2^-23 twice, and the 2^-50
+// that the boxes, of at most 1, may be too small); further out no box lies. Of an unknown direction
+// all boxes are met.
+void prepare_parallel(RayPacket& packet) {
+    const Vector infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
+    Vector pad = hn::Set(floats, 0x1p-21F);
+    for (int i = 0; i < packet_size; i += step()) {
+        const Vector x = load(packet.x, i);
+        const Vector y = load(packet.y, i);
+        const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
+        const Vector z = hn::IfThenElse(awake, load(packet.z, i), hn::Set(floats, 1));
+        const Vector unit = load(packet.unit, i);
+        const Vector error = load(packet.error, i);
+        pad = hn::Max(pad,
+                      hn::MulAdd(hn::Div(error, z), hn::Set(floats, 2), hn::Set(floats, 0x1p-21F)));
+        hn::Store(hn::Div(x, z), floats, packet.rx.data() + i);
+        hn::Store(hn::Div(y, z), floats, packet.ry.data() + i);
+        hn::Store(load(packet.lower_lo, i), floats, packet.rz.data() + i);
+        const Vector size = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+        hn::Store(hn::IfThenElse(hn::Gt(error, hn::Set(floats, 0x1p-25F)), infinite, size), floats,
+                  packet.magnitude.data() + i);
+        for (Lanes<float>* limit :
+             {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
+            hn::Store(hn::Mul(load(*limit, i), unit), floats, limit->data() + i);
+    }
+    packet.pad = hn::GetLane(hn::MaxOfLanes(floats, pad));
+}
+
+// Does any lane's ray pass through the box, at a height that counts?
+bool meets_ground(const RayPacket& packet, const Entry& box) {
+    const float pad = packet.pad;
+    const Vector left = hn::Set(floats, box.lower[0] - pad);
+    const Vector right = hn::Set(floats, box.upper[0] + pad);
+    const Vector front = hn::Set(floats, box.lower[1] - pad);
+    const Vector back = hn::Set(floats, box.upper[1] + pad);
+    const Vector top = hn::Set(floats, box.upper[2] + pad);
+    for (int i = 0; i < packet_size; i += step()) {
+        const Vector u = load(packet.rx, i);
+        const Vector v = load(packet.ry, i);
+        const Mask within = hn::And(hn::And(hn::Ge(u, left), hn::Le(u, right)),
+                                    hn::And(hn::Ge(v, front), hn::Le(v, back)));
+        const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
+        const Mask below = hn::Le(load(packet.rz, i), top);
+        if (!hn::AllFalse(floats, hn::And(within, hn::And(awake, below)))) return true;
+    }
+    return false;
+}
+
 // Does any lane's ray meet the box? The plane x = p is reached at s = p / w_x. In float that is
 // p' r with p' = p - pad, r = 1/w_x and w_x each rounded, and the product rounded: 4 roundings, so
 // entry and exit are right to within a factor 1 +- 4.01 2^-24, and signs are right. 1 + 2^-20
@@ -203,15 +252,18 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
 /// clusters.
 constexpr std::size_t stack_size = deepest_level + 4;
 
-template <Query query>
+template <Query query, bool parallel>
 void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    prepare(packet);
+    if constexpr (parallel)
+        prepare_parallel(packet);
+    else
+        prepare(packet);
     const std::vector<Entry>& entries = records.view().entries;
     std::array<std::uint32_t, stack_size> stack; // NOLINT: filled as it is used
     stack[0] = 0;
     for (std::size_t size = 1; size > 0 && packet.active != 0;) {
         const Entry& entry = entries[stack[--size]];
-        if (!meets_box(packet, entry)) continue;
+        if (!(parallel ? meets_ground(packet, entry) : meets_box(packet, entry))) continue;
         // Nearest first, so pushed last.
         for (std::uint32_t i = entry.count; i > 0; --i) stack[size++] = entry.first + i - 1;
         if (entry.count > 0) continue;
@@ -221,8 +273,16 @@ void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     }
 }
 
+template <Query query>
+void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    if (records.view().parallel)
+        traverse<query, true>(packet, records, arbiter);
+    else
+        traverse<query, false>(packet, records, arbiter);
+}
+
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    traverse<Query::nearest>(packet, records, arbiter);
+    traverse<Query::nearest, false>(packet, records, arbiter);
 }
 void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     traverse<Query::any>(packet, records, arbiter);

@@ -23,13 +23,14 @@ struct ApproximateDirection {
 };
 
 /// Rays are O + s w, O the view's origin, coordinates scaled as the view's. A hit must have
-/// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi]. What is made
-/// from what set_lane stores, and its bounds, are explained in packet.cpp.
+/// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi]. Parallel rays
+/// run up at (u, v): w = (u, v, 1), and heights stand where 1/s does. What is made from what
+/// set_lane stores, and its bounds, are explained in packet.cpp.
 struct RayPacket {
     alignas(64) Lanes<float> x{}, y{}, z{};    ///< w, 1 <= |w| <= 2, |w| the largest component
     alignas(64) Lanes<float> error{};          ///< of a component of w; infinite: w is unknown
     alignas(64) Lanes<float> unit{};           ///< w over the direction given: a power of two
-    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w
+    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w; parallel: u, v, and the least height
     alignas(64) Lanes<float> magnitude{};      ///< |w|; infinite: floats decide nothing
     alignas(64) Lanes<float> lower_lo{}, lower_hi{};
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
@@ -70,7 +71,7 @@ public:
     virtual void decide(RayPacket& packet, int lane, std::uint32_t triangle) = 0;
 };
 
-/// packet.hit: the triangle with the largest 1/s.
+/// packet.hit: the triangle with the largest 1/s. Not for parallel rays.
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
 /// packet.hit: some triangle; the lane is then done.
 void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter);

@@ -44,11 +44,19 @@ Vector<A> normal(const A& arithmetic, const Corners& t) {
     return cross<A>(difference(arithmetic, t.b, t.a), difference(arithmetic, t.c, t.a));
 }
 
-/// (a - o) x (b - o), written with the edge b - a because that is short where o is far away.
+/// w v - o for a point or a direction O = (o, w).
 template <class A>
-Vector<A> edge_plane(const A& arithmetic, const glm::dvec3& o, const glm::dvec3& a,
+Vector<A> away_from(const A& arithmetic, const glm::dvec4& o, const glm::dvec3& v) {
+    const glm::dvec3 at(o);
+    return o.w == 0 ? vector(arithmetic, -at) : difference(arithmetic, v, at);
+}
+
+/// (w a - o) x (b - a), the normal of the plane through O and the edge: for a point (a - o) x
+/// (b - o), written with the edge because that is short where o is far away.
+template <class A>
+Vector<A> edge_plane(const A& arithmetic, const glm::dvec4& o, const glm::dvec3& a,
                      const glm::dvec3& b) {
-    return cross<A>(difference(arithmetic, a, o), difference(arithmetic, b, a));
+    return cross<A>(away_from(arithmetic, o, a), difference(arithmetic, b, a));
 }
 
 /// A quotient kept apart: Q = E + (numerator / denominator) D.
@@ -132,16 +140,16 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
 
 } // namespace
 
-Decision Predicates::side(const glm::dvec3& o, const Corners& t) const {
+Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        return sign_of(dot<A>(difference(arithmetic, t.a, o), normal(arithmetic, t)));
+        return sign_of(dot<A>(away_from(arithmetic, o, t.a), normal(arithmetic, t)));
     });
 }
 
 Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        return sign_of(
-            dot<A>(vector(arithmetic, ray.direction), edge_plane(arithmetic, ray.eye, a, b)));
+        return sign_of(dot<A>(vector(arithmetic, ray.direction),
+                              edge_plane(arithmetic, glm::dvec4(ray.eye, 1), a, b)));
     });
 }
 
@@ -167,8 +175,13 @@ Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double d
 Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                                  const glm::dvec3& b) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        return point_against<A>(arithmetic, ray, q, ray.light,
-                                edge_plane(arithmetic, ray.light, a, b));
+        const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
+        if (ray.light.w != 0)
+            return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
+        const std::optional<int> sign = point_against<A>(arithmetic, ray, q, a, plane);
+        if (q.kind != RayPoint::Kind::infinity || sign != 0) return sign;
+        // Along the plane for ever: the side is the eye's.
+        return sign_of(dot<A>(difference(arithmetic, ray.eye, a), plane));
     });
 }
 
@@ -192,6 +205,44 @@ Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, co
 Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
     return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
+    });
+}
+
+bool Predicates::runs_from_light(const EyeRay& ray) const {
+    const auto sign = [&](const auto& component) {
+        return decide(rationals_,
+                      [&]<class A>(const A& arithmetic) -> std::optional<int> {
+                          const Vector<A> d = vector(arithmetic, ray.direction);
+                          return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
+                      })
+            .sign;
+    };
+    return sign([](const auto& d, const auto& l) { return d.y * l.z - d.z * l.y; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.z * l.x - d.x * l.z; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.x * l.y - d.y * l.x; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.x * l.x + d.y * l.y + d.z * l.z; }) < 0;
+}
+
+// With Q = E + (n / d) D, d made positive, and v = d (E - apex) + n D = d (Q - apex): where v .
+// axis and the cosine differ in sign that decides, else it is the sign of (v . axis)^2 - cosine^2 v
+// . v, turned round where both are negative.
+Decision Predicates::within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const {
+    // Rationals, because expansions may underflow beyond degree 6 (exact.h).
+    return decide(true, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Quotient<A> t = position(arithmetic, ray, q);
+        const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);
+        const Vector<A> d = vector(arithmetic, ray.direction);
+        const Vector<A> v{t.denominator * base.x + t.numerator * d.x,
+                          t.denominator * base.y + t.numerator * d.y,
+                          t.denominator * base.z + t.numerator * d.z};
+        const Number<A> along = dot<A>(v, vector(arithmetic, cone.axis));
+        const Number<A> cosine = arithmetic.number(cone.cosine);
+        const std::optional<int> side = with_sign_of(along, t.denominator);
+        const std::optional<int> squares = sign_of(along * along - cosine * cosine * dot<A>(v, v));
+        if (!side) return std::nullopt;
+        if (cone.cosine >= 0) return *side < 0 ? std::optional(-1) : squares;
+        if (*side >= 0) return 1;
+        return squares ? std::optional(-*squares) : std::nullopt;
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace shadowproof {
 
@@ -30,11 +31,19 @@ struct RayPoint {
     double depth = 0;
 };
 
-/// The eye ray of a query, and the light that its points are looked at from.
+/// The eye ray of a query, and the light that its points are looked at from: (position, 1), or the
+/// direction to a directional one, 0 (scenes/scene.h).
 struct EyeRay {
     glm::dvec3 eye;
     glm::dvec3 direction;
-    glm::dvec3 light;
+    glm::dvec4 light;
+};
+
+/// A spot light's cone, its doubles taken as exact.
+struct Cone {
+    glm::dvec3 apex{0, 0, 0};
+    glm::dvec3 axis{0, 0, -1};
+    double cosine = 0; ///< of half the opening angle
 };
 
 class Predicates {
@@ -42,9 +51,9 @@ public:
     /// `rationals`: some input lies outside the range that expansions can hold (exact.h).
     explicit Predicates(bool rationals = false) : rationals_(rationals) {}
 
-    /// Sign of det(a - o, b - o, c - o): negative where o sees the triangle counter-clockwise,
-    /// its front. Degree 3.
-    Decision side(const glm::dvec3& o, const Corners& t) const;
+    /// Sign of det(w a - o, b - a, c - a), O = (o, w) a point or a direction: negative where O sees
+    /// the triangle counter-clockwise, its front. Degree 3.
+    Decision side(const glm::dvec4& o, const Corners& t) const;
 
     /// Sign of D . ((a - E) x (b - E)): the side of edge ab on which the eye ray passes. Degree 3.
     Decision edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const;
@@ -56,8 +65,9 @@ public:
     /// Sign of t(T) - depth. Degree 3.
     Decision depth_against(const EyeRay& ray, const Corners& t, double depth) const;
 
-    /// Sign of (Q - L) . ((a - L) x (b - L)): the side of edge ab, seen from the light, on which Q
-    /// lies. Degree 6 for a surface point.
+    /// Sign of (Q - a) . ((w a - l) x (b - a)), L = (l, w): the side of edge ab, seen from the
+    /// light, on which Q lies. Degree 6 for a surface point. At infinity: for points far enough
+    /// along the ray, where the light is directional; the direction D itself, where it is not.
     Decision shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                          const glm::dvec3& b) const;
 
@@ -70,6 +80,14 @@ public:
     /// Sign of (Q - a) . ((b - a) x (c - a)): the side of U's plane on which Q lies. Degree 6 for a
     /// surface point; for the point at infinity that of the direction D.
     Decision side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const;
+
+    /// Whether D is exactly a negative multiple of the direction to a directional light: the one
+    /// direction in which shadow volumes never end.
+    bool runs_from_light(const EyeRay& ray) const;
+
+    /// Sign of (Q - apex) . axis - cosine |Q - apex| for a surface point: not negative within the
+    /// cone. Degree 12, squared.
+    Decision within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const;
 
 private:
     bool rationals_;

@@ -18,36 +18,58 @@ namespace {
 /// A linear function of space and the interval that its values must meet.
 struct Slab {
     glm::dvec3 gradient{0, 0, 0};
-    double lower = 0; ///< of gradient . (X - L)
+    double lower = 0; ///< of gradient . (X - O)
     double upper = 0;
 };
 
-/// All points between an eye ray and the light: X - L = p e + q D with e = E - L, 0 <= p <= 1 and
-/// 0 <= q. With m = e x D, m . (X - L) = 0, (D x m) . (X - L) = p m.m, (m x e) . (X - L) = q m.m.
-/// Rays next to D by `radius` move X by at most q radius a component.
-std::array<Slab, 3> swept_region(const glm::dvec3& e, const glm::dvec3& direction, double reach,
-                                 double radius) {
+/// The part of the plane through eye ray and light that holds what may cross the lines from the
+/// ray's points to the light: X - O = p e + q D with 0 <= q. Towards a point light O = L, e = E - L
+/// and 0 <= p <= 1; towards a directional one O = E, e = l and 0 <= p. With m = e x D, m . (X - O)
+/// = 0, (D x m) . (X - O) = p m.m, (m x e) . (X - O) = q m.m.
+struct Region {
+    glm::dvec3 origin{0, 0, 0};
+    std::array<Slab, 3> slabs{};
+};
+
+/// `reach`: at least the size of a component of X - O for all X of the scene. Rays next to D by
+/// `radius` move X by at most q radius a component.
+Region swept_region(const Tracer::State& state, const glm::dvec3& direction, double radius) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool directional = state.light.w == 0;
+    const glm::dvec3 light(state.light);
+    const glm::dvec3 e = directional ? light : state.eye - light;
     const glm::dvec3 m = glm::cross(e, direction);
     const double mm = glm::dot(m, m);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    // q |D| <= |X - L| + |e|. Gradients are products of up to four factors, each off by some 2^-53:
-    // 2^-40 of the terms' sizes leaves room for thousands of roundings.
-    const double farthest = (reach + largest(e)) / largest(direction);
-    const auto margin = [&](const glm::dvec3& gradient) {
-        return sum_of(gradient) * (farthest * radius + 0x1p-40 * (reach + largest(e)));
+    const double reach = 1 / (directional ? state.from_eye : state.from_light).scale;
+    // Towards a point q |D| <= |X - L| + |e|, largest components. Else |q m| = |(X - E) x e| <=
+    // 2 sum |e| reach, and for a ray next to D, m is shorter by up to 2 |e| radius.
+    const double steepness = largest(m) - 2 * largest(e) * radius;
+    const double farthest = directional
+                                ? (steepness > 0 ? 2 * sum_of(e) * reach / steepness : infinity)
+                                : (reach + largest(e)) / largest(direction);
+    const double extent = directional ? reach : reach + largest(e);
+    // Gradients are products of up to four factors, each off by some 2^-53: 2^-40 of the terms'
+    // sizes, before anything cancels, leaves room for thousands of roundings.
+    const auto slab = [&](const glm::dvec3& gradient, double terms, double upper) {
+        double margin = 0x1p-40 * terms * extent;
+        if (radius > 0)
+            margin += std::isinf(farthest) ? infinity : sum_of(gradient) * farthest * radius;
+        return Slab{gradient, -margin, upper + margin};
     };
-    const glm::dvec3 along_e = glm::cross(direction, m);
-    const glm::dvec3 along_d = glm::cross(m, e);
-    return {Slab{m, -margin(m), margin(m)}, Slab{along_e, -margin(along_e), mm + margin(along_e)},
-            Slab{along_d, -margin(along_d), infinity}};
+    const double terms = 6 * largest(e) * largest(direction);
+    return {directional ? state.eye : light,
+            {slab(m, 3 * terms, 0),
+             slab(glm::cross(direction, m), 18 * largest(direction) * terms,
+                  directional ? infinity : mm),
+             slab(glm::cross(m, e), 18 * largest(e) * terms, infinity)}};
 }
 
-bool may_meet(const Entry& entry, const glm::dvec3& light, const std::array<Slab, 3>& region) {
+bool may_meet(const Entry& entry, const Region& region) {
     const glm::dvec3 lower(entry.lower[0], entry.lower[1], entry.lower[2]);
     const glm::dvec3 upper(entry.upper[0], entry.upper[1], entry.upper[2]);
-    const glm::dvec3 centre = 0.5 * (lower + upper) - light;
+    const glm::dvec3 centre = 0.5 * (lower + upper) - region.origin;
     const glm::dvec3 half = 0.5 * (upper - lower);
-    return std::all_of(region.begin(), region.end(), [&](const Slab& slab) {
+    return std::all_of(region.slabs.begin(), region.slabs.end(), [&](const Slab& slab) {
         const double middle = glm::dot(slab.gradient, centre);
         const double extent = glm::dot(glm::abs(slab.gradient), half);
         return middle - extent <= slab.upper && middle + extent >= slab.lower;
@@ -98,8 +120,9 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const gl
     const std::array<std::pair<const glm::dvec3*, const glm::dvec3*>, 3> edges{
         {{&t.b, &t.a}, {&t.c, &t.b}, {&t.a, &t.c}}};
     for (std::size_t part = 0; part < edges.size(); ++part) {
-        const glm::dvec3 plane = side_plane(state.light, *edges[part].first, *edges[part].second);
-        stretch.cut(glm::dot(state.eye - state.light, plane), slope(plane),
+        const auto [a, b] = edges[part];
+        const glm::dvec3 plane = side_plane(state.light, *a, *b);
+        stretch.cut(glm::dot(state.eye - side_point(state.light, *a, *b), plane), slope(plane),
                     {plane, static_cast<Crossing::Part>(part)});
     }
     const glm::dvec3 away = cap_plane(t);
@@ -140,14 +163,13 @@ std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
 
 NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, double radius) {
     const Tracer::State& state = tracer.state();
-    const std::array<Slab, 3> region =
-        swept_region(state.eye - state.light, direction, 1 / state.from_light.scale, radius);
+    const Region region = swept_region(state, direction, radius);
     NearbyVolumes volumes;
     std::vector<std::uint32_t> stack{0};
     while (!stack.empty()) {
         const Entry& entry = state.hierarchy.entries[stack.back()];
         stack.pop_back();
-        if (!may_meet(entry, state.light, region)) continue;
+        if (!may_meet(entry, region)) continue;
         for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
         if (entry.count > 0) continue;
         const Cluster& cluster = state.hierarchy.clusters[entry.first];

@@ -92,7 +92,80 @@ Number tolerance(Number size, Number component_error) {
     return hn::Mul(bound, number(1 + 0x1p-22));
 }
 
+// Triangles as parallel rays see them. With m <= 1/2 the largest coordinate relative to the origin
+// and l that of an edge, u and v of a corner are at most 2 m and off by 6.1 u m, those of an edge
+// at most 2 l and off by 6.1 u l (shear.h, with u of rounding in each difference).
+void make_parallel_records(const OriginView& view, const ClusterCorners& corners,
+                           ClusterRecord& record) {
+    const std::array<int, 3>& axes = view.shear.axes;
+    const Vector origin{number(view.origin[axes[0]]), number(view.origin[axes[1]]),
+                        number(view.origin[axes[2]])};
+    const Number scale = number(view.scale);
+    const auto sheared = [&](const Vector& p) {
+        return Vector{hn::Sub(p.x, hn::Mul(number(view.shear.slope_u), p.z)),
+                      hn::Sub(p.y, hn::Mul(number(view.shear.slope_v), p.z)),
+                      hn::Mul(number(view.shear.up), p.z)};
+    };
+    for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
+        const auto world = [&](std::size_t k) {
+            const auto load = [&](int axis) {
+                return hn::Load(doubles,
+                                corners.corner[k][static_cast<std::size_t>(axis)].data() + i);
+            };
+            return Vector{load(axes[0]), load(axes[1]), load(axes[2])};
+        };
+        const auto relative = [&](const Vector& p, const Vector& q) {
+            return times(minus(p, q), scale);
+        };
+        const Vector edges_as_given[3] = {relative(world(1), world(0)),
+                                          relative(world(2), world(1)),
+                                          relative(world(0), world(2))};
+        const Number l = largest(edges_as_given[0], edges_as_given[1], edges_as_given[2]);
+        const Number ll = hn::Mul(l, l);
+        const Vector a = sheared(relative(world(0), origin));
+
+        // a x (b - a) with a = (u, v, 1): the third component, two products and a difference, is
+        // off by 2 (2 m 6.1 u l + 2 l 6.1 u m + 4 u m l) + 8 u m l = 65 u m l <= 33 u l.
+        const Number edge_error = hn::Mul(number(33 * u), l);
+        Number size = number(0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector from = sheared(relative(world(k), origin));
+            const Vector along = sheared(edges_as_given[k]);
+            const Vector edge{hn::Neg(along.y), along.x,
+                              hn::Sub(hn::Mul(from.x, along.y), hn::Mul(from.y, along.x))};
+            store(edge, record.edge[k], i);
+            size = hn::Max(size, sum_of(edge));
+        }
+        store(tolerance(size, edge_error), record.edge_tolerance, i);
+
+        // n = (b - a) x (c - b): n_h, made of u and v alone, is at most 8 l^2 and off by
+        // 2 (2 2 6.1 + 4) u l^2 + 8 u l^2 = 65 u l^2; the others, of which one factor is an h of at
+        // most l and off by u l, are at most 4 l^2 and off by 2 (2 + 6.1 + 2) u l^2 + 4 u l^2 =
+        // 25 u l^2. n . a adds to that 6.1 u m of a, the products and two sums of at most 24 m l^2:
+        // 2 (4 6.1 + 2 25 + 8) + (8 + 65 + 8) + 2 24 = 294 u m l^2 <= 147 u l^2.
+        const Vector normal = cross(sheared(edges_as_given[0]), sheared(edges_as_given[1]));
+        const Number det = normal.z;
+        const Number det_error = hn::Mul(number(66 * u), ll);
+        const Number numerator_error = hn::Mul(number(150 * u), ll);
+        // The plane's height over (u, v) is (n . a - n_u u - n_v v) / n_h; as for points.
+        const Number reciprocal = hn::Div(number(1), det);
+        const Vector inverse =
+            times({hn::Neg(normal.x), hn::Neg(normal.y), dot(normal, a)}, reciprocal);
+        const Number extent = largest(inverse);
+        const Number inverse_error = hn::Add(
+            hn::Mul(hn::Add(numerator_error, hn::Mul(number(1.4), hn::Mul(extent, det_error))),
+                    reciprocal),
+            hn::Mul(number(2.1 * u), extent));
+        store(inverse, record.inverse, i);
+        const auto certain = hn::Gt(det, hn::Mul(number(4), det_error));
+        store(hn::IfThenElse(certain, tolerance(sum_of(inverse), inverse_error),
+                             number(std::numeric_limits<double>::infinity())),
+              record.inverse_tolerance, i);
+    }
+}
+
 void make_records(const OriginView& view, const ClusterCorners& corners, ClusterRecord& record) {
+    if (view.parallel) return make_parallel_records(view, corners, record);
     const Vector origin{number(view.origin.x), number(view.origin.y), number(view.origin.z)};
     const Number scale = number(view.scale);
     for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {

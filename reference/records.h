@@ -10,7 +10,7 @@
 
 namespace shadowproof {
 
-/// Which triangles take part in a query.
+/// Which triangles take part in a query, of those that the view has on a side.
 enum class Part : std::uint8_t {
     seen,         ///< by the eye: not from behind, unless double sided
     occluding,    ///< all that are not edge-on
@@ -25,6 +25,8 @@ using PerTriangle = std::array<T, cluster_capacity>;
 /// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then
 /// 1/s = w . inverse.
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
+/// Where rays are parallel, a = (u, v, 1) and w likewise: the same holds of the ray that runs up at
+/// (u, v), and w . inverse is the height h at which it meets the triangle's plane.
 /// In float, |w . edge - exact| <= |w| edge_tolerance and |w . inverse - exact| <=
 /// |w| inverse_tolerance, |w| the largest component. Derived in records.cpp.
 struct ClusterRecord {

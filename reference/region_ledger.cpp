@@ -72,7 +72,8 @@ Silhouette::Silhouette(const Tracer& tracer) {
         if (numbers[position] == unnumbered) {
             numbers[position] = static_cast<std::uint32_t>(vertices_.size());
             const glm::dvec3 at(scene.positions[position]);
-            vertices_.push_back({at, glm::cross(at - state.light, state.eye - state.light)});
+            const glm::dvec3 from_light = state.light.w * at - glm::dvec3(state.light);
+            vertices_.push_back({at, glm::cross(from_light, state.eye - at)});
         }
         return numbers[position];
     };
@@ -86,6 +87,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
         // The light sees the front of the triangle on the left of a to b: its side runs back.
         side.surplus = turned ? edge.surplus : -edge.surplus;
         side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
+        side.eye = glm::dot(state.eye - side_point(state.light, a, b), side.plane);
         side.edge = edge_plane(state.eye, a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
         side.turned = edge.a > edge.b;
@@ -130,18 +132,17 @@ RegionLedger::RegionLedger(const RegionLedger& outer, const std::array<glm::dvec
     if (outer.ends_) ends_ = std::make_shared<RegionLedger>(*outer.ends_, corners);
 }
 
-// A ray eye + t D crosses the side over p and q, as seen from the light L, where
+// A ray eye + t D crosses the side over p and q, as seen from the light L = (l, w), where
 //   p and q lie on different sides of the plane through the ray and L: the signs of
-//     det(p - L, eye - L, D) and det(q - L, eye - L, D) differ;
-//   with N = (p - L) x (q - L), t = -(eye - L).N / D.N is positive;
-//   the crossing lies beyond the edge: det(D, p - eye, q - eye) has the sign of (eye - L).N, as
-//     that determinant is (lambda - 1) / t times it where the crossing is L + lambda (edge - L).
+//     det(w p - l, eye - p, D) and det(w q - l, eye - q, D) differ;
+//   with N = (w p - l) x (q - p), t = -(eye - p).N / D.N is positive;
+//   the crossing lies beyond the edge: det(D, p - eye, q - eye) has the sign of (eye - p).N, as
+//     that determinant is m / t times it where the crossing is (1 + w m) e - m l, e on the edge.
 // All are linear in D, so what holds at no corner of a region holds nowhere in it.
 template <class PlaneOf>
 void RegionLedger::gather_sides(const std::vector<Silhouette::Side>& sides,
                                 std::size_t vertex_count, const PlaneOf& plane_of,
                                 const std::array<glm::dvec3, 4>& corners) {
-    const Tracer::State& state = tracer_.state();
     std::vector<Signs> signs;
     signs.reserve(vertex_count);
     for (std::size_t i = 0; i < vertex_count; ++i) signs.emplace_back(corners, plane_of(i));
@@ -149,7 +150,7 @@ void RegionLedger::gather_sides(const std::vector<Silhouette::Side>& sides,
         const Signs& p = signs[side.p];
         const Signs& q = signs[side.q];
         if (!p.mixed() && !q.mixed() && p.some_negative == q.some_negative) continue;
-        const double eye = glm::dot(state.eye - state.light, side.plane);
+        const double eye = side.eye;
         const Signs ray(corners, side.plane);
         if (eye < 0 ? !ray.some_positive : !ray.some_negative) continue;
         const Signs beyond(corners, side.edge);
@@ -250,7 +251,7 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     for (const Silhouette::Side& side : sides_) {
         if (behind_[side.p] == behind_[side.q]) continue;
         const double slope = glm::dot(direction, side.plane);
-        const double eye = glm::dot(state.eye - state.light, side.plane);
+        const double eye = side.eye;
         if (slope == 0 || (slope < 0) == (eye < 0)) continue;
         if ((glm::dot(direction, side.edge) < 0) != (eye < 0)) continue;
         const int change = slope > 0 ? side.surplus : -side.surplus;

@@ -28,6 +28,7 @@ public:
         std::uint32_t number = 0;  ///< of this side, in the order of all
         bool turned = false;       ///< as Crossing::turned
         glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
+        double eye = 0;            ///< the eye against that plane
         glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
     };
     struct Vertex {

@@ -7,6 +7,7 @@
 #include "reference/view.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace shadowproof {
@@ -17,15 +18,18 @@ struct Tracer::State {
     Predicates predicates;
     Hierarchy hierarchy;
     OriginView from_eye;
-    OriginView from_light;
+    OriginView from_light;                  ///< what does not cast is on no side of it
+    std::vector<std::int8_t> side_of_light; ///< as OriginView::side, also of what does not cast
     std::vector<std::uint8_t> double_sided; ///< a flag a triangle
+    std::vector<std::uint8_t> receives;     ///< a flag a triangle
     glm::dvec3 eye{0, 0, 0};
-    glm::dvec3 light{0, 0, 0};
+    glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
+    std::optional<Cone> cone;     ///< of a spot light
     double build_milliseconds = 0;
 
     /// Whether eye and light lie strictly on the same side of the triangle.
     bool faces_light(std::uint32_t triangle) const {
-        return from_eye.side[triangle] * from_light.side[triangle] > 0;
+        return from_eye.side[triangle] * side_of_light[triangle] > 0;
     }
 };
 

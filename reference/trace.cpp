@@ -23,12 +23,6 @@ void check(const Scene& scene) {
     const std::string where = scene.file.empty() ? scene.name : scene.file.string();
     if (scene.triangles.empty())
         throw Error(where, "has no triangles", "give it a mesh with triangles");
-    if (chosen_light(scene).kind == Light::Kind::directional)
-        throw Error(where,
-                    "light '" + chosen_light(scene).name +
-                        "' is directional, and only point lights (and spots, as points) are "
-                        "decided",
-                    "choose another light with --light, or put a point light into the file");
 }
 
 bool beyond_expansions(double x) {
@@ -49,9 +43,22 @@ bool needs_rationals(const Scene& scene) {
     };
     return tiny(scene.camera.right) || tiny(scene.camera.up) || tiny(scene.camera.forward) ||
            beyond_expansions(scene.camera.tan_half_height) || beyond(scene.camera.eye) ||
-           beyond(chosen_light(scene).position) || beyond_expansions(scene.camera.near) ||
+           beyond(homogeneous(chosen_light(scene))) || beyond_expansions(scene.camera.near) ||
            (std::isfinite(scene.camera.far) && beyond_expansions(scene.camera.far)) ||
            std::any_of(scene.positions.begin(), scene.positions.end(), beyond);
+}
+
+/// The cosine is that of the outer angle as std::cos rounds it.
+std::optional<Cone> cone_of(const Light& light) {
+    if (light.kind != Light::Kind::spot) return std::nullopt;
+    return Cone{light.position, light.direction, std::cos(light.outer_cone)};
+}
+
+/// Takes out of a view what does not cast.
+void keep_casters(const Scene& scene, OriginView& view) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::size_t i = 0; i < casts.size(); ++i)
+        if (casts[i] == 0) view.side[i] = 0;
 }
 
 } // namespace
@@ -65,11 +72,17 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.predicates = Predicates(needs_rationals(scene));
     state.hierarchy = build_hierarchy(scene, state.threads);
     state.double_sided = double_sided_triangles(scene);
+    state.receives = receiving_triangles(scene);
     state.eye = scene.camera.eye;
-    state.light = chosen_light(scene).position;
-    state.from_eye = view_from(state.eye, scene, state.hierarchy, state.predicates, state.threads);
-    state.from_light =
-        view_from(state.light, scene, state.hierarchy, state.predicates, state.threads);
+    state.light = homogeneous(chosen_light(scene));
+    state.cone = cone_of(chosen_light(scene));
+    const auto from = [&](const glm::dvec4& origin) {
+        return view_from(origin, scene, state.hierarchy, state.predicates, state.threads);
+    };
+    state.from_eye = from(glm::dvec4(state.eye, 1));
+    state.from_light = from(state.light);
+    state.side_of_light = state.from_light.side;
+    keep_casters(scene, state.from_light);
     state.build_milliseconds = milliseconds_since(start);
 }
 
@@ -112,6 +125,7 @@ GroundTruth trace(const Tracer& tracer) {
     truth.triangle = Image<std::uint32_t>(camera.width, camera.height, no_triangle);
     truth.depth = Image<double>(camera.width, camera.height);
     truth.exactness = Image<Exactness>(camera.width, camera.height);
+    if (state.cone) truth.in_cone = Image<std::uint8_t>(camera.width, camera.height);
 
     const auto probers = for_tiles(state, [&](Prober& prober, const Tile& tile) {
         Lanes<Seen> seen;
@@ -126,6 +140,8 @@ GroundTruth trace(const Tracer& tracer) {
             truth.depth.pixels[pixel] = seen[lane].depth;
             truth.exactness.pixels[pixel] =
                 std::max(seen[lane].exactness, lighting[lane].exactness);
+            if (state.cone && seen[lane].triangle != no_triangle)
+                truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
         }
     });
 
@@ -163,9 +179,11 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
             prober->light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; lane < count; ++lane)
                 truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
-                                        seen[lane].triangle, seen[lane].depth,
+                                        seen[lane].triangle,
+                                        seen[lane].depth,
                                         lighting[lane].occluder,
-                                        std::max(seen[lane].exactness, lighting[lane].exactness)};
+                                        std::max(seen[lane].exactness, lighting[lane].exactness),
+                                        lighting[lane].in_cone};
         }
     });
     return truths;
@@ -178,7 +196,7 @@ RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
 TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle) {
     const Tracer::State& state = tracer.state();
     const std::int8_t eye = state.from_eye.side[triangle];
-    const std::int8_t light = state.from_light.side[triangle];
+    const std::int8_t light = state.side_of_light[triangle];
     return {eye<0, eye> 0, light<0, light> 0,
             eye < 0 || (eye > 0 && state.double_sided[triangle] != 0)};
 }

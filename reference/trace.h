@@ -38,14 +38,16 @@ struct GroundTruth {
     Image<std::uint32_t> triangle; ///< the seen one, or no_triangle
     Image<double> depth;           ///< view depth of the seen point, rounded; infinity: background
     Image<Exactness> exactness;
+    Image<std::uint8_t> in_cone; ///< 1 where the seen point lies in the spot light's cone; empty
+                                 ///< where the light is no spot
     TraceStatistics statistics;
 };
 
 /// A scene prepared for tracing: hierarchy, light and camera. Keeps a reference to the scene.
 class Tracer {
 public:
-    /// threads 0: one per core. Coordinates must be finite. Throws Error for what the reference
-    /// does not decide: a directional light, no triangles.
+    /// threads 0: one per core. Coordinates must be finite. Throws Error where there are no
+    /// triangles.
     explicit Tracer(const Scene& scene, int threads = 0);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
@@ -73,6 +75,7 @@ struct RayTruth {
     double depth = 0;
     std::uint32_t occluder = no_triangle; ///< where shadowed by one: some triangle in between
     Exactness exactness = Exactness::filtered;
+    bool in_cone = true; ///< false where what is seen lies outside the spot light's cone
 };
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
 /// Many rays at once, on all threads.

@@ -13,12 +13,12 @@ namespace shadowproof {
 
 namespace {
 
-/// The determinant in double is off by at most 48 u m l^2, m the largest coordinate of a - O and l
-/// that of an edge: the normal's components are off by 8 u l^2 (two products of edges rounded to
-/// u), which weighs 3 m; the dot product adds 4 u times its 3 terms of m 2 l^2.
-std::int8_t side_of(const glm::dvec3& origin, const Corners& t, const Predicates& predicates) {
+/// The determinant in double is off by at most 48 u m l^2, m the largest coordinate of a - O (or of
+/// the direction) and l that of an edge: the normal's components are off by 8 u l^2 (two products
+/// of edges rounded to u), which weighs 3 m; the dot product adds 4 u times its 3 terms of m 2 l^2.
+std::int8_t side_of(const glm::dvec4& from, const Corners& t, const Predicates& predicates) {
     constexpr double u = 0x1p-53;
-    const glm::dvec3 a = t.a - origin;
+    const glm::dvec3 a = from.w * t.a - glm::dvec3(from);
     const glm::dvec3 ab = t.b - t.a;
     const glm::dvec3 ac = t.c - t.a;
     const double det = glm::dot(a, glm::cross(ab, ac));
@@ -26,7 +26,7 @@ std::int8_t side_of(const glm::dvec3& origin, const Corners& t, const Predicates
     const double bound = 50 * u * largest(a) * l * l + std::numeric_limits<double>::min();
     if (det > bound) return 1;
     if (det < -bound) return -1;
-    return static_cast<std::int8_t>(predicates.side(origin, t).sign);
+    return static_cast<std::int8_t>(predicates.side(from, t).sign);
 }
 
 /// Relative to the origin, scaled, and one float further out, which covers the rounding of the
@@ -44,8 +44,9 @@ Entry relative(const Entry& entry, const glm::dvec3& origin, double scale) {
     return result;
 }
 
-/// Squared distance from the origin to the entry's box.
-float distance(const Entry& entry) {
+/// Squared distance from the origin to the entry's box; of parallel rays, where it begins.
+float distance(const Entry& entry, bool parallel) {
+    if (parallel) return -entry.upper[2];
     float sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const float d = std::max({entry.lower[i], -entry.upper[i], 0.0F});
@@ -54,36 +55,100 @@ float distance(const Entry& entry) {
     return sum;
 }
 
-void sort_children(std::vector<Entry>& entries) {
+void sort_children(std::vector<Entry>& entries, bool parallel) {
     for (const Entry& entry : entries) {
         if (entry.count == 0) continue;
         const auto first = entries.begin() + entry.first;
-        std::stable_sort(first, first + entry.count,
-                         [](const Entry& a, const Entry& b) { return distance(a) < distance(b); });
+        std::stable_sort(first, first + entry.count, [&](const Entry& a, const Entry& b) {
+            return distance(a, parallel) < distance(b, parallel);
+        });
     }
 }
 
-} // namespace
+/// The same for parallel rays, from the corners themselves: a box around a sheared box would be
+/// several times as large. What the doubles round, meets_ground's pad covers (packet.cpp).
+Entry sheared(const Entry& entry, const Cluster& cluster, const OriginView& view) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Entry result = entry;
+    result.lower.fill(infinity);
+    result.upper.fill(-infinity);
+    for (std::uint32_t i = 0; i < cluster.count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 world = corner(*view.scene, cluster.triangles[i], k);
+            const glm::vec3 p(view.shear((world - view.origin) * view.scale));
+            for (int axis = 0; axis < 3; ++axis) {
+                float& lower = result.lower[static_cast<std::size_t>(axis)];
+                float& upper = result.upper[static_cast<std::size_t>(axis)];
+                lower = std::min(lower, std::nextafter(p[axis], -infinity));
+                upper = std::max(upper, std::nextafter(p[axis], infinity));
+            }
+        }
+    return result;
+}
 
-OriginView view_from(const glm::dvec3& origin, const Scene& scene, const Hierarchy& hierarchy,
-                     const Predicates& predicates, int threads) {
-    OriginView view;
-    view.scene = &scene;
-    view.hierarchy = &hierarchy;
-    view.origin = origin;
+/// Entries from the leaves up: the children of an entry stand behind it.
+void shear_entries(const Hierarchy& hierarchy, OriginView& view) {
+    view.entries = hierarchy.entries;
+    for (std::size_t i = view.entries.size(); i-- > 0;) {
+        Entry& entry = view.entries[i];
+        if (entry.count == 0) {
+            entry = sheared(entry, hierarchy.clusters[entry.first], view);
+            continue;
+        }
+        const Entry& child = view.entries[entry.first];
+        entry.lower = child.lower;
+        entry.upper = child.upper;
+        for (std::uint32_t k = 1; k < entry.count; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const Entry& other = view.entries[entry.first + k];
+                entry.lower[axis] = std::min(entry.lower[axis], other.lower[axis]);
+                entry.upper[axis] = std::max(entry.upper[axis], other.upper[axis]);
+            }
+    }
+}
+
+/// The largest component's distance of any corner of the scene's box from `origin`.
+double reach_of(const Entry& root, const glm::dvec3& origin) {
     double reach = 0;
-    const Entry& root = hierarchy.entries.front();
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         reach = std::max({reach, std::abs(root.lower[i] - origin[axis]),
                           std::abs(root.upper[i] - origin[axis])});
     }
-    view.scale = reach > 0 ? std::exp2(-std::ilogb(reach) - 1) : 1;
-    view.entries.reserve(hierarchy.entries.size());
-    for (const Entry& entry : hierarchy.entries)
-        view.entries.push_back(relative(entry, origin, view.scale));
+    return reach;
+}
+
+glm::dvec3 middle_of(const Entry& root) {
+    glm::dvec3 middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        middle[axis] = 0.5 * (static_cast<double>(root.lower[i]) + root.upper[i]);
+    }
+    return middle;
+}
+
+} // namespace
+
+OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy& hierarchy,
+                     const Predicates& predicates, int threads) {
+    OriginView view;
+    view.scene = &scene;
+    view.hierarchy = &hierarchy;
+    view.parallel = from.w == 0;
+    const Entry& root = hierarchy.entries.front();
+    view.origin = view.parallel ? middle_of(root) : glm::dvec3(from);
+    const double reach = reach_of(root, view.origin);
+    view.scale = reach > 0 ? std::exp2(-std::ilogb(reach) - (view.parallel ? 2 : 1)) : 1;
+    if (view.parallel) {
+        view.shear = shear_along(from);
+        shear_entries(hierarchy, view);
+    } else {
+        view.entries.reserve(hierarchy.entries.size());
+        for (const Entry& entry : hierarchy.entries)
+            view.entries.push_back(relative(entry, view.origin, view.scale));
+    }
     // The children of an entry stand behind it, so each group is sorted before it is looked into.
-    sort_children(view.entries);
+    sort_children(view.entries, view.parallel);
 
     constexpr int piece_size = 4096;
     const auto count = static_cast<int>(scene.triangles.size());
@@ -92,7 +157,7 @@ OriginView view_from(const glm::dvec3& origin, const Scene& scene, const Hierarc
         const int end = std::min(count, (piece + 1) * piece_size);
         for (int i = piece * piece_size; i < end; ++i) {
             const auto triangle = static_cast<std::uint32_t>(i);
-            view.side[triangle] = side_of(origin, corners(scene, triangle), predicates);
+            view.side[triangle] = side_of(from, corners(scene, triangle), predicates);
         }
     });
     return view;

@@ -1,10 +1,12 @@
 // The scene as seen from one point, the common origin of all rays of a query: the eye, or the light
 // (shadow rays run from the light to the surface). Relative to its origin a box or a plane is met
 // at a distance that is a mere product, so rounding errors stay relative and bounds stay tight.
+// The rays of a directional light have a common direction instead, and the scene is sheared.
 #pragma once
 
 #include "reference/embree.h"
 #include "reference/predicates.h"
+#include "reference/shear.h"
 #include "scenes/scene.h"
 
 #include <cstdint>
@@ -20,18 +22,22 @@ inline Corners corners(const Scene& scene, std::uint32_t triangle) {
 struct OriginView {
     const Scene* scene = nullptr;
     const Hierarchy* hierarchy = nullptr;
-    glm::dvec3 origin{0, 0, 0};
-    /// A power of two: relative coordinates times scale lie within [-1, 1].
+    bool parallel = false;      ///< rays have one direction, not one origin
+    glm::dvec3 origin{0, 0, 0}; ///< where rays are parallel: the scene's middle
+    Shear shear;                ///< where rays are parallel
+    /// A power of two: relative coordinates times scale lie within [-1, 1]; within [-1/2, 1/2]
+    /// where rays are parallel, so that they do when sheared as well.
     double scale = 1;
     /// Hierarchy::entries relative to the origin, scaled and rounded outwards; children sorted by
-    /// their distance, nearest first.
+    /// their distance, nearest first. Where rays are parallel, boxes of (u, v, h).
     std::vector<Entry> entries;
     /// Per triangle the sign of det(a - O, b - O, c - O): -1 where the origin sees its front,
     /// 1 its back, 0 where it lies in the triangle's plane (or the triangle has no area). Exact.
     std::vector<std::int8_t> side;
 };
 
-OriginView view_from(const glm::dvec3& origin, const Scene& scene, const Hierarchy& hierarchy,
+/// `from` in homogeneous coordinates: a point, or the direction from which parallel rays come.
+OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy& hierarchy,
                      const Predicates& predicates, int threads);
 
 } // namespace shadowproof

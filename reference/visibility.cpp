@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 namespace shadowproof {
 
@@ -211,16 +212,50 @@ private:
     }
 };
 
-/// Direction from the light to the point at depth t of an eye ray, in the light view's scale:
-/// (E - L) + t D, each term rounded, t itself off by t_error.
-ApproximateDirection from_light_to(const Tracer::State& state, const glm::dvec3& direction,
-                                   double t, double t_error) {
-    const double scale = state.from_light.scale;
-    const glm::dvec3 base = state.eye - state.light;
+/// A ray from the light, and what must be said of 1/s to come before the point it leads to.
+struct LightRay {
+    ApproximateDirection w;
+    Limits limits;
+};
+
+/// Up at the point q of a parallel view, off by `error` a component; what counts is higher.
+LightRay rising_to(const OriginView& view, const glm::dvec3& q, double error) {
+    const glm::dvec3 at = view.shear(q) * view.scale;
+    LightRay ray{{{at.x, at.y, 1}, (2 * error + 5 * u * largest(q)) * view.scale}, {}};
+    const double height_error = error * view.scale;
+    ray.limits.lower_lo = -std::numeric_limits<float>::infinity();
+    ray.limits.lower_hi = std::numeric_limits<float>::infinity();
+    if (height_error < std::numeric_limits<double>::infinity()) {
+        ray.limits.lower_lo = below(at.z - height_error);
+        ray.limits.lower_hi = above(at.z + height_error);
+    }
+    return ray;
+}
+
+/// To the point at depth t of an eye ray, in the light view's scale: (E - O) + t D, each term
+/// rounded, t itself off by t_error.
+LightRay from_light_to(const Tracer::State& state, const glm::dvec3& direction, double t,
+                       double t_error) {
+    const OriginView& view = state.from_light;
+    const glm::dvec3 base = state.eye - view.origin;
     const glm::dvec3 along = t * direction;
     // u for the difference, u for the product, u for the sum; 4 u for all with room.
     const double error = 4 * u * (largest(base) + largest(along)) + largest(direction) * t_error;
-    return {(base + along) * scale, error * scale};
+    if (view.parallel) return rising_to(view, base + along, error);
+    // Between light and point: s < 1.
+    return {{(base + along) * view.scale, error * view.scale}, {.lower_lo = 1, .lower_hi = 1}};
+}
+
+/// Along the eye ray's direction from the light, for ever; nothing where no triangle can be met.
+/// The rays of a directional light leave the scene but where D runs straight away from it, and
+/// then they meet all that lies over the eye's own place.
+std::optional<LightRay> from_light_to_infinity(const Tracer::State& state,
+                                               const glm::dvec3& direction) {
+    if (!state.from_light.parallel) return LightRay{{direction, 0}, {}};
+    if (!state.predicates.runs_from_light({state.eye, direction, state.light})) return std::nullopt;
+    LightRay ray = from_light_to(state, direction, 0, 0);
+    ray.limits.lower_lo = ray.limits.lower_hi = -std::numeric_limits<float>::infinity();
+    return ray;
 }
 
 template <class Work>
@@ -292,6 +327,16 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
     });
 }
 
+void Prober::ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& lighting) {
+    const RayPoint point{.kind = RayPoint::Kind::surface,
+                         .surface = corners(*state_->scene, seen.triangle)};
+    const Decision decision = state_->predicates.within_cone(
+        {state_->eye, direction, state_->light}, point, *state_->cone);
+    exact_decisions_ += decision.exactness != Exactness::filtered ? 1 : 0;
+    lighting.exactness = std::max(lighting.exactness, decision.exactness);
+    lighting.in_cone = decision.sign >= 0;
+}
+
 void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Seen>& seen, Lanes<Lighting>& lighting) {
     RayPacket packet = empty_packet();
@@ -300,12 +345,14 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         const std::uint32_t triangle = seen[l].triangle;
         lighting[l] = {};
         if (triangle == no_triangle) return;
-        if (state_->from_light.side[triangle] == 0) lighting[l].exactness = Exactness::degenerate;
-        if (!state_->faces_light(triangle)) return;
-        // Between light and surface: s < 1.
-        set_lane(packet, lane,
-                 from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error),
-                 {.lower_lo = 1, .lower_hi = 1}, triangle);
+        if (state_->side_of_light[triangle] == 0) lighting[l].exactness = Exactness::degenerate;
+        if (state_->cone) ask_cone(directions[l], seen[l], lighting[l]);
+        if (!state_->faces_light(triangle) || !lighting[l].in_cone) return;
+        lighting[l].lit = state_->receives[triangle] == 0;
+        if (lighting[l].lit) return;
+        const LightRay ray =
+            from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error);
+        set_lane(packet, lane, ray.w, ray.limits, triangle);
         ++rays_;
     });
     const std::uint32_t asked = packet.active;
@@ -328,12 +375,11 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         const Point& point = points[l];
         Seen at{.triangle = point.skip, .depth = point.depth};
         if (point.kind == RayPoint::Kind::surface) measure_depth(directions[l], at);
-        const bool infinite = point.kind == RayPoint::Kind::infinity;
-        const ApproximateDirection w =
-            infinite ? ApproximateDirection{directions[l], 0}
-                     : from_light_to(*state_, directions[l], at.depth, at.depth_error);
-        const float limit = infinite ? 0.0F : 1.0F;
-        set_lane(packet, lane, w, {.lower_lo = limit, .lower_hi = limit}, point.skip);
+        const std::optional<LightRay> ray =
+            point.kind == RayPoint::Kind::infinity
+                ? from_light_to_infinity(*state_, directions[l])
+                : from_light_to(*state_, directions[l], at.depth, at.depth_error);
+        if (ray) set_lane(packet, lane, ray->w, ray->limits, point.skip);
     });
     Question question{state_, &directions, 0};
     CountArbiter arbiter(question, points);

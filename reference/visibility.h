@@ -21,6 +21,7 @@ struct Seen {
 /// Whether the seen point is lit.
 struct Lighting {
     bool lit = false;
+    bool in_cone = true; ///< of the spot light, if it is one
     std::uint32_t occluder = no_triangle;
     Exactness exactness = Exactness::filtered;
 };
@@ -69,6 +70,7 @@ private:
     std::uint64_t exact_decisions_ = 0;
 
     void measure_depth(const glm::dvec3& direction, Seen& seen);
+    void ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& lighting);
 };
 
 } // namespace shadowproof

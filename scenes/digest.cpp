@@ -25,15 +25,21 @@ std::string digest_of(const Scene& scene) {
     };
     add(scene.positions.data(), scene.positions.size());
     add(scene.triangles.data(), scene.triangles.size());
-    const std::vector<std::uint8_t> sides = double_sided_triangles(scene);
-    add(sides.data(), sides.size());
+    for (const std::vector<std::uint8_t>& flags :
+         {double_sided_triangles(scene), casting_triangles(scene), receiving_triangles(scene)})
+        add(flags.data(), flags.size());
     const Camera& camera = scene.camera;
     for (const glm::dvec3* v : {&camera.eye, &camera.right, &camera.up, &camera.forward}) add(v, 1);
     for (const double* v : {&camera.tan_half_height, &camera.near, &camera.far}) add(v, 1);
     for (const int* v : {&camera.width, &camera.height}) add(v, 1);
     const Light& light = chosen_light(scene);
     add(&light.kind, 1);
-    add(light.kind == Light::Kind::directional ? &light.direction : &light.position, 1);
+    const glm::dvec4 place = homogeneous(light);
+    add(&place, 1);
+    if (light.kind == Light::Kind::spot) {
+        add(&light.direction, 1);
+        add(&light.outer_cone, 1);
+    }
     return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
 }
 

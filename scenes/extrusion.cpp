@@ -17,11 +17,11 @@ double finite_extrusion(const Scene& scene) {
 }
 
 std::vector<glm::vec3> extruded_positions(const Scene& scene, double distance) {
-    const glm::dvec3 light = chosen_light(scene).position;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
     std::vector<glm::vec3> extruded;
     extruded.reserve(scene.positions.size());
     for (const glm::dvec3 position : scene.positions) {
-        const glm::dvec3 away = position - light;
+        const glm::dvec3 away = light.w * position - glm::dvec3(light);
         const double length = glm::length(away);
         // A vertex in the light itself has no direction to go.
         extruded.emplace_back(length > 0 ? position + away * (distance / length) : position);

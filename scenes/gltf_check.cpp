@@ -59,6 +59,8 @@ constexpr std::array rules{
     index("scene", "/scenes"),
     index("scenes/*/nodes/*", "/nodes"),
     Rule{"nodes/*/name"},
+    Rule{"nodes/*/extras?/shadowproof/casts", Kind::boolean},
+    Rule{"nodes/*/extras?/shadowproof/receives", Kind::boolean},
     index("nodes/*/mesh", "/meshes"),
     index("nodes/*/skin", "/skins"),
     index("nodes/*/camera", "/cameras"),

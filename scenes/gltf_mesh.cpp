@@ -187,7 +187,10 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
     append(scene, part.place, positions, std::move(triangles));
-    if (count > 0) scene.meshes.push_back({placement.name, first, count, material});
+    if (count > 0)
+        scene.meshes.push_back({placement.name, first, count, material,
+                                placement.node.casts.value_or(true),
+                                placement.node.receives.value_or(true)});
 }
 
 /// The file's materials, and behind them the default one (section 3.7.2.1).

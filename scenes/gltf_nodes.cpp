@@ -27,6 +27,13 @@ glm::dquat read_rotation(const Place& place, const std::vector<double>& q) {
     return {q[3] / length, q[0] / length, q[1] / length, q[2] / length};
 }
 
+/// extras.shadowproof's boolean of that name.
+std::optional<bool> read_flag(const tinygltf::Node& source, const char* name) {
+    const char* const ours = "shadowproof";
+    if (!source.extras.Has(ours) || !source.extras.Get(ours).Has(name)) return std::nullopt;
+    return source.extras.Get(ours).Get(name).Get<bool>();
+}
+
 /// tinygltf leaves empty what the file does not give.
 Node read_node(const Place& place, const tinygltf::Node& source) {
     Node node{.name = source.name, .place = place};
@@ -36,6 +43,8 @@ Node read_node(const Place& place, const tinygltf::Node& source) {
         node.rotation = read_rotation(place / "rotation", source.rotation);
     if (!source.scale.empty()) node.scale = glm::make_vec3(source.scale.data());
     node.weights = source.weights;
+    node.casts = read_flag(source, "casts");
+    node.receives = read_flag(source, "receives");
     for (const int child : source.children) node.children.push_back(as_index(child));
     return node;
 }
@@ -86,6 +95,20 @@ std::vector<std::size_t> order_nodes(const NodeGraph& graph,
         "is below itself: its ancestors form a cycle", "break the cycle");
 }
 
+/// What a node does not say of shadows is said by its nearest ancestor that does.
+void pass_flags_on(NodeGraph& graph) {
+    for (const std::size_t parent : graph.order) {
+        Node& node = graph.nodes[parent];
+        for (std::optional<bool> Node::*flag : {&Node::casts, &Node::receives}) {
+            node.*flag = (node.*flag).value_or(true);
+            for (const std::size_t child : node.children) {
+                std::optional<bool>& own = graph.nodes[child].*flag;
+                own = own.value_or(*(node.*flag));
+            }
+        }
+    }
+}
+
 /// Nodes without a parent, as the chosen scene lists them; without scenes all of them.
 std::vector<std::size_t> scene_roots(const Document& document,
                                      const std::vector<std::size_t>& parents) {
@@ -134,6 +157,7 @@ NodeGraph read_nodes(const Document& document) {
         graph.nodes.push_back(read_node(document.root() / "nodes" / graph.nodes.size(), node));
     const std::vector<std::size_t> parents = find_parents(graph);
     graph.order = order_nodes(graph, parents);
+    pass_flags_on(graph);
     graph.in_scene = descend(graph, scene_roots(document, parents));
     return graph;
 }

@@ -21,6 +21,8 @@ struct Node {
     glm::dquat rotation{1, 0, 0, 0};
     glm::dvec3 scale{1, 1, 1};
     std::vector<double> weights{};   ///< of morph targets; empty: the mesh's own
+    std::optional<bool> casts{};     ///< extras.shadowproof.casts; passed on to the children, and
+    std::optional<bool> receives{};  ///< there for every node, by read_nodes
     glm::dmat4 world_from_node{1.0}; ///< set by place_nodes
 };
 

@@ -77,15 +77,21 @@ std::string described(const char* kind, std::size_t index, const Carrier& carrie
 }
 
 /// The one that `wanted` names: node name, own name, or number in the order of the scene.
-std::size_t find_named(const std::string& file, const char* kind,
-                       const std::vector<Carrier>& carriers, const NodeGraph& graph,
-                       const std::string& wanted) {
+std::optional<std::size_t> place_of(const std::vector<Carrier>& carriers, const NodeGraph& graph,
+                                    const std::string& wanted) {
     for (std::size_t i = 0; i < carriers.size(); ++i)
         if (graph.nodes[carriers[i].node].name == wanted || carriers[i].name == wanted) return i;
     std::size_t index = 0;
     const char* const end = wanted.data() + wanted.size();
     const auto [parsed, failure] = std::from_chars(wanted.data(), end, index);
     if (failure == std::errc{} && parsed == end && index < carriers.size()) return index;
+    return std::nullopt;
+}
+
+std::size_t find_named(const std::string& file, const char* kind,
+                       const std::vector<Carrier>& carriers, const NodeGraph& graph,
+                       const std::string& wanted) {
+    if (const std::optional<std::size_t> place = place_of(carriers, graph, wanted)) return *place;
     std::string offered;
     for (std::size_t i = 0; i < carriers.size(); ++i)
         offered += (i == 0 ? "" : ", ") + described(kind, i, carriers[i]);
@@ -231,18 +237,21 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
     const std::vector<Carrier> lights = find_lights(document, graph);
     if (request.light)
         scene.light = find_named(document.file, "light", lights, graph, *request.light);
-    for (const Carrier& carrier : lights)
-        scene.lights.push_back(read_light(document, graph, carrier));
+    for (const Carrier& carrier : lights) {
+        Light& light = scene.lights.emplace_back(read_light(document, graph, carrier));
+        const std::size_t number = scene.lights.size() - 1;
+        const bool is_told_by_name =
+            !light.name.empty() && place_of(lights, graph, light.name) == number;
+        light.choice = is_told_by_name ? light.name : std::to_string(number);
+    }
     if (lights.empty()) {
         scene.notes.push_back("no light in the file: a point light above and to the left of the "
                               "camera");
         scene.lights.push_back(default_light(scene));
     }
-    if (lights.size() > 1)
+    if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));
-    if (chosen_light(scene).kind == Light::Kind::spot)
-        scene.notes.push_back("the spot light's cone is not evaluated: visibility only");
 }
 
 } // namespace shadowproof::gltf

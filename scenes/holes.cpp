@@ -3,19 +3,19 @@
 #include "scenes/half_edge.h"
 #include "scenes/topology.h"
 
-#include <numeric>
-
 namespace shadowproof {
 
 Scene with_holes_filled(const Scene& scene) {
-    std::vector<std::uint32_t> all(scene.triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    std::vector<std::uint32_t> casters;
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
+        if (casts[triangle] != 0) casters.push_back(triangle);
     const std::vector<glm::uvec3> lids =
-        fill_holes(connect(scene, weld_by_position(scene.positions), all));
+        fill_holes(connect(scene, weld_by_position(scene.positions), casters));
     Scene filled = scene;
     if (lids.empty()) return filled;
     filled.meshes.push_back({.name = "filled holes",
-                             .first_triangle = static_cast<std::uint32_t>(all.size()),
+                             .first_triangle = static_cast<std::uint32_t>(scene.triangles.size()),
                              .triangle_count = static_cast<std::uint32_t>(lids.size())});
     filled.triangles.insert(filled.triangles.end(), lids.begin(), lids.end());
     return filled;

@@ -34,6 +34,15 @@ Corners corners_of(const Scene& scene, std::uint32_t triangle) {
     return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
 }
 
+/// Whether `holds` is true of some triangle that casts.
+template <class Holds>
+bool some_caster(const Scene& scene, const Holds& holds) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
+        if (casts[triangle] != 0 && holds(triangle)) return true;
+    return false;
+}
+
 /// The four rays through the picture's corners, at view depth 1, around the picture.
 std::array<glm::dvec3, 4> corner_rays(const Camera& camera) {
     const double w = camera.width;
@@ -50,7 +59,8 @@ double largest_coordinate(const Scene& scene, double depth) {
     };
     for (const glm::dvec3 position : scene.positions) include(position);
     include(scene.camera.eye);
-    include(chosen_light(scene).position);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    if (light.w != 0) include(light);
     for (const glm::dvec3& ray : corner_rays(scene.camera)) include(scene.camera.eye + depth * ray);
     return largest;
 }
@@ -74,40 +84,71 @@ bool are_separated(std::span<const glm::dvec3> points, std::span<const glm::dvec
     return low > other_high + distance || high < other_low - distance;
 }
 
+/// What lies between the picture at some view depth and the light: the convex hull of `points`,
+/// relative to `origin`, and the normals of its faces.
+struct Beam {
+    glm::dvec3 origin{0, 0, 0};
+    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> axes;
+    double margin = 0; ///< by which the rasterizer may miss it
+};
+
+/// Relative to a point light, which is its last point. A light in the rectangle's plane flattens
+/// the beam, which the axes survive.
+Beam beam_to_point(const Scene& scene, const glm::dvec3& light, double depth) {
+    Beam beam{
+        light, {}, {scene.camera.forward}, transform_error * largest_coordinate(scene, depth)};
+    for (const glm::dvec3& ray : corner_rays(scene.camera))
+        beam.points.push_back(scene.camera.eye + depth * ray - light);
+    for (std::size_t i = 0; i < 4; ++i)
+        beam.axes.push_back(glm::cross(beam.points[i], beam.points[(i + 1) % 4]));
+    beam.points.emplace_back(0, 0, 0);
+    return beam;
+}
+
+/// Relative to the eye, and as long as any scene in it can be: two points are apart by no more than
+/// 2 sqrt(3) times the largest coordinate. The direction to the light, of unit length, is rounded
+/// as points are, which weighs as much as the beam is long.
+Beam beam_along(const Scene& scene, const glm::dvec3& to_light, double depth) {
+    const double length = 4 * largest_coordinate(scene, depth);
+    Beam beam{scene.camera.eye, {}, {scene.camera.forward}, transform_error * length};
+    for (const glm::dvec3& ray : corner_rays(scene.camera)) {
+        beam.points.push_back(depth * ray);
+        beam.points.push_back(depth * ray + length * to_light);
+    }
+    for (const glm::dvec3& edge : {scene.camera.right, scene.camera.up})
+        beam.axes.push_back(glm::cross(edge, to_light));
+    return beam;
+}
+
 /// Whether some volume may contain a point of the picture at view depth `depth`. The volume of a
-/// triangle contains Q when the segment from Q to the light meets the triangle, so a triangle that
-/// is separated from the convex hull of rectangle and light contains none. Axes tried: the hull's
-/// five face normals and the triangle's own; where they do not separate, the answer is "may". A
-/// light in the rectangle's plane flattens the hull, which the axes survive.
+/// triangle contains Q when the line from Q to the light meets the triangle, so a triangle that is
+/// separated from all such lines contains none. Axes tried: the beam's face normals and the
+/// triangle's own; where they do not separate, the answer is "may".
 bool volume_meets(const Scene& scene, double depth) {
-    const glm::dvec3 light = chosen_light(scene).position;
-    const double margin = transform_error * largest_coordinate(scene, depth);
-    std::array<glm::dvec3, 5> hull{}; // relative to the light, which is its last point
-    const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
-    for (std::size_t i = 0; i < 4; ++i) hull[i] = scene.camera.eye + depth * rays[i] - light;
-    std::array<glm::dvec3, 5> axes{};
-    for (std::size_t i = 0; i < 4; ++i) axes[i] = glm::cross(hull[i], hull[(i + 1) % 4]);
-    axes[4] = scene.camera.forward;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const Beam beam =
+        light.w != 0 ? beam_to_point(scene, light, depth) : beam_along(scene, light, depth);
     const auto is_clear = [&](std::uint32_t triangle) {
         Corners corners = corners_of(scene, triangle);
-        for (glm::dvec3& point : corners) point -= light;
+        for (glm::dvec3& point : corners) point -= beam.origin;
         const auto separates = [&](const glm::dvec3& axis) {
-            return are_separated(corners, hull, axis, margin);
+            return are_separated(corners, beam.points, axis, beam.margin);
         };
-        return std::any_of(axes.begin(), axes.end(), separates) ||
+        return std::any_of(beam.axes.begin(), beam.axes.end(), separates) ||
                separates(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     };
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
-        if (!is_clear(triangle)) return true;
-    return false;
+    return some_caster(scene, [&](std::uint32_t triangle) { return !is_clear(triangle); });
 }
 
 /// Whether some volume may be seen at infinity: a direction from the light through a triangle is
 /// then a direction of the picture as well. The picture's cone lies on the inner side of its four
 /// side planes and of the plane across `forward`; a triangle whose three directions lie clearly
 /// outside one of them is never seen so far out. The margin is an angle, plus the transform's
-/// error at the vertex.
+/// error at the vertex. All volumes of a directional light run into one point at infinity, where a
+/// cap covers nothing.
 bool volume_reaches_infinity(const Scene& scene) {
+    if (chosen_light(scene).kind == Light::Kind::directional) return false;
     const glm::dvec3 light = chosen_light(scene).position;
     const double error = transform_error * largest_coordinate(scene, scene.camera.near);
     const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
@@ -121,13 +162,11 @@ bool volume_reaches_infinity(const Scene& scene) {
             return glm::dot(axis, direction) < -(transform_error * glm::length(direction) + error);
         });
     };
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+    return some_caster(scene, [&](std::uint32_t triangle) {
         const Corners corners = corners_of(scene, triangle);
-        if (std::none_of(inward.begin(), inward.end(),
-                         [&](const glm::dvec3& axis) { return is_outside(corners, axis); }))
-            return true;
-    }
-    return false;
+        return std::none_of(inward.begin(), inward.end(),
+                            [&](const glm::dvec3& axis) { return is_outside(corners, axis); });
+    });
 }
 
 /// A scan may come in thousands of open pieces: so many are listed, the others counted.
@@ -156,8 +195,6 @@ Plan make_plan(const Scene& scene) {
     plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
                                      [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
-    // A directional light has no position to make a hull with: nothing is claimed for it.
-    if (chosen_light(scene).kind == Light::Kind::directional) return plan;
     plan.volume_meets_near = volume_meets(scene, scene.camera.near);
     if (!plan.volume_meets_near)
         plan.left_out.push_back("near cap: no volume meets the near plane, z-pass is enough");

@@ -4,6 +4,11 @@
 
 namespace shadowproof {
 
+glm::dvec4 homogeneous(const Light& light) {
+    return light.kind == Light::Kind::directional ? glm::dvec4(-light.direction, 0)
+                                                  : glm::dvec4(light.position, 1);
+}
+
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle) {
     const auto after = std::upper_bound(
         scene.meshes.begin(), scene.meshes.end(), triangle,
@@ -11,12 +16,30 @@ std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle) {
     return static_cast<std::uint32_t>(after - scene.meshes.begin()) - 1;
 }
 
-std::vector<std::uint8_t> double_sided_triangles(const Scene& scene) {
+namespace {
+
+template <class Holds>
+std::vector<std::uint8_t> triangles_where(const Scene& scene, const Holds& holds) {
     std::vector<std::uint8_t> flags(scene.triangles.size(), 0);
     for (const Mesh& mesh : scene.meshes)
-        if (scene.materials[mesh.material].double_sided)
+        if (holds(mesh))
             std::fill_n(flags.begin() + mesh.first_triangle, mesh.triangle_count, std::uint8_t{1});
     return flags;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> double_sided_triangles(const Scene& scene) {
+    return triangles_where(
+        scene, [&](const Mesh& mesh) { return scene.materials[mesh.material].double_sided; });
+}
+
+std::vector<std::uint8_t> casting_triangles(const Scene& scene) {
+    return triangles_where(scene, [](const Mesh& mesh) { return mesh.casts; });
+}
+
+std::vector<std::uint8_t> receiving_triangles(const Scene& scene) {
+    return triangles_where(scene, [](const Mesh& mesh) { return mesh.receives; });
 }
 
 } // namespace shadowproof

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,14 @@ struct Mesh {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t material = 0; ///< index into Scene::materials
+    bool casts = true;          ///< throws shadows
+    bool receives = true;       ///< shows them: otherwise its lit sides are lit throughout
 };
 
 struct Light {
     enum class Kind : std::uint8_t { point, spot, directional };
     std::string name;
+    std::string choice; ///< what tells it from the file's others: its name, or else its number
     Kind kind = Kind::point;
     glm::dvec3 position{0, 0, 0};   ///< point and spot
     glm::dvec3 direction{0, 0, -1}; ///< spot and directional: where the light shines to, unit
@@ -39,6 +43,10 @@ struct Light {
     glm::dvec3 color{1, 1, 1};              ///< linear
     double intensity = 1;                   ///< candela, or lux where directional
 };
+
+/// (position, 1), or (direction to the light, 0) of a directional one: L = (l, w). A point Q looks
+/// at the light along l - w Q.
+glm::dvec4 homogeneous(const Light& light);
 
 struct Scene {
     std::string name;                  ///< bundled name, or the file's stem
@@ -68,7 +76,9 @@ inline const Light& chosen_light(const Scene& scene) {
 /// Index into Scene::meshes of the mesh that holds a triangle.
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
 
-/// One flag a triangle: 1 where its material is double sided.
+/// One flag a triangle: 1 where its material is double sided, its mesh casts, its mesh receives.
 std::vector<std::uint8_t> double_sided_triangles(const Scene& scene);
+std::vector<std::uint8_t> casting_triangles(const Scene& scene);
+std::vector<std::uint8_t> receiving_triangles(const Scene& scene);
 
 } // namespace shadowproof

@@ -181,7 +181,8 @@ std::vector<CasterReport> inspect_casters(const Scene& scene) {
     const std::vector<std::uint32_t> welded = weld_by_position(scene.positions);
     std::vector<CasterReport> reports;
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh)
-        reports.push_back(inspect(scene, welded, static_cast<std::uint32_t>(mesh)));
+        if (scene.meshes[mesh].casts)
+            reports.push_back(inspect(scene, welded, static_cast<std::uint32_t>(mesh)));
     mark_closed_by_others(scene, welded, reports);
     return reports;
 }

@@ -46,7 +46,7 @@ struct CasterReport {
     bool encloses_volume() const { return closed() || closed_by_others; }
 };
 
-/// In the order of scene.meshes.
+/// Of the meshes that cast, in the order of scene.meshes.
 std::vector<CasterReport> inspect_casters(const Scene& scene);
 
 /// One line for a person about a caster that is open, inconsistently wound, inverted or not

@@ -142,13 +142,16 @@ std::string ray_text(const Scene& scene, const PixelRecord& record) {
                                record.ledger.surface)
                  : "  sees      background\n";
     const Light& light = chosen_light(scene);
-    text +=
-        fmt::format("  light     {} at {}\n", printable(light.name), vector_words(light.position));
+    const bool directional = light.kind == Light::Kind::directional;
+    text += fmt::format("  light     {} {} {}\n", printable(light.name),
+                        directional ? "shining along" : "at",
+                        vector_words(directional ? light.direction : light.position));
     text +=
         fmt::format("  truth     {} ({})\n", name_of(record.visibility), name_of(record.exactness));
     if (record.occluder != no_triangle)
         text += fmt::format("  occluder  {}\n", triangle_words(scene, record.occluder));
     if (seen && !record.faces_light) text += "  the seen side faces away from the light\n";
+    if (!record.in_cone) text += "  the seen point lies outside the spot light's cone\n";
     if (record.depth_margin)
         text += fmt::format("  margin    {:.9g} in depth to the nearest volume face\n",
                             *record.depth_margin);

@@ -94,19 +94,22 @@ void check_outputs(const OutputOptions& options) {
         if (!file.empty() && !lies_in(file, options.out)) check_writable(file);
 }
 
-std::vector<std::string> stopped_provoking(const Report& report, const SceneResult& scene) {
+std::vector<std::string> stopped_provoking(const Report& report,
+                                           std::span<const SceneResult> lights) {
+    const SceneResult& scene = lights.front();
     if (!is_default_picture(report) || !is_bundled(scene.argument)) return {};
     std::vector<std::vector<Cause>> fails_at;
     std::vector<Comparison> comparisons;
-    for (const Technique& technique : all_techniques()) {
-        const auto cell =
-            std::find_if(scene.cells.begin(), scene.cells.end(),
-                         [&](const Cell& tried) { return tried.technique == technique.name; });
-        // Who was not tried or could not run may be the one that shows it.
-        if (cell == scene.cells.end() || !cell->error.empty()) return {};
-        fails_at.push_back(technique.fails_at);
-        comparisons.emplace_back().causes = cell->comparison.causes;
-    }
+    for (const SceneResult& light : lights)
+        for (const Technique& technique : all_techniques()) {
+            const auto cell =
+                std::find_if(light.cells.begin(), light.cells.end(),
+                             [&](const Cell& tried) { return tried.technique == technique.name; });
+            // Who was not tried or could not run may be the one that shows it.
+            if (cell == light.cells.end() || !cell->error.empty()) return {};
+            fails_at.push_back(technique.fails_at);
+            comparisons.emplace_back().causes = cell->comparison.causes;
+        }
     std::vector<Cause> provokes;
     for (const std::string& name : scene.provokes)
         if (const std::optional<Cause> cause = cause_named(name)) provokes.push_back(*cause);

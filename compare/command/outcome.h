@@ -5,6 +5,7 @@
 #include "compare/command/gate_options.h"
 #include "compare/report.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,11 @@ std::string timestamp_now();
 /// Throws Error where --json or --junit could not be written: before the work, not after.
 void check_outputs(const OutputOptions& options);
 
-/// Causes that a bundled scene declares and no technique shows any more. Only the scene's default
-/// picture, and all techniques, can tell: else none.
-std::vector<std::string> stopped_provoking(const Report& report, const SceneResult& scene);
+/// Causes that a bundled scene declares and no technique shows any more, under any of its lights:
+/// `lights` are its results. Only the scene's default picture, and all techniques, can tell: else
+/// none.
+std::vector<std::string> stopped_provoking(const Report& report,
+                                           std::span<const SceneResult> lights);
 
 /// A scene or a gate that fails a run fails it, whatever else passes.
 bool passes(const Report& report);

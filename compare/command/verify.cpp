@@ -18,6 +18,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 
 namespace shadowproof {
 
@@ -99,7 +100,7 @@ void describe(Console& console, const SceneResult& result) {
     const bool renamed = std::filesystem::path(result.file).stem() != result.name;
     console.heading(renamed ? fmt::format("{} ({})", result.name, result.file) : result.name);
     console.line(fmt::format("  {} triangles, {}x{}, light {}", grouped(result.triangles),
-                             result.width, result.height, result.light));
+                             result.width, result.height, result.light.name));
     for (const std::string& note : result.notes) console.line("  note: " + note);
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
@@ -140,11 +141,12 @@ void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
     if (cell.error.empty() && !allowed.empty()) run.console.line("  allowed: " + allowed);
 }
 
-void verify_scene(const Run& run, SceneResult& result) {
+/// Judges the chosen light of a scene.
+void verify_light(const Run& run, const Scene& scene, SceneResult& result) {
     const auto& [options, baseline, gpu, console, report] = run;
-    console.progress(fmt::format("{}: reading", result.name));
-    const Scene scene = load_scene(result.argument, options.scene.request());
+    result.light = chosen_light(scene);
     result.name = scene.name;
+    if (result.one_of_many) result.name += "-" + result.light.choice;
     result.name = unique_name(report, result);
     // A bundled scene is the same wherever it is installed, and so is its report.
     result.file = (is_bundled(result.argument) ? scene.file.filename() : scene.file).string();
@@ -152,8 +154,6 @@ void verify_scene(const Run& run, SceneResult& result) {
     result.height = scene.camera.height;
     result.triangles = scene.triangles.size();
     result.digest = digest_of(scene);
-    result.light = chosen_light(scene).name;
-    result.light_position = chosen_light(scene).position;
     result.camera = scene.camera;
     result.far = finite_far(scene);
     result.meshes = scene.meshes;
@@ -177,9 +177,6 @@ void verify_scene(const Run& run, SceneResult& result) {
         Cell& cell = result.cells.emplace_back(try_technique(trial, *technique, gpu));
         conclude_cell(run, result, cell, widths);
     }
-    result.no_longer_provoked = stopped_provoking(report, result);
-    if (!result.no_longer_provoked.empty())
-        console.always(result.name + ": " + no_longer_provoked_words(result));
 }
 
 /// Pictures are on the disk by now; the figures stay.
@@ -193,6 +190,59 @@ void drop_pictures(SceneResult& scene) {
         cell.comparison.cause = {};
         cell.comparison.ledger_miss = {};
         cell.comparison.predicted = {};
+    }
+}
+
+/// What goes wrong in `work` becomes the result.
+template <class Work>
+void attempt(const Run& run, SceneResult& result, const Work& work) {
+    try {
+        work();
+    } catch (const std::bad_alloc&) {
+        result.error = result.argument + ": there is not enough memory; try a smaller --size";
+    } catch (const Error& error) {
+        result.error = error.what();
+    }
+    if (result.error.empty()) return;
+    result.name = unique_name(run.report, result);
+    result.cells.clear();
+    complain(result.error);
+}
+
+/// A scene of several lights is judged under each of them, unless one was chosen: a result each.
+void verify_scene(const Run& run, ReportFolder& folder, const std::string& argument) {
+    const auto& [options, baseline, gpu, console, report] = run;
+    const std::size_t first = report.scenes.size();
+    std::optional<Scene> scene;
+    std::size_t lights = 1;
+    for (std::size_t i = 0; i < lights; ++i) {
+        SceneResult& result = report.scenes.emplace_back();
+        result.argument = argument;
+        result.name = std::filesystem::path(argument).stem().string();
+        result.file = argument;
+        attempt(run, result, [&] {
+            if (!scene) {
+                console.progress(fmt::format("{}: reading", result.name));
+                SceneRequest request = options.scene.request();
+                request.every_light = !request.light;
+                scene = load_scene(argument, request);
+                if (request.every_light) lights = scene->lights.size();
+            }
+            result.one_of_many = lights > 1;
+            if (result.one_of_many) scene->light = i;
+            verify_light(run, *scene, result);
+        });
+        if (i + 1 == lights && result.error.empty()) {
+            result.no_longer_provoked =
+                stopped_provoking(report, std::span(report.scenes).subspan(first));
+            if (!result.no_longer_provoked.empty())
+                console.always(result.name + ": " + no_longer_provoked_words(result));
+        }
+        console.progress(fmt::format("{}: writing pictures", result.name));
+        const Stopwatch writing;
+        folder.add_pictures(result, options.scene.threads);
+        report.report_milliseconds += writing.milliseconds();
+        drop_pictures(result);
     }
 }
 
@@ -225,29 +275,8 @@ int verify(const VerifyOptions& options) {
     Gpu gpu(options.technique.platform);
     Report report = begin_report(options, gpu);
     const Run run{options, baseline, gpu, console, report};
-    for (const std::string& argument : scenes_to_verify(options)) {
-        SceneResult& result = report.scenes.emplace_back();
-        result.argument = argument;
-        result.name = std::filesystem::path(argument).stem().string();
-        result.file = argument;
-        try {
-            verify_scene(run, result);
-        } catch (const std::bad_alloc&) {
-            result.error = argument + ": there is not enough memory; try a smaller --size";
-        } catch (const Error& error) {
-            result.error = error.what();
-        }
-        if (!result.error.empty()) {
-            result.name = unique_name(report, result);
-            result.cells.clear();
-            complain(result.error);
-        }
-        console.progress(fmt::format("{}: writing pictures", result.name));
-        const Stopwatch writing;
-        folder.add_pictures(result, options.scene.threads);
-        report.report_milliseconds += writing.milliseconds();
-        drop_pictures(result);
-    }
+    for (const std::string& argument : scenes_to_verify(options))
+        verify_scene(run, folder, argument);
     if (baseline)
         report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
                                    notes_on(*baseline, report)};

@@ -135,9 +135,23 @@ var cutaway = (function () {
       tag('circle', { cx: x + 3, cy: y, r: 3.6, 'class': 'cut-fill-ink', fill: colors.ink });
   }
 
+  /** A directional light: where its rays go. */
+  function arrowDrawn(arrow, label) {
+    var tail = arrow[0], tip = arrow[1];
+    var x = (tip[0] - tail[0]) / 26, y = (tip[1] - tail[1]) / 26; // of length 1
+    return line(tail, [tip[0] - 5 * x, tip[1] - 5 * y], 'light', 2.2) +
+      tag('polygon', {
+        points: [tip, [tip[0] - 9 * x - 5 * y, tip[1] - 9 * y + 5 * x],
+                 [tip[0] - 9 * x + 5 * y, tip[1] - 9 * y - 5 * x]]
+          .map(function (p) { return px(p[0]) + ',' + px(p[1]); }).join(' '),
+        'class': 'cut-fill-light', fill: colors.light }) +
+      words([44, 34], label, 'light', 12, 'start');
+  }
+
   function lightDrawn(record, place, width) {
     var at = place.light, name = record.light.name || 'light', text = '', k, angle;
     var label = /light/i.test(name) ? name : 'light ' + name;
+    if (place.arrow) return arrowDrawn(place.arrow, label);
     if (!place.lightIn) return '';
     for (k = 0; k < 8; ++k) {
       angle = k * Math.PI / 4;
@@ -276,6 +290,7 @@ var cutaway = (function () {
     var taken = [], text = '';
     if (place.lightIn) taken.push([place.light[0] - 100, place.light[1] - 14,
                                    place.light[0] + 100, place.light[1] + 14]);
+    if (place.arrow) taken.push([0, 0, 54 + room(record.light.name || 'light', 12) + 40, 38]);
     taken.push([width - 300, 0, width, 18]);
     points.forEach(function (p) {
       if (p.side) taken.push([p.caster[0] - 3, p.caster[1] - 3, p.caster[0] + 3, p.caster[1] + 3]);

@@ -11,13 +11,25 @@ var cutawayGeometry = (function () {
     return [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]];
   }
 
+  /** A vector from the eye to the light; a directional one is drawn far beyond all depths. */
+  function towardsLight(record) {
+    if (record.light.kind !== 'directional') return minus(record.light.position, record.eye);
+    var d = record.light.direction, length = Math.sqrt(dot(d, d)), farthest = record.near;
+    record.crossings.forEach(function (crossing) {
+      if (isFinite(crossing.depth)) farthest = Math.max(farthest, crossing.depth);
+    });
+    if (record.seen) farthest = Math.max(farthest, record.seen.depth);
+    var rayLength = Math.sqrt(dot(record.direction, record.direction));
+    return d.map(function (value) { return -1e4 * farthest * rayLength / length * value; });
+  }
+
   /**
    * The plane of the drawing: `at(point)` is [depth, height towards the light in units of depth],
    * `normal` stands on it. A light on the ray's line leaves no plane: `degenerate`.
    */
   function planeOf(record) {
     var d = record.direction, length = Math.sqrt(dot(d, d));
-    var toLight = minus(record.light.position, record.eye);
+    var toLight = towardsLight(record);
     var along = dot(toLight, d) / dot(d, d);
     var up = [0, 1, 2].map(function (i) { return toLight[i] - along * d[i]; });
     var height = Math.sqrt(dot(up, up));
@@ -25,6 +37,7 @@ var cutawayGeometry = (function () {
     if (!degenerate) up = up.map(function (value) { return value / height; });
     return {
       degenerate: degenerate,
+      directional: record.light.kind === 'directional',
       light: [along, height / length],
       normal: cross(d, up),
       at: function (point) {
@@ -123,8 +136,9 @@ var cutawayGeometry = (function () {
     if (isFinite(record.far) && record.far !== null && record.far <= 1.4 * last)
       last = Math.max(last, record.far * 1.03);
     var first = 0, light = plane.light;
-    if (depths.length <= 2) last = Math.max(last, 8 * record.near, light[0]); // only eye and near
-    var lightIn = !plane.degenerate && light[0] > -0.6 * last && light[0] < 1.7 * last &&
+    if (depths.length <= 2) // only eye and near
+      last = Math.max(last, 8 * record.near, plane.directional ? 0 : light[0]);
+    var lightIn = !plane.degenerate && !plane.directional && light[0] > -0.6 * last && light[0] < 1.7 * last &&
       light[1] < 3 * last;
     if (lightIn) {
       first = Math.min(0, light[0] - 0.02 * last);
@@ -154,17 +168,32 @@ var cutawayGeometry = (function () {
     var lightAt = [between(light[0]), ray - light[1] * scaleY];
     if (ordinal) {
       lightAt = [clamp(between(light[0]), left + 20, width - 60), top + 14];
-      lightIn = !plane.degenerate;
+      lightIn = !plane.degenerate && !plane.directional;
       tall = 190;
       ray = top + tall;
+      if (plane.directional) // as far away on the paper as it is among the depths
+        lightAt = [0, 1].map(function (i) {
+          var size = Math.sqrt(light[0] * light[0] + light[1] * light[1]);
+          return (i ? ray : 0) + (i ? -1 : 1) * 1e4 * tall * light[i] / size;
+        });
     }
     return {
       ray: ray, bottom: ray + 62, ordinal: ordinal, lightIn: lightIn, light: lightAt,
+      arrow: plane.directional && !plane.degenerate
+        ? arrowAlong(ordinal ? [-light[0], light[1]] : [-light[0] * scaleX, light[1] * scaleY])
+        : null,
       scale: ordinal ? null : scaleY / scaleX, top: top,
       right: ordinal ? width - right : linear(last),
       x: function (depth) { return isFinite(depth) ? between(depth) : width - right; },
       point: function (at) { return [between(at[0]), ray - at[1] * scaleY]; }
     };
+  }
+
+  /** The way of a directional light's rays on the paper, at the upper border: [tail, tip]. */
+  function arrowAlong(way) {
+    var length = Math.sqrt(way[0] * way[0] + way[1] * way[1]), x = way[0] / length * 13,
+        y = way[1] / length * 13;
+    return [[24 - x, 18 - y], [24 + x, 18 + y]];
   }
 
   /** Depth to x by the places of the columns, straight in between. */

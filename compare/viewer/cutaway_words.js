@@ -57,6 +57,8 @@ var cutawayWords = (function () {
   function lightWords(plane, place) {
     if (plane.degenerate)
       return 'The light lies on the line of the ray: the sides of the volumes run along it.';
+    if (plane.directional)
+      return 'The light is directional: its rays run along the arrow from infinitely far away.';
     if (place.lightIn) return null;
     return 'The light is outside the drawing, ' + short(Math.abs(plane.light[0])) +
       (plane.light[0] < 0 ? ' behind the eye' : ' along the ray') + ' and ' +

@@ -37,7 +37,9 @@ function pixelFacts(record) {
       (inside.surface === null ? '' : `${inside.surface} at the surface, `) +
       `${inside.far} at far ${printed(record.far)}, ${inside.infinity} at infinity`],
     ['Ray', `from ${printedPoint(record.eye)} along ${printedPoint(record.direction)}`],
-    ['Light', `${record.light.name} at ${printedPoint(record.light.position)}`],
+    ['Light', record.light.kind === 'directional'
+      ? `${record.light.name} shining along ${printedPoint(record.light.direction)}`
+      : `${record.light.name} at ${printedPoint(record.light.position)}`],
   ]);
 }
 

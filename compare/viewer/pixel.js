@@ -22,11 +22,17 @@ function depthOnTriangle(eye, direction, [a, b, c]) {
   return -dot(minus(eye, a), plane) / dot(direction, plane);
 }
 
+/** The light (l, w): its position and 1, or the direction to a directional one and 0. */
+const homogeneous = ({ kind, position, direction }) =>
+  (kind === 'directional' ? { l: direction.map((value) => -value), w: 0 } : { l: position, w: 1 });
+
 /** Depth at which the ray meets the side of a volume over the edge p -> q. */
-function depthOnSide(eye, direction, light, [p, q]) {
-  const plane = isBefore(q, p) ? cross(minus(q, light), minus(p, q)).map((value) => -value)
-                               : cross(minus(p, light), minus(q, p));
-  return -dot(minus(eye, light), plane) / dot(direction, plane);
+function depthOnSide(eye, direction, { l, w }, [p, q]) {
+  const turned = isBefore(q, p);
+  const [a, b] = turned ? [q, p] : [p, q];
+  const side = cross(minus(a.map((value) => w * value), l), minus(b, a));
+  const plane = turned ? side.map((value) => -value) : side;
+  return -dot(minus(eye, w === 1 ? l : a), plane) / dot(direction, plane);
 }
 
 /** Where each triangle stands in the block of triangles. */
@@ -145,7 +151,8 @@ function pixelRecord(opened, x, y) {
   const direction = rayDirection(sceneFile, x, y);
   const ledger = blocks.ledger[rank];
   const seen = seenRecord(opened, blocks.seen[rank], camera.eye, direction);
-  const crossings = crossingsOf(opened, ledger, camera.eye, direction, light.position);
+  const crossings = crossingsOf(opened, ledger, camera.eye, direction,
+                                homogeneous(light));
   const inside = insideOf(opened, ledger, seen);
   const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
   return {

@@ -1,6 +1,8 @@
 // Whether the light sees a triangle's front, in double, with the products of raster/volume.cpp in
 // their order: both sides must find the same.
 
+layout(location = 11) uniform float light_w; // 0: the light is a direction
+
 bool is_before(vec3 a, vec3 b) {
     return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
 }
@@ -15,7 +17,7 @@ bool faces(vec3 a, vec3 b, vec3 c, dvec3 light) {
     }
     precise dvec3 ab = dvec3(b) - dvec3(a);
     precise dvec3 ac = dvec3(c) - dvec3(a);
-    precise dvec3 al = light - dvec3(a);
+    precise dvec3 al = light - double(light_w) * dvec3(a);
     precise double x = ab.y * ac.z - ac.y * ab.z;
     precise double y = ab.z * ac.x - ac.z * ab.x;
     precise double z = ab.x * ac.y - ac.x * ab.y;

@@ -5,10 +5,12 @@
 layout(binding = 0) uniform usampler2D seen_triangle;
 layout(std430, binding = 0) readonly buffer LitSides { uint triangle_drawn[]; };
 
+layout(location = 7) uniform uint first_side; // of this draw call
+
 layout(location = 0) out float claim;
 
 void main() {
     uint seen = texelFetch(seen_triangle, ivec2(gl_FragCoord.xy), 0).r;
-    if (seen != triangle_drawn[gl_PrimitiveID]) discard;
+    if (seen != triangle_drawn[first_side + gl_PrimitiveID]) discard;
     claim = 1;
 }

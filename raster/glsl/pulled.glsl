@@ -7,7 +7,6 @@ layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: t
 layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
-layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 layout(location = 8) uniform dvec3 light;
 
 invariant gl_Position;

@@ -21,7 +21,7 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     scene.width = 4;
     scene.height = 3;
     scene.triangles = 1234;
-    scene.light = "lamp";
+    scene.light.name = "lamp";
     scene.left_out = {"tangents: no normal map"};
     scene.digest = "0123456789abcdef";
     scene.truth.visibility = Image<Visibility>(4, 3);

@@ -81,9 +81,11 @@ TEST(Render, says_how_it_counted_and_how_it_made_depth) {
     Gpu gpu(GlPlatform::osmesa);
     for (const Technique& technique : all_techniques()) {
         const Frame frame = render(technique, scene, Plan{}, gpu);
-        const bool reversed = technique.name == "zfail_reversed";
-        EXPECT_EQ(frame.counting.test, technique.name == "zpass" ? Counting::Test::depth_pass
-                                                                 : Counting::Test::depth_fail);
+        const bool reversed =
+            frame.depth_model.projection == DepthModel::Projection::infinite_reversed;
+        EXPECT_EQ(frame.counting.test, technique.name.starts_with("zfail")
+                                           ? Counting::Test::depth_fail
+                                           : Counting::Test::depth_pass);
         EXPECT_EQ(frame.counting.depth_clamp, technique.name == "zfail_clamp");
         EXPECT_EQ(frame.depth_model.floating, reversed);
         EXPECT_EQ(frame.depth_model.eye_relative, reversed);

@@ -109,13 +109,13 @@ TEST(Volume, a_triangle_faces_the_light_from_its_front_alone_and_never_in_its_pl
     Scene scene = empty_scene();
     scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     scene.triangles = {{0, 1, 2}};
-    EXPECT_GT(side(scene, 0, {0.2, 0.2, 1e-300}), 0);
-    EXPECT_LT(side(scene, 0, {0.2, 0.2, -1e-300}), 0);
-    EXPECT_EQ(side(scene, 0, {7, 5, 0}), 0);
+    EXPECT_GT(side(scene, 0, {0.2, 0.2, 1e-300, 1}), 0);
+    EXPECT_LT(side(scene, 0, {0.2, 0.2, -1e-300, 1}), 0);
+    EXPECT_EQ(side(scene, 0, {7, 5, 0, 1}), 0);
     scene.lights[0].position = {7, 5, 0};
     EXPECT_TRUE(triangles_facing_light(scene).empty());
     scene.triangles = {{0, 1, 1}};
-    EXPECT_EQ(side(scene, 0, {0, 0, 1}), 0);
+    EXPECT_EQ(side(scene, 0, {0, 0, 1, 1}), 0);
 }
 
 TEST(Volume, nothing_faces_the_light_nothing_is_made) {

@@ -40,7 +40,8 @@ TEST_P(DeterminismTest, every_instruction_set_finds_the_same_bits) {
 /// The exact signs must really be asked for, or the tests of hard scenes test floats.
 TEST(Exactness, degenerate_scenes_are_decided_by_exact_arithmetic_and_say_so) {
     for (const HardScene& hard : hard_scenes()) {
-        if (hard.name != "rays_through_vertices_and_edges" && hard.name != "coinciding_triangles")
+        if (hard.name != "rays_through_vertices_and_edges" && hard.name != "coinciding_triangles" &&
+            hard.name != "sun_along_edges")
             continue;
         const Scene scene = hard.make();
         const GroundTruth truth = trace(Tracer(scene));
@@ -51,11 +52,11 @@ TEST(Exactness, degenerate_scenes_are_decided_by_exact_arithmetic_and_say_so) {
 
 TEST(Exactness, an_ordinary_scene_is_decided_by_floats_nearly_everywhere) {
     for (const HardScene& hard : hard_scenes()) {
-        if (hard.name != "soup_1") continue;
+        if (hard.name != "soup_1" && hard.name != "sun_on_a_soup") continue;
         const Scene scene = hard.make();
         const GroundTruth truth = trace(Tracer(scene));
-        EXPECT_EQ(truth.statistics.degenerate, 0U);
-        EXPECT_LT(truth.statistics.exact_decisions, 10U);
+        EXPECT_EQ(truth.statistics.degenerate, 0U) << hard.name;
+        EXPECT_LT(truth.statistics.exact_decisions, 10U) << hard.name;
     }
 }
 

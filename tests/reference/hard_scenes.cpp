@@ -67,6 +67,34 @@ Scene boxes(const glm::dvec3& position, bool double_sided = false) {
     return scene;
 }
 
+/// The scene under a directional light; `to_light` need not be of unit length.
+Scene under_sun(Scene scene, const glm::dvec3& to_light) {
+    scene.lights[0].kind = Light::Kind::directional;
+    scene.lights[0].direction = -to_light;
+    return scene;
+}
+
+/// The scene under a spot light where its light was.
+Scene under_spot(Scene scene, const glm::dvec3& direction, double outer_cone) {
+    scene.lights[0].kind = Light::Kind::spot;
+    scene.lights[0].direction = direction;
+    scene.lights[0].outer_cone = outer_cone;
+    return scene;
+}
+
+/// Of floor and three boxes, one box does not cast, one does not receive, and the floor neither.
+Scene with_mixed_casters(Scene scene) {
+    scene.meshes.clear();
+    for (std::uint32_t i = 0; i < 4; ++i)
+        scene.meshes.push_back({.name = "box",
+                                .first_triangle = 12 * i,
+                                .triangle_count = 12,
+                                .material = 0,
+                                .casts = i != 0 && i != 1,
+                                .receives = i != 0 && i != 2});
+    return scene;
+}
+
 /// Long thin triangles, edges nearly through the pixel rays.
 Scene slivers() {
     Scene scene = empty_scene(size);
@@ -162,6 +190,44 @@ void finish(Scene& scene, bool double_sided) {
     scene.meshes = {{"mesh", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
 }
 
+namespace {
+
+std::vector<HardScene> sunlit_scenes() {
+    std::vector<HardScene> scenes;
+    const auto add = [&](const char* name, auto make, const glm::dvec3& to_light) {
+        scenes.push_back({name, [make, to_light] { return under_sun(make(), to_light); }});
+    };
+    const auto boxes_below = [] { return boxes({}); };
+    const auto open_boxes_below = [] { return boxes({}, true); };
+    add("sun_on_a_soup", [] { return soup(1, 1, {0, 0, 0}); }, {0.3, 0.8, 0.52});
+    add("sun_behind_a_soup", [] { return soup(2, 1, {0, 0, 0}); }, {-0.2, 0.1, -0.97});
+    add("sun_on_a_soup_scaled_by_1e6", [] { return soup(6, 1e6F, {0, 0, 0}); }, {0.6, -0.8, 0.1});
+    add("sun_on_a_soup_1e6_away", [] { return soup(7, 1, {1e6F, -1e6F, 1e6F}); }, {-1, 0.2, 0.3});
+    add("sun_on_a_soup_scaled_by_1e-30", [] { return soup(8, 1e-30F, {0, 0, 0}); }, {1, 2, 1});
+    add("sun_on_a_soup_scaled_by_1e25", [] { return soup(9, 1e25F, {0, 0, 0}); }, {1, 2, -1});
+    add("sun_over_boxes", boxes_below, {0.36, 0.8, 0.48});
+    add("sun_below_boxes", boxes_below, {0.36, -0.8, 0.48});
+    add("sun_along_edges", boxes_below, {0, 1, 0});
+    add("sun_along_edges_of_double_sided_boxes", open_boxes_below, {0, 1, 0});
+    add("sun_in_planes_of_faces", boxes_below, {1, 1, 0});
+    add("sun_in_planes_of_faces_of_double_sided_boxes", open_boxes_below, {0, 0.5, 0.5});
+    add("sun_nearly_along_edges", boxes_below, {0x1p-52, 1, -0x1p-53});
+    add("sun_along_edges_but_for_1e-200", boxes_below, {1e-200, 1, 0});
+    add("sun_along_the_view", open_boxes_below, {0, 0, 1});
+    add("sun_straight_behind_a_pixels_ray", open_boxes_below, {-3.0 / 32, 5.0 / 32, 1});
+    add("sun_straight_ahead_of_a_pixels_ray", open_boxes_below, {5.0 / 32, 3.0 / 32, -1});
+    // From (1/8, 1/8, -4), a vertex that a pixel sees, past the corner (1/2, 1/2, -2).
+    add("sun_through_vertices", vertices_on_rays, {0.375, 0.375, 2});
+    add("sun_through_edges", vertices_on_rays, {0.375, 0.1, 2});
+    add("sun_on_slivers", slivers, {0.1, 0.2, 1});
+    add("sun_on_coinciding_triangles", coinciding, {2, 3, 1});
+    add("sun_on_degenerate_triangles", degenerate_triangles, {1, 2.5, 1.5});
+    add("sun_on_denormal_vertices", denormals, {2, 3, 1});
+    return scenes;
+}
+
+} // namespace
+
 std::vector<HardScene> hard_scenes() {
     std::vector<HardScene> scenes;
     for (std::uint32_t seed = 1; seed <= 4; ++seed)
@@ -197,6 +263,23 @@ std::vector<HardScene> hard_scenes() {
                           scene.camera.forward.x = 1e-200;
                           scene.camera.up.z = -1e-200;
                           return scene;
+                      }});
+    for (HardScene& scene : sunlit_scenes()) scenes.push_back(std::move(scene));
+    scenes.push_back({"casters_and_receivers_of_all_kinds", [] {
+                          return with_mixed_casters(boxes({2.1, 3.3, -1.7}));
+                      }});
+    scenes.push_back({"double_sided_casters_and_receivers_under_a_sun", [] {
+                          return with_mixed_casters(under_sun(boxes({}, true), {0.7, 1, 0.4}));
+                      }});
+    scenes.push_back({"spot_on_boxes", [] {
+                          return under_spot(boxes({0.25, 3, -3}), {0, -1, 0}, 0.4);
+                      }});
+    scenes.push_back({"spot_on_a_soup", [] {
+                          return under_spot(soup(13, 1, {0, 0, 0}), {-0.6, -0.64, -0.48}, 0.6);
+                      }});
+    scenes.push_back({"spot_of_half_a_space_far_away", [] {
+                          return under_spot(soup(14, 1, {1e6F, -1e6F, 1e6F}), {-0.8, 0, 0.6},
+                                            1.5707963267948966);
                       }});
     return scenes;
 }

@@ -69,17 +69,76 @@ TEST(Predicates, a_point_in_a_triangles_plane_is_on_neither_side) {
     const Corners t{{0.1F, 0.7F, 0.3F}, {1.1F, 0.9F, 0.2F}, {0.4F, 1.3F, 0.9F}};
     // a + 2 (b - a) - (c - a), exact in doubles as the corners are floats.
     const glm::dvec3 inside = t.a + 2.0 * (t.b - t.a) - (t.c - t.a);
-    EXPECT_EQ(predicates.side(inside, t).sign, 0);
-    EXPECT_EQ(predicates.side(inside, t).exactness, Exactness::degenerate);
+    EXPECT_EQ(predicates.side({inside, 1}, t).sign, 0);
+    EXPECT_EQ(predicates.side({inside, 1}, t).exactness, Exactness::degenerate);
     const glm::dvec3 normal{0.14, -0.65, 0.52};
     const glm::dvec3 above = inside + 0x1p-50 * normal;
-    EXPECT_NE(predicates.side(above, t).sign, 0);
-    EXPECT_EQ(predicates.side(above, t).exactness, Exactness::exact);
+    EXPECT_NE(predicates.side({above, 1}, t).sign, 0);
+    EXPECT_EQ(predicates.side({above, 1}, t).exactness, Exactness::exact);
+}
+
+TEST(Predicates, a_direction_sees_the_side_that_points_far_along_it_see) {
+    const Predicates predicates;
+    const Corners t{{0.1F, 0.7F, 0.3F}, {1.1F, 0.9F, 0.2F}, {0.4F, 1.3F, 0.9F}};
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const glm::dvec3 direction(any(random), any(random), any(random));
+        EXPECT_EQ(predicates.side({direction, 0}, t).sign,
+                  predicates.side({0x1p60 * direction, 1}, t).sign)
+            << "seed " << seed << ", trial " << trial;
+    }
+    const glm::dvec3 along = (t.b - t.a) - 2.0 * (t.c - t.a);
+    EXPECT_EQ(predicates.side({along, 0}, t).sign, 0);
+    EXPECT_EQ(predicates.side({along, 0}, t).exactness, Exactness::degenerate);
+}
+
+TEST(Predicates, far_along_the_plane_through_an_edge_and_the_sun_the_eyes_side_decides) {
+    const Predicates predicates;
+    const RayPoint infinity{.kind = RayPoint::Kind::infinity};
+    const glm::dvec3 a{0, 0, -2};
+    const glm::dvec3 b{0, 0, -3};
+    const auto sign = [&](double x, const glm::dvec3& direction) {
+        return predicates.shadow_edge({{x, -5, 0}, direction, {0, 1, 0, 0}}, infinity, a, b).sign;
+    };
+    const int right = sign(1, {1, 0, -1});
+    EXPECT_NE(right, 0);
+    EXPECT_EQ(sign(-1, {1, 0, -1}), right);
+    EXPECT_EQ(sign(1, {-1, 0, -1}), -right);
+    EXPECT_EQ(sign(1, {0, 0.5, -1}), right);
+    EXPECT_EQ(sign(-1, {0, 0.5, -1}), -right);
+    EXPECT_EQ(sign(0, {0, 0.5, -1}), 0);
+}
+
+TEST(Predicates, only_the_exactly_opposite_direction_runs_from_the_light) {
+    const Predicates predicates;
+    const glm::dvec4 light{0.25, 0.75, -0.5, 0};
+    const auto runs = [&](const glm::dvec3& d) {
+        return predicates.runs_from_light({{0, 0, 0}, d, light});
+    };
+    EXPECT_TRUE(runs({-0.5, -1.5, 1}));
+    EXPECT_FALSE(runs({0.5, 1.5, -1}));
+    EXPECT_FALSE(runs({-0.5, -1.5, std::nextafter(1.0, 2.0)}));
+}
+
+TEST(Predicates, a_point_exactly_on_a_cone_is_on_neither_side_of_it) {
+    const Predicates predicates;
+    const RayPoint q{.kind = RayPoint::Kind::depth, .depth = 2};
+    // An axis of length 3 and cosine 1 stand for the cosine 1/3, which (2, -1, 2) has exactly.
+    const Cone cone{{1, 2, -4}, {0, -3, 0}, 1};
+    const auto at = [&](const glm::dvec3& direction) {
+        return predicates.within_cone({{3, 3, 0}, direction, {1, 2, -4, 1}}, q, cone);
+    };
+    EXPECT_EQ(at({0, -1, -1}).sign, 0);
+    EXPECT_EQ(at({0, -1, -1}).exactness, Exactness::degenerate);
+    EXPECT_EQ(at({0, -1 - 0x1p-52, -1}).sign, 1);
+    EXPECT_EQ(at({0, -1 + 0x1p-53, -1}).sign, -1);
+    EXPECT_EQ(at({0, 5, -1}).sign, -1);
 }
 
 TEST(Predicates, a_tie_at_an_edge_is_broken_the_other_way_for_the_triangle_on_its_other_side) {
     const Predicates predicates;
-    const EyeRay ray{{0, 0, 0}, {0, 0, -1}, {2, 0, -4}};
+    const EyeRay ray{{0, 0, 0}, {0, 0, -1}, {2, 0, -4, 1}};
     const RayPoint q{.kind = RayPoint::Kind::depth, .depth = 4};
     // The segment from the light to (0, 0, -4) passes through (1, 0, -4).
     const glm::dvec3 a{1, 0, -3};

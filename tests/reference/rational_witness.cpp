@@ -46,6 +46,15 @@ std::optional<mpq_class> meet(const Plane& t, const Point& p, const Point& d) {
 Witness::Witness(const Scene& scene)
     : eye_(point(scene.camera.eye)), light_(point(chosen_light(scene).position)),
       near_(scene.camera.near) {
+    const Light& light = chosen_light(scene);
+    if (light.kind == Light::Kind::directional) {
+        directional_ = true;
+        light_ = point(-light.direction);
+    }
+    if (light.kind == Light::Kind::spot) {
+        spot_axis_ = point(light.direction);
+        spot_cosine_ = mpq_class(std::cos(light.outer_cone));
+    }
     if (std::isfinite(scene.camera.far)) far_ = mpq_class(scene.camera.far);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         Plane t;
@@ -54,9 +63,12 @@ Witness::Witness(const Scene& scene)
         t.c = point(corner(scene, i, 2));
         t.normal = cross(minus(t.b, t.a), minus(t.c, t.a));
         t.has_area = sgn(dot(t.normal, t.normal)) != 0;
-        for (const Mesh& mesh : scene.meshes)
-            if (i >= mesh.first_triangle && i < mesh.first_triangle + mesh.triangle_count)
-                t.seen_from_behind = scene.materials[mesh.material].double_sided;
+        for (const Mesh& mesh : scene.meshes) {
+            if (i < mesh.first_triangle || i >= mesh.first_triangle + mesh.triangle_count) continue;
+            t.seen_from_behind = scene.materials[mesh.material].double_sided;
+            t.casts = mesh.casts;
+            t.receives = mesh.receives;
+        }
         planes_.push_back(t);
     }
 }
@@ -70,15 +82,34 @@ int Witness::side_of_eye(std::uint32_t triangle) const {
 }
 
 int Witness::side_of_light(std::uint32_t triangle) const {
-    return sgn(dot(planes_[triangle].normal, minus(light_, planes_[triangle].a)));
+    return sgn(
+        dot(planes_[triangle].normal, directional_ ? light_ : minus(light_, planes_[triangle].a)));
+}
+
+Point Witness::to_light(const Point& p) const {
+    return directional_ ? light_ : minus(light_, p);
+}
+
+/// Of p + s (to_light(p)): strictly between p and the light.
+bool Witness::lies_between(const mpq_class& s) const {
+    return sgn(s) > 0 && (directional_ || s < 1);
+}
+
+int Witness::side_of_cone(const Point& p) const {
+    if (!spot_axis_) return 1;
+    const Point v = minus(p, light_);
+    // The larger of two numbers is the one of the larger signed square.
+    const auto signed_square = [](const mpq_class& x) { return mpq_class(x * abs(x)); };
+    const mpq_class limit = spot_cosine_ * abs(spot_cosine_) * dot(v, v);
+    return sgn(mpq_class(signed_square(dot(v, *spot_axis_)) - limit));
 }
 
 bool Witness::occluded(const Point& hit, std::uint32_t own) const {
-    const Point to_light = minus(light_, hit);
+    const Point d = to_light(hit);
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-        if (i == own) continue;
-        const std::optional<mpq_class> s = meet(planes_[i], hit, to_light);
-        if (s && sgn(*s) > 0 && *s < 1 && inside(planes_[i], along(hit, *s, to_light))) return true;
+        if (i == own || !planes_[i].casts) continue;
+        const std::optional<mpq_class> s = meet(planes_[i], hit, d);
+        if (s && lies_between(*s) && inside(planes_[i], along(hit, *s, d))) return true;
     }
     return false;
 }
@@ -98,34 +129,36 @@ Answer Witness::look(const glm::dvec3& direction) const {
     if (!nearest) return answer;
     answer.hit = along(eye_, *nearest, d);
     const bool faces = side_of_eye(answer.triangle) * side_of_light(answer.triangle) > 0;
-    answer.visibility =
-        faces && !occluded(answer.hit, answer.triangle) ? Visibility::lit : Visibility::shadowed;
+    const bool reached =
+        faces && side_of_cone(answer.hit) >= 0 &&
+        (!planes_[answer.triangle].receives || !occluded(answer.hit, answer.triangle));
+    answer.visibility = reached ? Visibility::lit : Visibility::shadowed;
     return answer;
 }
 
 int Witness::shadow_depth(const Point& q, std::uint32_t skip) const {
     const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
     const Point moved{q[0] + e, q[1] + e * e, q[2] + e * e * e};
-    const Point from_light = minus(moved, light_);
-    const Point unmoved = minus(q, light_);
     int count = 0;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-        if (i == skip || !planes_[i].has_area || side_of_light(i) <= 0) continue;
-        const std::optional<mpq_class> still = meet(planes_[i], light_, unmoved);
-        if (!still || sgn(*still) <= 0 || *still >= 1) continue;
-        const std::optional<mpq_class> s = meet(planes_[i], light_, from_light);
-        count += s && inside(planes_[i], along(light_, *s, from_light)) ? 1 : 0;
+        if (i == skip || !planes_[i].casts || !planes_[i].has_area || side_of_light(i) <= 0)
+            continue;
+        const std::optional<mpq_class> still = meet(planes_[i], q, to_light(q));
+        if (!still || !lies_between(*still)) continue;
+        const std::optional<mpq_class> s = meet(planes_[i], moved, to_light(moved));
+        count += s && inside(planes_[i], along(moved, *s, to_light(moved))) ? 1 : 0;
     }
     return count;
 }
 
 int Witness::shadow_depth_at_infinity(const glm::dvec3& direction) const {
-    const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
     const Point d = point(direction);
+    if (directional_) return shadow_depth(along(eye_, mpq_class(1) << 2000, d), no_triangle);
+    const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
     const Point moved{d[0] + e, d[1] + e * e, d[2] + e * e * e};
     int count = 0;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-        if (!planes_[i].has_area || side_of_light(i) <= 0) continue;
+        if (!planes_[i].casts || !planes_[i].has_area || side_of_light(i) <= 0) continue;
         const std::optional<mpq_class> still = meet(planes_[i], light_, d);
         if (!still || sgn(*still) <= 0) continue;
         const std::optional<mpq_class> s = meet(planes_[i], light_, moved);

@@ -20,6 +20,8 @@ struct Plane {
     Point a, b, c, normal;
     bool has_area = false;
     bool seen_from_behind = false;
+    bool casts = true;
+    bool receives = true;
 };
 
 struct Answer {
@@ -37,19 +39,30 @@ public:
     /// Light-facing triangles strictly between q and the light; ties broken by really moving the
     /// line's end by (e, e^2, e^3) with e = 2^-400. `skip` does not count.
     int shadow_depth(const Point& q, std::uint32_t skip) const;
-    /// The same for the point at infinity in a direction from the light.
+    /// The same for the point at infinity in a direction from a point light; for one 2^2000 away
+    /// along the eye ray where the light is directional.
     int shadow_depth_at_infinity(const glm::dvec3& direction) const;
 
     Point on_ray(const glm::dvec3& direction, double depth) const;
     int side_of_eye(std::uint32_t triangle) const;   ///< 1: the front is seen
     int side_of_light(std::uint32_t triangle) const; ///< 1: the front is lit
 
+    /// Where the cosine of the angle that the spot light sees p under stands against that of its
+    /// outer cone: -1 outside, 0 on the cone, 1 within. 1 where the light is no spot.
+    int side_of_cone(const Point& p) const;
+
 private:
-    Point eye_, light_;
+    Point eye_;
+    Point light_; ///< position, or direction to it
+    bool directional_ = false;
+    std::optional<Point> spot_axis_;
+    mpq_class spot_cosine_;
     mpq_class near_;
     std::optional<mpq_class> far_;
     std::vector<Plane> planes_;
 
+    Point to_light(const Point& p) const;
+    bool lies_between(const mpq_class& s) const;
     bool occluded(const Point& hit, std::uint32_t own) const;
 };
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace shadowproof {
 namespace {
@@ -26,10 +27,22 @@ void for_regions(const Tracer& tracer, int step, const Visit& visit) {
         }
 }
 
+/// A bundled scene by its name, or with its light gone to infinity: "ordinary_under_a_sun". The
+/// direction is that from the middle of the scene to the light, so that shadows fall as they did.
+Scene scene_named(const std::string& name) {
+    const std::size_t sun = name.find("_under_a_sun");
+    Scene scene = load_scene(name.substr(0, sun), {});
+    if (sun == std::string::npos) return scene;
+    Light& light = scene.lights[scene.light];
+    light.kind = Light::Kind::directional;
+    light.direction = glm::normalize(glm::dvec3(scene.positions.front()) - light.position);
+    return scene;
+}
+
 class RegionLedgerTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(RegionLedgerTest, the_crossings_are_those_found_ray_by_ray) {
-    const Scene scene = load_scene(GetParam(), {});
+    const Scene scene = scene_named(GetParam());
     const Tracer tracer(scene);
     std::vector<Crossing> found;
     for_regions(tracer, 8, [&](RegionLedger region, int x0, int y0) {
@@ -49,7 +62,7 @@ TEST_P(RegionLedgerTest, the_crossings_are_those_found_ray_by_ray) {
 }
 
 TEST_P(RegionLedgerTest, the_crossings_add_up_to_the_exact_counts_at_every_pixel) {
-    const Scene scene = load_scene(GetParam(), {});
+    const Scene scene = scene_named(GetParam());
     const Tracer tracer(scene);
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
@@ -74,7 +87,9 @@ TEST_P(RegionLedgerTest, the_crossings_add_up_to_the_exact_counts_at_every_pixel
 }
 
 INSTANTIATE_TEST_SUITE_P(Bundled, RegionLedgerTest,
-                         testing::Values("ordinary", "near_plane", "far_plane", "eye_inside"),
+                         testing::Values("ordinary", "near_plane", "far_plane", "eye_inside",
+                                         "ordinary_under_a_sun", "near_plane_under_a_sun",
+                                         "far_plane_under_a_sun", "eye_inside_under_a_sun"),
                          [](const auto& scene) { return scene.param; });
 
 } // namespace

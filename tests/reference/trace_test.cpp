@@ -57,6 +57,32 @@ TEST_P(HardSceneTest, shadow_depths_equal_those_of_brute_force_with_a_really_mov
         }
 }
 
+TEST_P(HardSceneTest, what_a_spots_cone_holds_equals_brute_force_and_is_asked_of_spots_only) {
+    const Scene scene = GetParam().make();
+    const Tracer tracer(scene);
+    const GroundTruth truth = trace(tracer);
+    if (chosen_light(scene).kind != Light::Kind::spot) {
+        EXPECT_TRUE(truth.in_cone.pixels.empty());
+        return;
+    }
+    const witness::Witness witness(scene);
+    int inside = 0;
+    int outside = 0;
+    for (int y = 0; y < scene.camera.height; ++y)
+        for (int x = 0; x < scene.camera.width; ++x) {
+            const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
+            const witness::Answer expected = witness.look(direction);
+            const bool in_cone =
+                expected.triangle != no_triangle && witness.side_of_cone(expected.hit) >= 0;
+            ASSERT_EQ(truth.in_cone.at(x, y) != 0, in_cone) << x << ", " << y;
+            if (expected.triangle == no_triangle) continue;
+            ASSERT_EQ(trace_ray(tracer, direction).in_cone, in_cone) << x << ", " << y;
+            ++(in_cone ? inside : outside);
+        }
+    EXPECT_GT(inside, 10);
+    EXPECT_GT(outside, 10);
+}
+
 /// Pixels of a bundled scene whose right neighbour has another class: there floats are wrong first.
 std::vector<std::pair<int, int>> pixels_at_boundaries(const GroundTruth& truth) {
     std::vector<std::pair<int, int>> pixels;

@@ -23,7 +23,28 @@ TEST(Digest, the_same_file_has_the_same_digest_and_every_content_counts) {
     EXPECT_TRUE(changed([](Scene& s) { ++s.camera.width; }));
     EXPECT_TRUE(changed([](Scene& s) { s.lights[s.light].position.x += 1; }));
     EXPECT_TRUE(changed([](Scene& s) { s.materials[s.meshes[0].material].double_sided ^= true; }));
+    EXPECT_TRUE(changed([](Scene& s) { s.meshes[0].casts = false; }));
+    EXPECT_TRUE(changed([](Scene& s) { s.meshes[0].receives = false; }));
+    EXPECT_FALSE(changed([](Scene& s) { s.lights[s.light].outer_cone /= 2; }));
+    EXPECT_TRUE(changed([](Scene& s) { s.lights[s.light].kind = Light::Kind::directional; }));
     EXPECT_FALSE(changed([](Scene& s) { s.name = "other"; }));
+}
+
+TEST(Digest, a_sun_counts_by_its_direction_and_a_spot_by_its_cone) {
+    Scene scene = load_scene("ordinary", {});
+    Light& light = scene.lights[scene.light];
+    const auto changes = [&](auto change) {
+        const std::string before = digest_of(scene);
+        change();
+        return digest_of(scene) != before;
+    };
+    light.kind = Light::Kind::directional;
+    EXPECT_FALSE(changes([&] { light.position.x += 1; }));
+    EXPECT_TRUE(changes([&] { light.direction.x += 0x1p-50; }));
+    light.kind = Light::Kind::spot;
+    EXPECT_TRUE(changes([&] { light.position.x += 1; }));
+    EXPECT_TRUE(changes([&] { light.direction.y += 0x1p-50; }));
+    EXPECT_TRUE(changes([&] { light.outer_cone /= 2; }));
 }
 
 } // namespace

@@ -193,6 +193,32 @@ TEST(notes, say_what_is_not_evaluated) {
     EXPECT_FALSE(says(load(triangle_gltf()), "not evaluated"));
 }
 
+/// A chain of nodes with the triangle in each, and `says` as the extras of each.
+std::vector<Mesh> meshes_of_chain(const std::vector<json>& says) {
+    json gltf = triangle_gltf();
+    const json node = gltf["nodes"][0];
+    for (std::size_t i = 0; i < says.size(); ++i) {
+        gltf["nodes"][i] = node;
+        if (!says[i].is_null()) gltf["nodes"][i]["extras"] = says[i];
+        if (i + 1 < says.size()) gltf["nodes"][i]["children"] = {i + 1};
+    }
+    return load(gltf).meshes;
+}
+
+TEST(casters, a_node_casts_and_receives_unless_it_or_the_nearest_ancestor_that_says_so_does_not) {
+    const auto ours = [](json flags) { return json{{"shadowproof", std::move(flags)}}; };
+    const std::vector<Mesh> meshes =
+        meshes_of_chain({nullptr, ours({{"casts", false}}), "anything at all",
+                         ours({{"receives", false}}), ours({{"casts", true}}), nullptr});
+    const std::vector<bool> casts{true, false, false, false, true, true};
+    const std::vector<bool> receives{true, true, true, false, false, false};
+    ASSERT_EQ(meshes.size(), casts.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        EXPECT_EQ(meshes[i].casts, casts[i]) << i;
+        EXPECT_EQ(meshes[i].receives, receives[i]) << i;
+    }
+}
+
 TEST(notes, provoked_causes_are_read_from_extras) {
     json gltf = triangle_gltf();
     EXPECT_FALSE(load(gltf).declares_provokes);

@@ -78,9 +78,13 @@ TEST(light, all_are_read_and_the_first_is_judged) {
     EXPECT_EQ(scene.lights[1].kind, Light::Kind::directional);
     EXPECT_NEAR(scene.lights[1].direction.z, 1, 1e-15); // half a turn from -z
     EXPECT_EQ(scene.lights[2].outer_cone, 0.5);
-    SceneRequest request;
-    request.light = "torch";
-    EXPECT_TRUE(says(load(furnished(), request), "cone is not evaluated"));
+}
+
+TEST(light, a_directional_one_is_looked_for_where_its_rays_come_from) {
+    const Scene scene = load(furnished());
+    EXPECT_EQ(homogeneous(scene.lights[0]), glm::dvec4(0, 2, 3, 1));
+    EXPECT_EQ(homogeneous(scene.lights[1]), glm::dvec4(-scene.lights[1].direction, 0));
+    EXPECT_EQ(homogeneous(scene.lights[2]).w, 1);
 }
 
 TEST(default_framing, shows_every_vertex_in_any_shape_of_picture) {

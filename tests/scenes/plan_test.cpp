@@ -57,11 +57,41 @@ TEST(plan, a_volume_thrown_straight_down_is_not_seen_to_infinity) {
     EXPECT_FALSE(plan.volume_meets_far);
 }
 
-TEST(plan, a_directional_light_leaves_nothing_out_but_what_the_casters_allow) {
-    Scene scene = one_triangle({-1, 0, -5}, {1, 0, -5}, {0, 0, -6}, {0, 3, -5.3});
+/// The same under a directional light.
+Scene under_sun(Scene scene, const glm::dvec3& to_light) {
     scene.lights[0].kind = Light::Kind::directional;
+    scene.lights[0].direction = -glm::normalize(to_light);
+    return scene;
+}
+
+TEST(plan, a_sun_throws_volumes_on_the_planes_that_lie_along_its_rays_only) {
+    const Scene level = one_triangle({-1, 0, -5}, {1, 0, -5}, {0, 0, -6}, {});
+    const Plan from_above = make_plan(under_sun(level, {0, 1, 0}));
+    EXPECT_FALSE(from_above.volume_meets_near);
+    EXPECT_FALSE(from_above.volume_meets_far);
+    const Scene upright = one_triangle({-1, -1, -5}, {1, -1, -5}, {0, 1, -5}, {});
+    const Plan from_ahead = make_plan(under_sun(upright, {0, 0.1, -1}));
+    EXPECT_TRUE(from_ahead.volume_meets_near);
+    EXPECT_FALSE(from_ahead.volume_meets_far);
+    const Plan from_behind = make_plan(under_sun(upright, {0, 0.1, 1}));
+    EXPECT_FALSE(from_behind.volume_meets_near);
+    EXPECT_TRUE(from_behind.volume_meets_far);
+}
+
+TEST(plan, a_suns_volumes_end_in_one_point_which_no_cap_covers) {
+    const Scene upright = one_triangle({-1, -1, -5}, {1, -1, -5}, {0, 1, -5}, {0, 0, 1});
+    EXPECT_TRUE(make_plan(upright).dark_cap);
+    EXPECT_FALSE(make_plan(under_sun(upright, {0, 0, 1})).dark_cap);
+}
+
+TEST(plan, what_does_not_cast_has_no_volume_and_needs_no_filling) {
+    Scene scene = one_triangle({-.1F, 2, -1}, {.1F, 2, -1}, {0, 2, -1.1F}, {0, 4, -1});
+    scene.meshes[0].casts = false;
     const Plan plan = make_plan(scene);
-    EXPECT_TRUE(plan.dark_cap && plan.volume_meets_far && plan.volume_meets_near);
+    EXPECT_FALSE(plan.volume_meets_near || plan.volume_meets_far || plan.dark_cap ||
+                 plan.hole_filling);
+    scene.meshes[0].casts = true;
+    EXPECT_TRUE(make_plan(scene).volume_meets_near && make_plan(scene).hole_filling);
 }
 
 TEST(plan, the_finite_far_plane_lies_behind_everything) {
@@ -130,6 +160,34 @@ TEST(plan, each_faulty_caster_gets_a_line_up_to_twenty_and_the_others_are_counte
     const std::vector<std::string> faults = make_plan(scene).faults;
     ASSERT_EQ(faults.size(), 21U);
     EXPECT_EQ(faults.back(), "3 more casters are open, inverted or not two-manifold");
+}
+
+TEST(plan, nothing_that_random_rays_to_a_sun_find_was_ruled_out) {
+    constexpr std::uint32_t seed = 4712;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> wide(-12, 12);
+    std::uniform_real_distribution<double> unit(0, 1);
+    int ruled_out = 0;
+    int found = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const auto point = [&] { return glm::vec3(wide(random), wide(random), wide(random)); };
+        const Scene scene =
+            under_sun(one_triangle(point(), point(), point(), {}), glm::dvec3(point()));
+        const Plan plan = make_plan(scene);
+        const glm::dvec3 to_light(homogeneous(chosen_light(scene)));
+        ruled_out += !plan.volume_meets_near + !plan.volume_meets_far;
+        for (int ray = 0; ray < 40; ++ray) {
+            const glm::dvec3 direction =
+                ray_direction(scene.camera, 512 * unit(random), 512 * unit(random));
+            const bool near = crosses(direction, direction + 1e3 * to_light, scene);
+            const bool far = crosses(10.0 * direction, 10.0 * direction + 1e3 * to_light, scene);
+            found += near + far;
+            ASSERT_TRUE(plan.volume_meets_near || !near) << "seed " << seed << ", round " << round;
+            ASSERT_TRUE(plan.volume_meets_far || !far) << "seed " << seed << ", round " << round;
+        }
+    }
+    EXPECT_GT(found, 1000);
+    EXPECT_GT(ruled_out, 2000);
 }
 
 TEST(plan, bundled_scenes_need_what_they_provoke_and_no_more) {
