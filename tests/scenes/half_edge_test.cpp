@@ -221,7 +221,7 @@ TEST(half_edge, what_has_no_twin_is_the_surplus) {
 }
 
 TEST(half_edge, a_million_triangles_are_connected_within_seconds) {
-    // Measured: 0.35 s in Release, welding included; the bound leaves room for a debug build under
+    // Measured: 0.4 s with the making of the torus; the bound leaves room for a debug build under
     // a sanitizer, and none for a quadratic step.
     const Scene torus = soup_of(author::torus(2, 1, 1000, 500));
     ASSERT_EQ(torus.triangles.size(), 1000000U);
