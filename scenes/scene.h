@@ -34,7 +34,7 @@ struct Mesh {
 struct Light {
     enum class Kind : std::uint8_t { point, spot, directional };
     std::string name;
-    std::string choice; ///< what tells it from the file's others: its name, or else its number
+    std::string choice{}; ///< what tells it from the file's others: its name, or else its number
     Kind kind = Kind::point;
     glm::dvec3 position{0, 0, 0};   ///< point and spot
     glm::dvec3 direction{0, 0, -1}; ///< spot and directional: where the light shines to, unit

@@ -138,8 +138,8 @@ var cutawayGeometry = (function () {
     var first = 0, light = plane.light;
     if (depths.length <= 2) // only eye and near
       last = Math.max(last, 8 * record.near, plane.directional ? 0 : light[0]);
-    var lightIn = !plane.degenerate && !plane.directional && light[0] > -0.6 * last && light[0] < 1.7 * last &&
-      light[1] < 3 * last;
+    var lightIn = !plane.degenerate && !plane.directional && light[0] > -0.6 * last &&
+      light[0] < 1.7 * last && light[1] < 3 * last;
     if (lightIn) {
       first = Math.min(0, light[0] - 0.02 * last);
       last = Math.max(last, light[0] * 1.02);

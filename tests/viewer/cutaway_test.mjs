@@ -67,9 +67,10 @@ const cases = {
   'light next to the ray': recordOf([side(2, 1, { light: [0, 1e-3, -20] })],
                                     { light: { name: 'lamp', position: [0, 1e-3, -20] } }),
   'light at the eye': recordOf([], { light: { name: 'lamp', position: [0, 0, 0] } }),
-  'directional light': recordOf([side(2, 1, { light: [0, 4e4, -2e4] }), side(4, -1)],
-                                { light: { name: 'sun', kind: 'directional', direction: [0, -2, 1] } }),
-  'directional light from behind': recordOf([side(2, 1, { light: [0, 3e5, 5e5] })],
+  'directional light': recordOf([2, 4].map((depth, i) =>
+    side(depth, 1 - 2 * i, { light: [0, 4e4, -2e4], along: 0.99995 })),
+    { light: { name: 'sun', kind: 'directional', direction: [0, -2, 1] } }),
+  'directional light from behind': recordOf([side(2, 1, { light: [0, 3e5, 5e5], along: 0.999999 })],
     { light: { name: 'sun', kind: 'directional', direction: [0, -0.5, -0.9] } }),
   'directional light along the ray': recordOf(pair,
     { light: { name: 'sun', kind: 'directional', direction: [0, 0, -1] } }),
