@@ -203,6 +203,7 @@ public:
         const std::optional<double> depth = shown_depth(truth, direction, moved);
         if (!depth) return;
         shown_range_.nominal = *depth;
+        in_cone_ = truth.in_cone;
         const std::int64_t ideal = ideal_depth(direction);
         volumes_.counted.crossings(direction, crossings_);
         for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);
@@ -220,6 +221,7 @@ private:
     bool may_cover_ = false;           ///< the shown triangle may cover the pixel's centre
     bool may_gape_ = false;            ///< what is in front of it may let it be seen through a gap
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
+    bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
     std::vector<Crossing> crossings_;  ///< of the sample at hand
 
     bool certainly_in_front(std::uint32_t triangle) const {
@@ -381,7 +383,7 @@ private:
         const std::int64_t nominal = nominal_count(faces, start, last);
         const auto add = [&](std::int64_t count, bool shifted) {
             readings.push_back({count, shifted ? ideal + count - nominal : ideal,
-                                volumes_.ideal_at_eye, moved || move != 0 || shifted});
+                                volumes_.ideal_at_eye, in_cone_, moved || move != 0 || shifted});
         };
         if (move == 0) add(nominal, false);
         for (const std::int32_t other : starts_)
@@ -436,7 +438,7 @@ private:
 
 void sort_out(std::vector<Reading>& readings) {
     const auto key = [](const Reading& r) {
-        return std::array<std::int64_t, 4>{r.count, r.ideal, r.at_eye, r.moved_in_depth};
+        return std::array<std::int64_t, 5>{r.count, r.ideal, r.at_eye, r.in_cone, r.moved_in_depth};
     };
     std::sort(readings.begin(), readings.end(),
               [&](const Reading& a, const Reading& b) { return key(a) < key(b); });

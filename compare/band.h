@@ -43,6 +43,7 @@ struct Reading {
     std::int64_t count = 0;      ///< before wrapping
     std::int64_t ideal = 0;      ///< the surface's shadow depth: what the count ought to tell
     std::int32_t at_eye = 0;     ///< shadow depth of the eye
+    bool in_cone = true;         ///< the light shines there, if it is a spot
     bool moved_in_depth = false; ///< only with faces moved by their depths' freedom
 };
 

@@ -44,11 +44,12 @@ struct Context {
     }
 };
 
-/// The claim that follows from a counter and a triangle.
-Visibility claim_of(const Context& context, std::int64_t count, std::uint32_t triangle) {
+/// The claim that follows from a counter and a triangle, where the light shines or not.
+Visibility claim_of(const Context& context, std::int64_t count, std::uint32_t triangle,
+                    bool in_cone) {
     if (triangle == no_triangle) return Visibility::background;
     const bool unshadowed = context.receives[triangle] == 0 || context.stored(count) == 0;
-    const bool lit = unshadowed && sides_of(context.tracer, triangle).faces_light();
+    const bool lit = in_cone && unshadowed && sides_of(context.tracer, triangle).faces_light();
     return lit ? Visibility::lit : Visibility::shadowed;
 }
 
@@ -82,6 +83,8 @@ std::optional<Cause> algorithmic_cause(const Context& context, const Reading& re
     if (counted_lit && reading.count != 0)
         return counting.operation == Counting::Operation::invert ? Cause::parity : Cause::counter;
     if (std::isfinite(counting.extrusion)) return Cause::extrusion;
+    // Filled holes shadow what the open caster does not.
+    if (counting.holes_filled && reading.count != reading.ideal) return Cause::open_mesh;
     if (!counting.light_cap) return Cause::cap;
     if (counting.test == Counting::Test::depth_pass) return cause_at_near_plane(counting, reading);
     const bool finite = context.frame.depth_model.projection == DepthModel::Projection::finite;
@@ -92,8 +95,9 @@ std::optional<Cause> algorithmic_cause(const Context& context, const Reading& re
 
 /// The reading at the pixel's centre, as traced.
 Reading centre_reading(const Context& context, PixelPlace p) {
+    const Image<std::uint8_t>& in_cone = context.truth.in_cone;
     return {context.predicted(p), context.depths.at_surface.at(p.x, p.y), context.depths.at_eye,
-            false};
+            in_cone.pixels.empty() || in_cone.at(p.x, p.y) != 0, false};
 }
 
 /// Where read-back and prediction agree at the centre, the cause is the algorithm's own.
@@ -102,7 +106,8 @@ std::optional<Cause> cause_at_centre(const Context& context, PixelPlace p) {
     const std::uint32_t triangle = context.truth.triangle.at(p.x, p.y);
     if (!context.surface_as_true(p) || triangle == no_triangle) return std::nullopt;
     if (context.stored(reading.count) != context.read_back(p)) return std::nullopt;
-    if (claim_of(context, reading.count, triangle) != context.frame.claim.at(p.x, p.y))
+    if (claim_of(context, reading.count, triangle, reading.in_cone) !=
+        context.frame.claim.at(p.x, p.y))
         return std::nullopt;
     return algorithmic_cause(context, reading, context.truth.visibility.at(p.x, p.y));
 }
@@ -119,7 +124,7 @@ bool settled(const Context& context, PixelPlace p, std::optional<Cause>& cause) 
 /// Whether a reading is what was read back, and leads to the claim that was made.
 bool explains(const Context& context, PixelPlace p, const Reading& reading) {
     return context.stored(reading.count) == context.read_back(p) &&
-           claim_of(context, reading.count, context.frame.triangle.at(p.x, p.y)) ==
+           claim_of(context, reading.count, context.frame.triangle.at(p.x, p.y), reading.in_cone) ==
                context.frame.claim.at(p.x, p.y);
 }
 
@@ -148,7 +153,8 @@ Cause cause_in_band(const Context& context, PixelPlace p, const PixelBand& band,
     for (const Reading& reading : band.readings) {
         if (!explains(context, p, reading)) continue;
         // What ought to be counted makes this claim, too, with faces moved in depth.
-        if (reading.moved_in_depth && claim_of(context, reading.ideal, shown) == claim)
+        if (reading.moved_in_depth &&
+            claim_of(context, reading.ideal, shown, reading.in_cone) == claim)
             return Cause::precision;
         if (!algorithmic) algorithmic = algorithmic_cause(context, reading, truth_of_shown);
     }

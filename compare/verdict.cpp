@@ -10,9 +10,11 @@ bool contains(std::span<const Cause> causes, Cause cause) {
     return std::find(causes.begin(), causes.end(), cause) != causes.end();
 }
 
-bool excused(const Scene& scene, std::span<const Cause> fails_at, Cause cause) {
+bool excused(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,
+             Cause cause) {
     if (!contains(fails_at, cause)) return false;
-    return cause == Cause::precision || !scene.declares_provokes || contains(scene.provokes, cause);
+    return cause == Cause::precision || contains(by_nature, cause) || !scene.declares_provokes ||
+           contains(scene.provokes, cause);
 }
 
 } // namespace
@@ -31,7 +33,8 @@ std::string_view name_of(Verdict verdict) {
     return "unexplained";
 }
 
-Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Comparison& comparison) {
+Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,
+              const Comparison& comparison) {
     const auto found = [&](Cause cause) {
         return comparison.causes[static_cast<std::size_t>(cause)] > 0;
     };
@@ -39,18 +42,18 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, const Compari
     Verdict verdict = Verdict::agrees;
     for (const CauseWords& words : all_causes) {
         if (words.cause == Cause::edge || !found(words.cause)) continue;
-        if (!excused(scene, fails_at, words.cause)) return Verdict::defect;
+        if (!excused(scene, fails_at, by_nature, words.cause)) return Verdict::defect;
         verdict = Verdict::fails_as_predicted;
     }
     return verdict;
 }
 
 std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fails_at,
-                                  const Comparison& comparison) {
+                                  std::span<const Cause> by_nature, const Comparison& comparison) {
     std::vector<Cause> causes;
     for (const CauseWords& words : all_causes) {
         const bool found = comparison.causes[static_cast<std::size_t>(words.cause)] > 0;
-        if (found && words.cause != Cause::edge && excused(scene, fails_at, words.cause))
+        if (found && words.cause != Cause::edge && excused(scene, fails_at, by_nature, words.cause))
             causes.push_back(words.cause);
     }
     return causes;

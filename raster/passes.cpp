@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 #include <string>
@@ -219,6 +220,18 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
     gl.ProgramUniform1i(program.name(), 5,
                         geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
                                                   : std::numeric_limits<GLint>::max());
+    return program;
+}
+
+Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
+                   const Geometry& geometry) {
+    Program program = link_projection(gl, "light.frag", transform, geometry);
+    const Light& light = chosen_light(scene);
+    const bool spot = light.kind == Light::Kind::spot;
+    const glm::vec3 axis(light.direction);
+    gl.ProgramUniform3fv(program.name(), 13, 1, glm::value_ptr(axis));
+    gl.ProgramUniform1f(program.name(), 14,
+                        spot ? static_cast<float>(std::cos(light.outer_cone)) : -2.0F);
     return program;
 }
 

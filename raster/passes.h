@@ -83,6 +83,10 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
 /// Sets the uniforms that all vertex shaders share which transform as project.vert does.
 void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform);
 
+/// project.vert and light.frag, with the cone of a spot light.
+Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
+                   const Geometry& geometry);
+
 /// project.vert and a fragment shader, with the scene's vertices under the transform.
 Program link_projection(const GlFunctions& gl, std::string_view fragment,
                         const ClipTransform& transform, const Geometry& geometry);

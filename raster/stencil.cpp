@@ -133,7 +133,7 @@ struct Frames {
                               : std::vector<glm::vec3>{})),
           transform(clip_transform(drawn, with.depth_model)),
           surface(link_projection(gl, "surface.frag", transform, geometry)),
-          light(link_projection(gl, "light.frag", transform, geometry)),
+          light(link_light(gl, drawn, transform, geometry)),
           volumes(with.near_plane == NearPlane::capped
                       ? make_capped_pass(gl, casters, geometry, transform, with.depth_model)
                       : make_volume_pass(gl, casters, geometry, transform, with.counting,

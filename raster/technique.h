@@ -21,6 +21,8 @@ struct Technique {
     std::string_view source;     ///< where it is described
     std::string_view needs;      ///< what it asks of scene and driver
     std::vector<Cause> fails_at; ///< the causes it is known to have
+    /// Of those, what it has on almost any scene: no scene need declare that it provokes it.
+    std::vector<Cause> by_nature = {};
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 

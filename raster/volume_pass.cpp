@@ -106,12 +106,14 @@ VolumePass geometry_shader_pass(const Making& making) {
             .draw_turned = [draw] { draw(true); }};
 }
 
+constexpr std::uint32_t no_corner = 0xffffffffU;
+
 /// As degenerate_quads.vert reads it.
 struct QuadEdge {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
-    std::uint32_t up = 0;
-    std::uint32_t down = 0;
+    std::uint32_t up = no_corner;
+    std::uint32_t down = no_corner;
 };
 
 /// Two triangles in one plane, side by side: the light never sees one of them alone.
@@ -132,7 +134,8 @@ std::vector<QuadEdge> quad_edges(const Scene& scene) {
         const std::uint32_t a = mesh.half_edges[edge.half_edge].origin;
         const std::uint32_t b = mesh.half_edges[mesh.half_edges[edge.half_edge].next].origin;
         const std::uint32_t own = third_corner(mesh, edge.half_edge);
-        const std::uint32_t other = corner_across(mesh, edge.half_edge);
+        const std::uint32_t other =
+            edge.twin == no_half_edge ? no_corner : third_corner(mesh, edge.twin);
         const QuadEdge quad = a < b ? QuadEdge{a, b, own, other} : QuadEdge{b, a, other, own};
         if (edge.twin == no_half_edge || !is_flat(scene, quad)) edges.push_back(quad);
     }

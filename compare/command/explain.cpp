@@ -186,16 +186,20 @@ std::string ledger_text(const Scene& scene, const PixelRecord& record) {
 }
 
 std::string techniques_text(const PixelRecord& record) {
-    std::string text = fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}\n", "technique",
+    std::size_t width = std::string_view("technique").size();
+    for (const TechniqueAtPixel& technique : record.techniques)
+        width = std::max(width, technique.name.size());
+    width += 2;
+    std::string text = fmt::format("  {:<{}}{:>9}{:>8}{:>11}  {:<12}{:<15}{}\n", "technique", width,
                                    "predicted", "stored", "read back", "claim", "cause", "lost");
     for (const TechniqueAtPixel& technique : record.techniques) {
         std::string line =
             technique.error.empty()
-                ? fmt::format("  {:<16}{:>9}{:>8}{:>11}  {:<12}{:<15}{}", technique.name,
+                ? fmt::format("  {:<{}}{:>9}{:>8}{:>11}  {:<12}{:<15}{}", technique.name, width,
                               technique.predicted, technique.stored, technique.read_back,
                               name_of(technique.claim), cause_words(technique),
                               lost_words(record, technique))
-                : fmt::format("  {:<16}{}", technique.name, printable(technique.error));
+                : fmt::format("  {:<{}}{}", technique.name, width, printable(technique.error));
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace shadowproof {
@@ -19,17 +20,23 @@ std::string fails_at(const Technique& technique) {
 }
 
 std::string as_text() {
+    std::size_t width = 0; // of the longest name
+    for (const BundledScene& scene : bundled_scenes()) width = std::max(width, scene.name.size());
+    for (const Technique& technique : all_techniques())
+        width = std::max(width, technique.name.size());
+    width += 2;
     std::string text = "Scenes\n";
     for (const BundledScene& scene : bundled_scenes())
-        text += fmt::format("  {:<16}{}\n", scene.name, scene.summary);
+        text += fmt::format("  {:<{}}{}\n", scene.name, width, scene.summary);
     text += "\nTechniques\n";
     for (const Technique& technique : all_techniques())
-        text += fmt::format("  {:<16}{}\n{:18}fails at: {}\n{:18}needs: {}\n{:18}source: {}\n",
-                            technique.name, technique.summary, "", fails_at(technique), "",
-                            technique.needs, "", technique.source);
+        text += fmt::format("  {:<{}}{}\n{:{}}fails at: {}\n{:{}}needs: {}\n{:{}}source: {}\n",
+                            technique.name, width, technique.summary, "", width + 2,
+                            fails_at(technique), "", width + 2, technique.needs, "", width + 2,
+                            technique.source);
     text += "\nCauses\n";
     for (const CauseWords& words : all_causes)
-        text += fmt::format("  {:<16}{}\n", words.name, words.meaning);
+        text += fmt::format("  {:<{}}{}\n", words.name, width, words.meaning);
     return text;
 }
 
@@ -40,11 +47,14 @@ Json as_json() {
     for (const Technique& technique : all_techniques()) {
         Json causes = Json::array();
         for (const Cause cause : technique.fails_at) causes.push_back(name_of(cause));
+        Json by_nature = Json::array();
+        for (const Cause cause : technique.by_nature) by_nature.push_back(name_of(cause));
         json["techniques"].push_back({{"name", technique.name},
                                       {"summary", technique.summary},
                                       {"source", technique.source},
                                       {"needs", technique.needs},
-                                      {"fails_at", causes}});
+                                      {"fails_at", causes},
+                                      {"by_nature", by_nature}});
     }
     for (const CauseWords& words : all_causes)
         json["causes"].push_back({{"name", words.name}, {"meaning", words.meaning}});

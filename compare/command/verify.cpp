@@ -69,11 +69,12 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
                                     cell.frame.counting, cell.frame.depth_model);
         cell.comparison = classify(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                    cell.frame, prediction);
-        cell.verdict = judge(trial.scene, technique.fails_at, cell.comparison);
-        cell.excused = excused_causes(trial.scene, technique.fails_at, cell.comparison);
+        cell.verdict = judge(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
+        cell.excused =
+            excused_causes(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
         const Stopwatch stopwatch;
-        cell.ledgers = list_ledgers(trial.tracer, trial.truth, cell.frame, prediction,
-                                    cell.comparison.cause);
+        cell.ledgers =
+            list_ledgers(trial.tracer, trial.truth, cell.frame, prediction, cell.comparison.cause);
         trial.report_milliseconds += stopwatch.milliseconds();
     } catch (const std::bad_alloc&) {
         cell.frame = {};

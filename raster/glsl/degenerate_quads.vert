@@ -7,9 +7,10 @@
 struct Edge {
     uint low; // corners, low < high
     uint high;
-    uint up;   // third corner of the triangle that runs the edge from low to high
-    uint down; // and of the one that runs it back; each the other's where there is none
+    uint up;   // third corner of the triangle that runs the edge from low to high, or no_corner
+    uint down; // and of the one that runs it back
 };
+const uint no_corner = 0xffffffffu;
 layout(location = 12) uniform bool turned; // those quads that run down, wound as if they ran up
 layout(std430, binding = 2) readonly buffer Edges { Edge edges[]; };
 
@@ -17,8 +18,9 @@ void main() {
     Edge edge = edges[gl_VertexID / 6];
     vec3 low = position_of(edge.low);
     vec3 high = position_of(edge.high);
-    bool up = faces(low, high, position_of(edge.up), light);
-    bool down = faces(high, low, position_of(edge.down), light);
+    // A triangle that is missing never faces the light.
+    bool up = edge.up != no_corner && faces(low, high, position_of(edge.up), light);
+    bool down = edge.down != no_corner && faces(high, low, position_of(edge.down), light);
     // Low and high here and at infinity: 0, 1, 2, 3. Cut as raster/volume.cpp does.
     const int side[6] = int[](1, 0, 2, 1, 2, 3);
     int which = side[gl_VertexID % 6];

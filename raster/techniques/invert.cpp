@@ -22,6 +22,7 @@ Technique invert_technique() {
             .needs = "volumes that do not overlap",
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
                          Cause::open_mesh},
+            .by_nature = {Cause::parity},
             .run = run};
 }
 

@@ -10,7 +10,7 @@ namespace {
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene);
     recipe.extruder = by_half_edges;
-    recipe.counting.dark_cap = plan.dark_cap;
+    recipe.counting.dark_cap = plan.dark_cap || plan.hole_filling;
     recipe.counting.holes_filled = plan.hole_filling;
     return draw_stencil_shadows(gpu, scene, recipe);
 }

@@ -20,6 +20,7 @@ Technique zfail_no_dark_cap_technique() {
             .source = "what Everitt & Kilgard 2002 say is needed, left out",
             .needs = "rays that leave all volumes again",
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
+            .by_nature = {Cause::cap},
             .run = run};
 }
 

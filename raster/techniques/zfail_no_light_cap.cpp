@@ -21,6 +21,7 @@ Technique zfail_no_light_cap_technique() {
             .source = "what Everitt & Kilgard 2002 say is needed, left out",
             .needs = "rays that pass no light cap behind the surface",
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
+            .by_nature = {Cause::cap},
             .run = run};
 }
 

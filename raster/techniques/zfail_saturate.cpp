@@ -22,6 +22,7 @@ Technique zfail_saturate_technique() {
             .source = "Kilgard 2001, before EXT_stencil_wrap",
             .needs = "faces in an order that never counts below zero",
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .by_nature = {Cause::counter},
             .run = run};
 }
 

@@ -37,13 +37,16 @@ function assertSameReport(folder, whole) {
                      readFileSync(join(scratch, whole, file)), file);
 }
 
+const techniques = JSON.parse(shadowproof(['list', '--json']).out).techniques
+  .map(({ name }) => name);
+
 before(() => {
   verify('whole', 'near_plane', 'ordinary', ...size);
   verify('near', 'near_plane', ...size);
   verify('ordinary', 'ordinary', ...size);
   verify('pass', 'near_plane', 'ordinary', '--technique', 'zpass', ...size);
-  verify('fail', 'near_plane', 'ordinary', '--technique',
-         'zfail,zfail_clamp,zfail_infinite,zfail_reversed', ...size);
+  const others = techniques.filter((name) => name !== 'zpass').join(',');
+  verify('fail', 'near_plane', 'ordinary', '--technique', others, ...size);
 });
 
 test('shards by scene make the report of one whole run', () => {

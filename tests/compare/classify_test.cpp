@@ -65,24 +65,59 @@ std::uint64_t pixels_beyond(const Comparison& comparison, std::initializer_list<
     return beyond;
 }
 
-TEST_F(Classify, the_predicted_counter_is_read_back_at_every_pixel_outside_the_band) {
-    for (const BundledScene& scene : bundled_scenes())
-        for (const Technique& technique : all_techniques()) {
-            SCOPED_TRACE(std::string(technique.name) + " on " + std::string(scene.name));
-            const Comparison comparison = compare(std::string(scene.name), technique);
-            EXPECT_EQ(comparison.ledger.unexplained, 0U)
-                << "first at " << comparison.ledger.first_x << "," << comparison.ledger.first_y;
-            EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
-            EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
-                      comparison.cause.pixels.size());
-            // The band is narrow: 0.3 % of the pixels were the most that D24 was seen to need. Only
-            // where the light is in the plane of a seen face, a side of the volume lies in the face
-            // itself, and all pixels of the face are in the band: 1.8 % of the picture.
-            const bool in_plane = scene.name == "light_in_plane";
-            EXPECT_LT(comparison.ledger.in_band,
-                      comparison.cause.pixels.size() * (in_plane ? 20 : 3) / 1000);
-        }
+/// All techniques on one bundled scene: a test each, so that none takes long.
+class ClassifyScene : public Classify, public testing::WithParamInterface<std::string> {
+protected:
+    /// Of a thousand pixels, how many may lie in the band. 3 are the most that D24 was seen to
+    /// need.
+    static std::size_t widest_band(const std::string& scene, const Technique& technique) {
+        // The light is in the plane of a seen face: a side of the volume lies in the face itself.
+        if (scene == "light_in_plane") return 30;
+        // Filled T-junctions are slivers that lie in the faces.
+        if (scene == "t_junctions" && technique.name == "zfail_half_edge") return 60;
+        return 3;
+    }
+};
+
+TEST_P(ClassifyScene, the_predicted_counter_is_read_back_at_every_pixel_outside_the_band) {
+    for (const Technique& technique : all_techniques()) {
+        SCOPED_TRACE(technique.name);
+        const Comparison comparison = compare(GetParam(), technique);
+        EXPECT_EQ(comparison.ledger.unexplained, 0U)
+            << "first at " << comparison.ledger.first_x << "," << comparison.ledger.first_y;
+        EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
+        EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
+                  comparison.cause.pixels.size());
+        EXPECT_LT(comparison.ledger.in_band,
+                  comparison.cause.pixels.size() * widest_band(GetParam(), technique) / 1000);
+    }
 }
+
+TEST_P(ClassifyScene,
+       the_robust_techniques_differ_by_edge_and_precision_and_else_only_as_provoked) {
+    for (const char* technique : {"zfail_clamp", "zfail_infinite", "zfail_reversed",
+                                  "zfail_half_edge", "zfail_degenerate_quads",
+                                  "zfail_geometry_shader", "zfail_per_triangle", "zpass_capped"}) {
+        SCOPED_TRACE(technique);
+        const Comparison comparison = compare(GetParam(), technique);
+        std::uint64_t beyond = pixels_beyond(comparison, {Cause::edge, Cause::precision});
+        for (const Cause cause : load_scene(GetParam(), {}).provokes)
+            if (cause == Cause::counter || cause == Cause::open_mesh)
+                beyond -= pixels_of(comparison, cause);
+        EXPECT_EQ(beyond, 0U);
+        if (technique == std::string("zfail_reversed"))
+            EXPECT_LE(pixels_of(comparison, Cause::precision), 10U);
+    }
+}
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, ClassifyScene, testing::ValuesIn(scene_names()),
+                         [](const auto& scene) { return scene.param; });
 
 TEST_F(Classify, zpass_miscounts_where_the_near_plane_is_inside_a_volume_and_zfail_does_not) {
     EXPECT_GT(pixels_of(compare("near_plane", "zpass"), Cause::near_plane), 1000U);
@@ -99,23 +134,6 @@ TEST_F(Classify, zpass_miscounts_where_the_eye_is_inside_a_volume_and_zfail_does
 TEST_F(Classify, zfail_miscounts_where_the_far_plane_cuts_a_volume_and_zpass_does_not) {
     EXPECT_GT(pixels_of(compare("far_plane", "zfail"), Cause::far_plane), 1000U);
     EXPECT_EQ(pixels_beyond(compare("far_plane", "zpass"), {Cause::edge, Cause::precision}), 0U);
-}
-
-TEST_F(Classify, the_robust_techniques_differ_by_edge_and_precision_and_else_only_as_provoked) {
-    std::uint64_t reversed_precision = 0;
-    for (const BundledScene& scene : bundled_scenes())
-        for (const char* technique : {"zfail_clamp", "zfail_infinite", "zfail_reversed"}) {
-            SCOPED_TRACE(std::string(technique) + " on " + std::string(scene.name));
-            const Comparison comparison = compare(std::string(scene.name), technique);
-            std::uint64_t beyond = pixels_beyond(comparison, {Cause::edge, Cause::precision});
-            for (const Cause cause : load_scene(std::string(scene.name), {}).provokes)
-                if (cause == Cause::counter || cause == Cause::open_mesh)
-                    beyond -= pixels_of(comparison, cause);
-            EXPECT_EQ(beyond, 0U);
-            if (technique == std::string("zfail_reversed"))
-                reversed_precision += pixels_of(comparison, Cause::precision);
-        }
-    EXPECT_LE(reversed_precision, 10U);
 }
 
 TEST_F(Classify, every_pixel_counted_by_cause_is_marked_in_the_cause_map) {
@@ -145,10 +163,11 @@ TEST_P(ClassifyFault, is_caught_and_its_right_twin_is_not) {
         if (technique.name == GetParam().fault) faulty = &technique;
     ASSERT_NE(faulty, nullptr);
     const Scene& scene = traced(GetParam().scene).scene;
-    const Verdict verdict = judge(scene, faulty->fails_at, compare(GetParam().scene, *faulty));
+    const Verdict verdict = judge(scene, faulty->fails_at, {}, compare(GetParam().scene, *faulty));
     EXPECT_TRUE(verdict == Verdict::defect || verdict == Verdict::unexplained) << name_of(verdict);
     for (const Technique& right : all_techniques()) {
-        const Verdict unharmed = judge(scene, right.fails_at, compare(GetParam().scene, right));
+        const Verdict unharmed =
+            judge(scene, right.fails_at, right.by_nature, compare(GetParam().scene, right));
         EXPECT_TRUE(unharmed == Verdict::agrees || unharmed == Verdict::fails_as_predicted)
             << right.name << " " << name_of(unharmed);
     }

@@ -21,37 +21,37 @@ Scene declaring(std::vector<Cause> provokes) {
 const std::vector<Cause> zpass_fails_at{Cause::near_plane, Cause::precision};
 
 TEST(Verdict, edge_pixels_alone_agree) {
-    EXPECT_EQ(judge(declaring({}), zpass_fails_at, with({Cause::edge})), Verdict::agrees);
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::edge})), Verdict::agrees);
 }
 
 TEST(Verdict, a_known_failing_that_the_scene_provokes_is_as_predicted) {
-    EXPECT_EQ(judge(declaring({Cause::near_plane}), zpass_fails_at, with({Cause::near_plane})),
+    EXPECT_EQ(judge(declaring({Cause::near_plane}), zpass_fails_at, {}, with({Cause::near_plane})),
               Verdict::fails_as_predicted);
 }
 
 TEST(Verdict, a_known_failing_that_the_scene_does_not_provoke_is_a_defect) {
-    EXPECT_EQ(judge(declaring({}), zpass_fails_at, with({Cause::near_plane})), Verdict::defect);
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::near_plane})), Verdict::defect);
 }
 
 TEST(Verdict, a_failing_that_the_technique_is_not_known_for_is_a_defect) {
-    EXPECT_EQ(judge(declaring({Cause::far_plane}), zpass_fails_at, with({Cause::far_plane})),
+    EXPECT_EQ(judge(declaring({Cause::far_plane}), zpass_fails_at, {}, with({Cause::far_plane})),
               Verdict::defect);
 }
 
 TEST(Verdict, a_scene_that_declares_nothing_may_provoke_any_known_failing_but_no_other) {
-    EXPECT_EQ(judge(Scene{}, zpass_fails_at, with({Cause::near_plane})),
+    EXPECT_EQ(judge(Scene{}, zpass_fails_at, {}, with({Cause::near_plane})),
               Verdict::fails_as_predicted);
-    EXPECT_EQ(judge(Scene{}, zpass_fails_at, with({Cause::cap})), Verdict::defect);
+    EXPECT_EQ(judge(Scene{}, zpass_fails_at, {}, with({Cause::cap})), Verdict::defect);
 }
 
 TEST(Verdict, precision_needs_a_technique_that_is_known_for_it_and_no_scene_that_declares_it) {
-    EXPECT_EQ(judge(declaring({}), zpass_fails_at, with({Cause::precision})),
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::precision})),
               Verdict::fails_as_predicted);
-    EXPECT_EQ(judge(declaring({}), {}, with({Cause::precision})), Verdict::defect);
+    EXPECT_EQ(judge(declaring({}), {}, {}, with({Cause::precision})), Verdict::defect);
 }
 
 TEST(Verdict, an_unexplained_pixel_outweighs_everything) {
-    EXPECT_EQ(judge(declaring({Cause::near_plane}), zpass_fails_at,
+    EXPECT_EQ(judge(declaring({Cause::near_plane}), zpass_fails_at, {},
                     with({Cause::near_plane, Cause::unexplained})),
               Verdict::unexplained);
 }
@@ -59,7 +59,7 @@ TEST(Verdict, an_unexplained_pixel_outweighs_everything) {
 TEST(Verdict, a_counter_that_was_not_predicted_is_unexplained_though_every_claim_is_right) {
     Comparison comparison;
     comparison.ledger.unexplained = 1;
-    EXPECT_EQ(judge(declaring({}), zpass_fails_at, comparison), Verdict::unexplained);
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, comparison), Verdict::unexplained);
 }
 
 TEST(Verdict, a_scene_that_stops_provoking_what_it_declares_is_named) {

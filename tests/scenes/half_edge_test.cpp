@@ -17,10 +17,6 @@ using test::all_triangles;
 using test::cube;
 using test::soup;
 
-HalfEdgeMesh connect_all(const Scene& scene) {
-    return connect(scene, weld_by_position(scene.positions), all_triangles(scene));
-}
-
 Scene soup_of(const author::Shape& shape) {
     return soup({shape.vertices.begin(), shape.vertices.end()}, shape.triangles);
 }

@@ -46,8 +46,8 @@ Stage nested() {
 
 /// Three coins hang so that their shadows make a Venn diagram on the floor.
 Stage overlapping() {
-    Stage stage = looking_along_floor("overlapping",
-                                      "The shadows of three coins overlap by twos and by threes.");
+    Stage stage = looking_along_floor(
+        "overlapping", "The shadows of three coins overlap by twos and by threes.", {"parity"});
     struct Coin {
         const char* name;
         glm::dvec3 color;

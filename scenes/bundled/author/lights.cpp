@@ -88,7 +88,8 @@ Stage light_in_plane() {
 Stage long_shadow() {
     Stage stage = looking_along_floor("long_shadow",
                                       "Under a low light the shadows are longer than the radius "
-                                      "of the scene.");
+                                      "of the scene.",
+                                      {"extrusion"});
     constexpr double heading = 0.6131; // radians from the x axis towards -z
     const auto along = [&](double x, double y, double z) {
         return glm::dvec3(x * std::cos(heading) + z * std::sin(heading), y,

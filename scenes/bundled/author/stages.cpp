@@ -54,7 +54,7 @@ Stage near_plane() {
 Stage far_plane() {
     Stage stage = looking_along_floor(
         "far_plane", "Shadows run out through the far plane behind surfaces that are lit.",
-        {"far_plane"});
+        {"far_plane", "cap"});
     constexpr int stones = 5;
     for (int i = 0; i < stones; ++i) {
         const double angle = 0.413 + 0.587 * i; // radians, an arc open to the eye

@@ -1,0 +1,44 @@
+// Five ways to make the same volumes.
+#include "raster/render.h"
+#include "scenes/catalog.h"
+#include "scenes/topology.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace shadowproof::tests {
+namespace {
+
+class Ways : public testing::TestWithParam<std::string> {};
+
+TEST_P(Ways, all_give_the_same_stencil_bit_for_bit_where_every_caster_is_closed) {
+    const Scene scene = load_scene(GetParam(), {.width = 384, .height = 384});
+    const Plan plan = make_plan(scene);
+    if (plan.hole_filling) GTEST_SKIP() << "has an open caster";
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame expected = render(*find_technique("zfail_reversed"), scene, plan, gpu);
+    EXPECT_TRUE(
+        std::ranges::any_of(expected.stencil.pixels, [](auto count) { return count != 0; }));
+    for (const char* technique : {"zfail_half_edge", "zfail_degenerate_quads",
+                                  "zfail_geometry_shader", "zfail_per_triangle"}) {
+        SCOPED_TRACE(technique);
+        const Frame frame = render(*find_technique(technique), scene, plan, gpu);
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < frame.stencil.pixels.size(); ++i)
+            differing += frame.stencil.pixels[i] != expected.stencil.pixels[i] ? 1U : 0U;
+        EXPECT_EQ(differing, 0U);
+    }
+}
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, Ways, testing::ValuesIn(scene_names()),
+                         [](const auto& scene) { return scene.param; });
+
+} // namespace
+} // namespace shadowproof::tests
