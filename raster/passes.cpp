@@ -214,8 +214,10 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
 }
 
 Program link_projection(const GlFunctions& gl, std::string_view fragment,
-                        const ClipTransform& transform, const Geometry& geometry) {
-    Program program = link_files(gl, {"project.vert", fragment});
+                        const ClipTransform& transform, const Geometry& geometry, Between between) {
+    Program program = between == Between::geometry_shader
+                          ? link_files(gl, {"project.vert", "surface.geom", fragment})
+                          : link_files(gl, {"project.vert", fragment});
     set_transform(gl, program, transform);
     gl.ProgramUniform1i(program.name(), 5,
                         geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
@@ -224,8 +226,8 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
 }
 
 Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
-                   const Geometry& geometry) {
-    Program program = link_projection(gl, "light.frag", transform, geometry);
+                   const Geometry& geometry, Between between) {
+    Program program = link_projection(gl, "light.frag", transform, geometry, between);
     const Light& light = chosen_light(scene);
     const bool spot = light.kind == Light::Kind::spot;
     const glm::vec3 axis(light.direction);

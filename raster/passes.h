@@ -83,13 +83,17 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
 /// Sets the uniforms that all vertex shaders share which transform as project.vert does.
 void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform);
 
+/// What stands between a program's vertices and its fragments.
+enum class Between : std::uint8_t { nothing, geometry_shader };
+
 /// project.vert and light.frag, with the cone of a spot light.
 Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
-                   const Geometry& geometry);
+                   const Geometry& geometry, Between between);
 
 /// project.vert and a fragment shader, with the scene's vertices under the transform.
 Program link_projection(const GlFunctions& gl, std::string_view fragment,
-                        const ClipTransform& transform, const Geometry& geometry);
+                        const ClipTransform& transform, const Geometry& geometry,
+                        Between between = Between::nothing);
 
 void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
                     std::uint32_t first, std::uint32_t count);

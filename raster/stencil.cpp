@@ -132,8 +132,8 @@ struct Frames {
                               ? extruded_positions(drawn, with.counting.extrusion)
                               : std::vector<glm::vec3>{})),
           transform(clip_transform(drawn, with.depth_model)),
-          surface(link_projection(gl, "surface.frag", transform, geometry)),
-          light(link_light(gl, drawn, transform, geometry)),
+          surface(link_projection(gl, "surface.frag", transform, geometry, between(with))),
+          light(link_light(gl, drawn, transform, geometry, between(with))),
           volumes(with.near_plane == NearPlane::capped
                       ? make_capped_pass(gl, casters, geometry, transform, with.depth_model)
                       : make_volume_pass(gl, casters, geometry, transform, with.counting,
@@ -144,6 +144,11 @@ struct Frames {
     }
     Frames(const Frames&) = delete;
     Frames& operator=(const Frames&) = delete;
+
+    static Between between(const StencilRecipe& recipe) {
+        return recipe.making == VolumeMaking::geometry_shader ? Between::geometry_shader
+                                                              : Between::nothing;
+    }
 
     void update() {
         volumes.update();

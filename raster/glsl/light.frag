@@ -9,7 +9,7 @@ layout(location = 7) uniform uint first_side; // of this draw call
 layout(location = 13) uniform vec3 cone_axis;
 layout(location = 14) uniform float cone_cosine; // below -1: the light shines everywhere
 
-in vec3 from_light;
+in Surface { vec3 from_light; } surface;
 
 layout(location = 0) out float claim;
 
@@ -17,6 +17,6 @@ void main() {
     uint seen = texelFetch(seen_triangle, ivec2(gl_FragCoord.xy), 0).r;
     if (seen != triangle_drawn[first_side + gl_PrimitiveID]) discard;
     // A spot lights what lies within its outer cone.
-    if (dot(from_light, cone_axis) < cone_cosine * length(from_light)) discard;
+    if (dot(surface.from_light, cone_axis) < cone_cosine * length(surface.from_light)) discard;
     claim = 1;
 }

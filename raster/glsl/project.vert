@@ -13,14 +13,16 @@ layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 layout(location = 5) uniform int finite_vertices;
 
-out vec3 from_light; // of the scene's vertices; zero minus the direction where w = 0
+out Surface {
+    vec3 from_light; // of the scene's vertices; zero minus the direction where w = 0
+} surface;
 
 invariant gl_Position;
 
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
-    from_light = away;
+    surface.from_light = away;
     gl_Position =
         clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, 0));
 }

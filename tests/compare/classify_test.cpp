@@ -105,8 +105,9 @@ TEST_P(ClassifyScene,
             if (cause == Cause::counter || cause == Cause::open_mesh)
                 beyond -= pixels_of(comparison, cause);
         EXPECT_EQ(beyond, 0U);
-        if (technique == std::string("zfail_reversed"))
+        if (technique == std::string("zfail_reversed")) {
             EXPECT_LE(pixels_of(comparison, Cause::precision), 10U);
+        }
     }
 }
 

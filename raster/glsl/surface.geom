@@ -1,0 +1,22 @@
+#version 450 core
+// Surfaces on the way that a geometry shader's volumes take. Behind a geometry shader the driver may
+// round the viewport transform otherwise than behind a vertex shader (llvmpipe does where half the
+// picture's width is no power of two), and a light cap must have its surface's depth bit for bit.
+
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+
+in Surface { vec3 from_light; } corner[];
+out Surface { vec3 from_light; } surface;
+
+invariant gl_Position;
+
+void main() {
+    for (int k = 0; k < 3; ++k) {
+        gl_Position = gl_in[k].gl_Position;
+        gl_PrimitiveID = gl_PrimitiveIDIn;
+        surface.from_light = corner[k].from_light;
+        EmitVertex();
+    }
+    EndPrimitive();
+}
