@@ -103,6 +103,8 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
     const bool depth_pass = technique.counting.test == Counting::Test::depth_pass;
     Json json{{"name", technique.name},
               {"test", depth_pass ? "depth_pass" : "depth_fail"},
+              {"operation", name_of(technique.counting.operation)},
+              {"start", technique.start},
               {"predicted", technique.predicted},
               {"stored", technique.stored},
               {"read_back", technique.read_back},
@@ -174,6 +176,8 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
     TechniqueAtPixel technique;
     technique.name = std::move(name);
     technique.counting = frame.counting;
+    technique.start =
+        start_of(frame.counting, prediction.depths().at_eye, prediction.depths().at_near.at(x, y));
     technique.predicted = prediction.counts().at(x, y);
     technique.stored = comparison.predicted.at(x, y);
     technique.read_back = frame.stencil.at(x, y);

@@ -18,6 +18,7 @@ struct TechniqueAtPixel {
     std::string name;
     std::string error; ///< not empty: it could not run; the rest is then meaningless
     Counting counting;
+    std::int64_t start = 0;     ///< the counter before any face
     std::int64_t predicted = 0; ///< the counter before wrapping
     int stored = 0;             ///< as the stencil buffer ought to hold it
     int read_back = 0;

@@ -79,6 +79,8 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
     const Json header{
         {"counting",
          {{"test", counting.test == Counting::Test::depth_pass ? "depth_pass" : "depth_fail"},
+          {"operation", name_of(counting.operation)},
+          {"start", name_of(counting.start)},
           {"depth_clamp", counting.depth_clamp},
           {"light_cap", counting.light_cap},
           {"dark_cap", counting.dark_cap},

@@ -50,6 +50,30 @@ double depth_of_seen(const Scene& scene, std::uint32_t seen, const glm::dvec3& d
 
 } // namespace
 
+std::string_view name_of(Counting::Operation operation) {
+    switch (operation) {
+    case Counting::Operation::wrap:
+        break;
+    case Counting::Operation::saturate:
+        return "saturate";
+    case Counting::Operation::invert:
+        return "invert";
+    }
+    return "wrap";
+}
+
+std::string_view name_of(Counting::Start start) {
+    switch (start) {
+    case Counting::Start::zero:
+        break;
+    case Counting::Start::eye:
+        return "eye";
+    case Counting::Start::near_plane:
+        return "near_plane";
+    }
+    return "zero";
+}
+
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near) {
     switch (counting.start) {
     case Counting::Start::zero:

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof {
@@ -21,6 +22,9 @@ struct CountedRay {
     std::int32_t at_near = 0;
     std::int32_t at_infinity = 0;
 };
+
+std::string_view name_of(Counting::Operation operation); ///< "wrap"
+std::string_view name_of(Counting::Start start);         ///< "near_plane"
 
 /// What the counter holds before the first face.
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);

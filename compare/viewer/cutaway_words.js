@@ -27,7 +27,7 @@ var cutawayWords = (function () {
 
   /** "counted +1 -1 = 0; read back 0: claims lit". */
   function sentenceOf(record, technique) {
-    var terms = [], sum = 0, up = 0, down = 0;
+    var terms = [], sum = technique.start || 0, up = 0, down = 0;
     record.crossings.forEach(function (crossing, i) {
       if (technique.statuses[i] !== 'counted') return;
       var value = contribution(technique, crossing);
@@ -41,11 +41,16 @@ var cutawayWords = (function () {
       terms.push('dark caps ' + signed(record.inside.infinity));
       sum += record.inside.infinity;
     }
+    if (technique.start) terms.unshift('from ' + technique.start + ':');
     var text = terms.length === 0 ? 'Counted nothing: 0' :
       'Counted ' + terms.join(' ') + (terms.length > 1 || sum > 1 || sum < -1 || up + down > 1
         ? ' = ' + signed(sum) : '');
     if (sum !== technique.predicted)
-      text += '; the exact count is ' + signed(technique.predicted);
+      text += technique.operation === 'saturate'
+        ? '; step by step, never below 0 nor above 255, it is ' + signed(technique.predicted)
+        : '; the exact count is ' + signed(technique.predicted);
+    if (technique.operation === 'invert')
+      text += ', which is ' + (technique.predicted % 2 ? 'odd' : 'even');
     if (technique.stored !== technique.predicted) text += ', stored as ' + technique.stored;
     text += '; read back ' + technique.read_back +
       (technique.read_back === technique.stored ? '' : ', not ' + technique.stored) +

@@ -49,7 +49,7 @@ const countedAs = (technique, change) => (technique.test === 'depth_fail' ? -cha
 function ledgerRows(record) {
   const [technique] = record.techniques;
   let inside = record.inside.eye;
-  let running = 0;
+  let running = technique.start;
   const rows = record.crossings.map((crossing, i) => {
     const status = technique.statuses[i];
     const isCounted = status === 'counted';
@@ -91,7 +91,7 @@ function ledgerTable(record) {
   const body = element('tbody', {},
     element('tr', { class: 'from' }, element('td', { class: 'number' }, 'eye'), element('td', {}),
             element('td', { class: 'number' }, String(record.inside.eye)), element('td', {}),
-            element('td', {}), element('td', { class: 'number' }, '0')),
+            element('td', {}), element('td', { class: 'number' }, String(record.techniques[0].start))),
     rows, darkCapRow(record, running) ?? '');
   const all = hidden.length === 0 ? null
     : button('all-crossings', `Show ${grouped(hidden.length)} more crossings`, (event) => {

@@ -165,6 +165,8 @@ function pixelRecord(opened, x, y) {
     inside, crossings, adds_up: blocks.ledger_exact[ledger] === 1,
     techniques: [{
       name: cell.name, test: cellFile.counting.test,
+      operation: cellFile.counting.operation,
+      start: { zero: 0, eye: inside.eye, near_plane: inside.near }[cellFile.counting.start],
       predicted: blocks.ledger_predicted[ledger],
       stored: blocks.predicted[pixel], read_back: blocks.read_back[pixel],
       claim: visibilityNames[blocks.claim[pixel]],
