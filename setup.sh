@@ -30,8 +30,9 @@ command -v dpkg-query >/dev/null || {
 }
 missing=()
 for package in "${wanted[@]}"; do
-    state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
-    [ "$state" = installed ] || missing+=("$package")
+    # A package that dpkg has never heard of prints nothing, and is missing too.
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+        missing+=("$package")
 done
 
 if [ ${#missing[@]} -gt 0 ]; then

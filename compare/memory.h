@@ -6,6 +6,9 @@
 
 namespace shadowproof {
 
+/// What is said where memory runs out all the same.
+inline constexpr const char* out_of_memory = "there is not enough memory; try a smaller --size";
+
 /// Bytes a pixel of the truth alone.
 std::size_t truth_bytes();
 /// Bytes a pixel of truth and shadow depths, of the technique that is being drawn, and of so many

@@ -84,8 +84,7 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, cons
         return technique_at(record, prediction, std::string(technique.name), frame,
                             classify(tracer, silhouette, truth, depths, frame, prediction));
     } catch (const std::bad_alloc&) {
-        return failed(std::string(technique.name) +
-                      ": there is not enough memory; try a smaller --size");
+        return failed(std::string(technique.name) + ": " + out_of_memory);
     } catch (const std::runtime_error& error) {
         return failed(error.what());
     }

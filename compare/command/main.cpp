@@ -1,5 +1,6 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/memory.h"
 #include "compare/unfinished.h"
 #include "reference/trace.h"
 
@@ -77,7 +78,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const std::bad_alloc&) {
-        complain("there is not enough memory; try a smaller --size");
+        complain(out_of_memory);
     } catch (const std::exception& error) {
         complain(error.what());
     }

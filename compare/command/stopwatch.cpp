@@ -10,20 +10,23 @@
 
 namespace shadowproof {
 
-double milliseconds_since_start_of_process() {
+std::optional<double> milliseconds_since_start_of_process() {
     std::ifstream file("/proc/self/stat");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     // The second field is the program's name in parentheses, and may hold spaces itself.
     std::istringstream fields(text.substr(text.rfind(')') + 1));
     std::string skipped;
     for (int field = 3; field < 22; ++field) fields >> skipped;
-    long long start = 0; // ticks
-    fields >> start;
-    timespec now{};
-    clock_gettime(CLOCK_BOOTTIME, &now);
-    const double seconds =
-        static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-    return 1e3 * (seconds - static_cast<double>(start) / static_cast<double>(sysconf(_SC_CLK_TCK)));
+    double ticks = 0;
+    if (!(fields >> ticks)) return std::nullopt;
+    timespec boot{};
+    clock_gettime(CLOCK_BOOTTIME, &boot);
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    const Milliseconds now =
+        std::chrono::seconds(boot.tv_sec) + std::chrono::nanoseconds(boot.tv_nsec);
+    const Milliseconds start =
+        std::chrono::duration<double>(ticks / static_cast<double>(sysconf(_SC_CLK_TCK)));
+    return (now - start).count();
 }
 
 } // namespace shadowproof

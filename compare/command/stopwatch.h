@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 
 namespace shadowproof {
 
@@ -17,7 +18,8 @@ private:
 };
 
 /// Since this process was started, loading its libraries included: what a person has waited. Linux
-/// notes the start in clock ticks since boot (proc(5), field 22), so to within 10 ms.
-double milliseconds_since_start_of_process();
+/// notes the start in clock ticks since boot (proc(5), field 22), so to within 10 ms. Nothing where
+/// /proc is not mounted.
+std::optional<double> milliseconds_since_start_of_process();
 
 } // namespace shadowproof

@@ -79,7 +79,7 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
     } catch (const std::bad_alloc&) {
         cell.frame = {};
         cell.comparison = {};
-        cell.error = cell.technique + ": there is not enough memory; try a smaller --size";
+        cell.error = cell.technique + ": " + out_of_memory;
     } catch (const Error& error) {
         cell.error = error.what();
     }
@@ -200,7 +200,7 @@ void attempt(const Run& run, SceneResult& result, const Work& work) {
     try {
         work();
     } catch (const std::bad_alloc&) {
-        result.error = result.argument + ": there is not enough memory; try a smaller --size";
+        result.error = result.argument + ": " + out_of_memory;
     } catch (const Error& error) {
         result.error = error.what();
     }
@@ -261,6 +261,7 @@ Report begin_report(const VerifyOptions& options, const Gpu& gpu) {
 }
 
 int verify(const VerifyOptions& options) {
+    const Stopwatch stopwatch;
     const std::string started = timestamp_now();
     Console console(options.output.quiet);
     // What cannot be read or written is refused before the work is done, not after.
@@ -282,7 +283,7 @@ int verify(const VerifyOptions& options) {
         report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
                                    notes_on(*baseline, report)};
     report.passed = passes(report);
-    report.milliseconds = milliseconds_since_start_of_process();
+    report.milliseconds = milliseconds_since_start_of_process().value_or(stopwatch.milliseconds());
     folder.finish(report);
     return conclude(console, report, options.output, started);
 }
