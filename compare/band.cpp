@@ -59,7 +59,8 @@ double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const 
 
 // Window depth z is rounded at 1/w, z/w, the viewport's sum (its product is by a power of two), and
 // at the pixel in two products and two sums of its plane: 7 times by at most v z, where z = 1 is
-// the largest standard depth and z = n/t the reversed one. Storing it in fixed point rounds once
+// the largest standard depth and z = n/t the reversed one (where that is finite, a difference of
+// terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
 // more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
 // are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
 // lateral_freedom), which 8 covers too. (The plane's slope is computed from its
@@ -69,9 +70,8 @@ double depth_freedom(const Scene& scene, const DepthModel& depth_model, const gl
     const double near = depth_model.near;
     const double far = depth_model.far;
     double window_depth_error = t * t / near; // dt/dz times z, projection infinite
-    if (depth_model.projection == DepthModel::Projection::finite)
-        window_depth_error = t * t * (far - near) / (far * near);
-    if (depth_model.projection == DepthModel::Projection::infinite_reversed) window_depth_error = t;
+    if (depth_model.finite()) window_depth_error = t * t * (far - near) / (far * near);
+    if (depth_model.reversed()) window_depth_error = t;
     return depth_roundings * (window_depth_error + transform_terms(scene, depth_model, point));
 }
 
@@ -343,15 +343,15 @@ private:
     /// Faces that are drawn, neither clipped nor on the wrong side of the surface for certain.
     std::vector<Candidate> candidates(const glm::dvec3& direction, int move) const {
         const Counting& counting = frame_.counting;
-        const bool pass = counting.test == Counting::Test::depth_pass;
-        const bool clips_far = frame_.depth_model.projection == DepthModel::Projection::finite &&
-                               !counting.depth_clamp;
+        const bool clips_far = frame_.depth_model.finite() && !counting.depth_clamp;
         const double near = clip_depth(scene_.camera.near, move);
         const double far = clips_far ? clip_depth(far_, move) : infinity;
         std::vector<Candidate> found;
         for (const Crossing& crossing : crossings_) {
-            if (crossing.part == Crossing::Part::light_cap && !counting.light_cap) continue;
-            if (crossing.part == Crossing::Part::dark_cap && !counting.dark_cap) continue;
+            const Counting::Caster caster = counting.caster(crossing.triangle);
+            const bool pass = caster.test == Counting::Test::depth_pass;
+            if (crossing.part == Crossing::Part::light_cap && !caster.light_cap) continue;
+            if (crossing.part == Crossing::Part::dark_cap && !caster.dark_cap) continue;
             if (!counting.depth_clamp && crossing.depth < near) continue;
             if (!pass && crossing.depth >= far) continue;
             const bool behind = is_never_in_front(crossing);
@@ -367,9 +367,7 @@ private:
 
     std::int64_t dark_caps() const {
         if (tally_of_dark_caps(frame_.counting, frame_.depth_model) != Tally::counted) return 0;
-        std::int64_t s = volumes_.counted_at_eye;
-        for (const Crossing& crossing : crossings_) s += crossing.change;
-        return s;
+        return dark_caps_at_infinity(frame_.counting, volumes_.counted_at_eye, crossings_);
     }
 
     /// Readings with the clipping planes moved.
@@ -402,7 +400,6 @@ private:
     /// All values that the counter may have with uncertain faces counted or not.
     std::vector<std::int64_t> possible_counts(const std::vector<Candidate>& faces,
                                               std::int64_t start, std::int64_t last) const {
-        const int sign = weight(frame_.counting);
         std::vector<Crossing> drawn;
         std::vector<Crossing> uncertain;
         for (const Candidate& face : faces) {
@@ -425,8 +422,10 @@ private:
         const std::int64_t certain = counted_in_order(drawn, start, last, frame_.counting);
         std::int64_t least = certain;
         std::int64_t most = certain;
-        for (const Crossing& crossing : uncertain)
-            (sign * crossing.change < 0 ? least : most) += sign * crossing.change;
+        for (const Crossing& crossing : uncertain) {
+            const int step = weight(frame_.counting, crossing) * crossing.change;
+            (step < 0 ? least : most) += step;
+        }
         for (std::int64_t count = least; count <= most; ++count) counts.push_back(count);
         return counts;
     }

@@ -31,11 +31,11 @@ struct Context {
     const Prediction& prediction;
     std::vector<std::uint8_t> receives; ///< a flag a triangle
 
-    std::int64_t stored(std::int64_t count) const {
+    std::uint32_t stored(std::int64_t count) const {
         return shadowproof::stored(count, frame.counting);
     }
     std::int64_t predicted(PixelPlace p) const { return prediction.counts().at(p.x, p.y); }
-    std::int64_t read_back(PixelPlace p) const { return frame.stencil.at(p.x, p.y); }
+    std::uint32_t read_back(PixelPlace p) const { return frame.counter.at(p.x, p.y); }
     bool surface_as_true(PixelPlace p) const {
         return frame.triangle.at(p.x, p.y) == truth.triangle.at(p.x, p.y);
     }
@@ -87,8 +87,7 @@ std::optional<Cause> algorithmic_cause(const Context& context, const Reading& re
     if (counting.holes_filled && reading.count != reading.ideal) return Cause::open_mesh;
     if (!counting.light_cap) return Cause::cap;
     if (counting.test == Counting::Test::depth_pass) return cause_at_near_plane(counting, reading);
-    const bool finite = context.frame.depth_model.projection == DepthModel::Projection::finite;
-    if (finite && !counting.depth_clamp) return Cause::far_plane;
+    if (context.frame.depth_model.finite() && !counting.depth_clamp) return Cause::far_plane;
     if (!counting.dark_cap) return Cause::cap;
     return std::nullopt;
 }
@@ -187,10 +186,13 @@ BandRadius band_radius(const Context& context, PixelPlace p, const glm::dvec3& d
     };
     const double surface = std::min(context.truth.depth.at(p.x, p.y), context.depths.far);
     double nearest = surface;
-    if (context.frame.counting.test == Counting::Test::depth_pass) {
+    const Counting& counting = context.frame.counting;
+    if (counting.test == Counting::Test::depth_pass || !counting.casters.empty()) {
         ledger.crossings(direction, crossings);
         for (const Crossing& crossing : crossings)
-            if (crossing.depth >= scene.camera.near) nearest = std::min(nearest, crossing.depth);
+            if (crossing.depth >= scene.camera.near &&
+                counting.caster(crossing.triangle).test == Counting::Test::depth_pass)
+                nearest = std::min(nearest, crossing.depth);
     }
     return {at(surface), at(nearest)};
 }
@@ -363,13 +365,12 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
     Comparison comparison;
     comparison.cause = Image<std::uint8_t>(width, height, no_difference);
     comparison.ledger_miss = Image<std::uint8_t>(width, height);
-    comparison.predicted = Image<std::uint8_t>(width, height);
+    comparison.predicted = Image<std::uint32_t>(width, height);
     std::vector<PixelPlace> open;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const PixelPlace p{x, y};
-            comparison.predicted.at(x, y) =
-                static_cast<std::uint8_t>(context.stored(context.predicted(p)));
+            comparison.predicted.at(x, y) = context.stored(context.predicted(p));
             std::optional<Cause> cause;
             if (!settled(context, p, cause)) {
                 open.push_back(p);

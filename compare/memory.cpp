@@ -28,7 +28,7 @@ constexpr std::size_t target_bytes = 1 + 4 + 4;
 std::size_t technique_bytes() {
     const Frame frame;
     const Comparison comparison;
-    return bytes_of(frame.claim, frame.stencil, frame.depth, frame.triangle) +
+    return bytes_of(frame.claim, frame.counter, frame.depth, frame.triangle) +
            bytes_of(comparison.cause, comparison.ledger_miss, comparison.predicted);
 }
 

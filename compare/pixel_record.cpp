@@ -100,9 +100,8 @@ Json crossing_json(const Scene& scene, const Crossing& crossing,
 
 Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
     if (!technique.error.empty()) return {{"name", technique.name}, {"error", technique.error}};
-    const bool depth_pass = technique.counting.test == Counting::Test::depth_pass;
     Json json{{"name", technique.name},
-              {"test", depth_pass ? "depth_pass" : "depth_fail"},
+              {"test", name_of(technique.counting.test)},
               {"operation", name_of(technique.counting.operation)},
               {"start", technique.start},
               {"predicted", technique.predicted},
@@ -113,8 +112,13 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
               {"cause", technique.cause == no_difference ? Json(nullptr)
                                                          : Json(all_causes[technique.cause].name)},
               {"statuses", Json::array()},
-              {"dark_cap", name_of(technique.dark_caps)}};
+              {"dark_cap", name_of(technique.dark_caps)},
+              {"dark_caps", technique.dark_cap_count}};
     for (const Tally tally : technique.tallies) json["statuses"].push_back(name_of(tally));
+    if (!technique.tests.empty()) {
+        json["tests"] = Json::array();
+        for (const Counting::Test test : technique.tests) json["tests"].push_back(name_of(test));
+    }
     if (!technique.crossings) return json;
     json["crossings"] = Json::array();
     for (const Crossing& crossing : *technique.crossings)
@@ -180,7 +184,7 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
         start_of(frame.counting, prediction.depths().at_eye, prediction.depths().at_near.at(x, y));
     technique.predicted = prediction.counts().at(x, y);
     technique.stored = comparison.predicted.at(x, y);
-    technique.read_back = frame.stencil.at(x, y);
+    technique.read_back = frame.counter.at(x, y);
     technique.claim = frame.claim.at(x, y);
     technique.shown = frame.triangle.at(x, y);
     technique.cause = comparison.cause.at(x, y);
@@ -191,10 +195,15 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
         technique.casters = volumes.casters();
         if (const std::vector<glm::vec3>* ends = volumes.far_ends()) technique.far_ends = *ends;
     }
+    if (!frame.counting.casters.empty())
+        for (const Crossing& crossing : crossings_of(record, technique))
+            technique.tests.push_back(frame.counting.caster(crossing.triangle).test);
     for (const Crossing& crossing : crossings_of(record, technique))
         technique.tallies.push_back(tally(crossing, record.ledger.surface, record.seen, record.far,
                                           frame.counting, frame.depth_model));
     technique.dark_caps = tally_of_dark_caps(frame.counting, frame.depth_model);
+    technique.dark_cap_count = dark_caps_at_infinity(
+        frame.counting, prediction.depths().at_eye, crossings_of(record, technique));
     return technique;
 }
 

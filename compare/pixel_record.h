@@ -20,8 +20,8 @@ struct TechniqueAtPixel {
     Counting counting;
     std::int64_t start = 0;     ///< the counter before any face
     std::int64_t predicted = 0; ///< the counter before wrapping
-    int stored = 0;             ///< as the stencil buffer ought to hold it
-    int read_back = 0;
+    std::uint32_t stored = 0;   ///< as the stencil buffer ought to hold it
+    std::uint32_t read_back = 0;
     Visibility claim = Visibility::background;
     std::uint32_t shown = no_triangle;  ///< the triangle read back
     std::uint8_t cause = no_difference; ///< Cause, or no_difference
@@ -31,7 +31,10 @@ struct TechniqueAtPixel {
     Scene casters;                   ///< of those volumes
     std::vector<glm::vec3> far_ends; ///< where the casters' positions lie once extruded
     std::vector<Tally> tallies;      ///< one a crossing
+    /// One a crossing, where the technique does not count all casters alike; else empty.
+    std::vector<Counting::Test> tests;
     Tally dark_caps = Tally::beyond;
+    std::int64_t dark_cap_count = 0; ///< at infinity
 };
 
 struct PixelRecord {

@@ -41,6 +41,8 @@ std::string_view name_of(DepthModel::Projection projection) {
     switch (projection) {
     case DepthModel::Projection::finite:
         return "finite";
+    case DepthModel::Projection::finite_reversed:
+        return "finite_reversed";
     case DepthModel::Projection::infinite:
         return "infinite";
     case DepthModel::Projection::infinite_reversed:
@@ -76,25 +78,30 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
     const Counting& counting = cell.frame.counting;
     const DepthModel& depth = cell.frame.depth_model;
     const bool finite = std::isfinite(depth.far);
-    const Json header{
+    Json header{
         {"counting",
-         {{"test", counting.test == Counting::Test::depth_pass ? "depth_pass" : "depth_fail"},
+         {{"test", name_of(counting.test)},
           {"operation", name_of(counting.operation)},
           {"start", name_of(counting.start)},
           {"depth_clamp", counting.depth_clamp},
           {"light_cap", counting.light_cap},
           {"dark_cap", counting.dark_cap},
-          {"stencil_bits", counting.stencil_bits}}},
+          {"bits", counting.bits}}},
         {"depth",
          {{"projection", name_of(depth.projection)},
           {"floating", depth.floating},
           {"near", depth.near},
           {"far", finite ? Json(depth.far) : Json(nullptr)}}}};
+    if (!counting.casters.empty()) {
+        Json& tests = header["counting"]["tests"] = Json::array(); // one a mesh
+        for (const Mesh& mesh : scene.meshes)
+            tests.push_back(name_of(counting.caster(mesh.first_triangle).test));
+    }
     const LedgerTable& ledgers = cell.ledgers;
     return script("cell", folder_of(scene) + "/" + cell.technique, header,
                   {{"claim", picture_block(cell.frame.claim)},
                    {"predicted", block(cell.comparison.predicted.pixels)},
-                   {"read_back", block(cell.frame.stencil.pixels)},
+                   {"read_back", block(cell.frame.counter.pixels)},
                    {"seen", block(ledgers.seen)},
                    {"shown", block(ledgers.shown)},
                    {"exactness", block(ledgers.exactness)},

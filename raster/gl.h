@@ -16,10 +16,12 @@ struct Platform; // platform.h
 // X(type of the pointer, name without "gl")
 #define SHADOWPROOF_GL_FUNCTIONS(X)                                                                \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                                         \
+    X(PFNGLBEGINQUERYPROC, BeginQuery)                                                             \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                                     \
     X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                   \
     X(PFNGLBINDTEXTUREUNITPROC, BindTextureUnit)                                                   \
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                   \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                                                               \
     X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)                           \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFIPROC, ClearNamedFramebufferfi)                                   \
     X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)                                   \
@@ -50,12 +52,14 @@ struct Platform; // platform.h
     X(PFNGLDRAWELEMENTSPROC, DrawElements)                                                         \
     X(PFNGLENABLEPROC, Enable)                                                                     \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib)                                   \
+    X(PFNGLENDQUERYPROC, EndQuery)                                                                 \
     X(PFNGLFINISHPROC, Finish)                                                                     \
     X(PFNGLFRONTFACEPROC, FrontFace)                                                               \
     X(PFNGLGETERRORPROC, GetError)                                                                 \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                                                           \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                                               \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                                         \
+    X(PFNGLGETQUERYOBJECTUI64VPROC, GetQueryObjectui64v)                                           \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                                                 \
     X(PFNGLGETSHADERIVPROC, GetShaderiv)                                                           \
     X(PFNGLGETSTRINGIPROC, GetStringi)                                                             \

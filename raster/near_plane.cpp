@@ -73,7 +73,10 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
         gl.UseProgram(made->cap_program.name());
         draw_triangles(gl, geometry, made->light_caps, 0, made->light_caps.count);
     };
-    return {.update = update, .draw = draw, .draw_turned = [] {}};
+    return {.update = update,
+            .draw = draw,
+            .draw_turned = [] {},
+            .programs = {made->cut_program.name(), made->cap_program.name()}};
 }
 
 namespace {
@@ -139,7 +142,10 @@ VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const G
         gl.Disable(GL_DEPTH_CLAMP);
         gl.Enable(GL_DEPTH_TEST);
     };
-    return {.update = update, .draw = draw, .draw_turned = [] {}};
+    return {.update = update,
+            .draw = draw,
+            .draw_turned = [] {},
+            .programs = {made->program.name()}};
 }
 
 } // namespace shadowproof

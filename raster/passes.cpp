@@ -42,6 +42,8 @@ glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
     switch (model.projection) {
     case DepthModel::Projection::finite:
         return clip_from_view_finite(camera, model.far);
+    case DepthModel::Projection::finite_reversed:
+        return clip_from_view_finite_reversed(camera, model.far);
     case DepthModel::Projection::infinite:
         return clip_from_view_infinite(camera);
     case DepthModel::Projection::infinite_reversed:
@@ -103,6 +105,32 @@ Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
     require_complete(gl, target.light);
     check(gl, "making the pictures");
     return target;
+}
+
+void add_sum(const GlFunctions& gl, Target& target) {
+    target.sum = make_picture(gl, GL_R32F, target.width, target.height);
+    target.adding = make_framebuffer(gl);
+    const GLuint framebuffer = target.adding.name();
+    gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.sum.name(), 0);
+    gl.NamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT,
+                               target.depth_stencil.name(), 0);
+    require_complete(gl, target.adding);
+}
+
+void begin_adding(const GlFunctions& gl, const Target& target) {
+    constexpr std::array<GLfloat, 4> nothing{0, 0, 0, 0};
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.ClearNamedFramebufferfv(target.adding.name(), GL_COLOR, 0, nothing.data());
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.adding.name());
+    gl.DepthMask(GL_FALSE);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.Disable(GL_CULL_FACE);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ONE, GL_ONE);
+}
+
+void end_adding(const GlFunctions& gl) {
+    gl.Disable(GL_BLEND);
 }
 
 ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
@@ -239,7 +267,7 @@ Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransfor
 
 void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
                  const DepthModel& depth_model, bool depth_clamp) {
-    const bool reversed = depth_model.projection == DepthModel::Projection::infinite_reversed;
+    const bool reversed = depth_model.reversed();
     gl.Viewport(0, 0, target.width, target.height);
     gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     set_enabled(gl, GL_DEPTH_CLAMP, depth_clamp);
@@ -272,7 +300,7 @@ void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Trian
 void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil) {
-    const bool reversed = depth_model.projection == DepthModel::Projection::infinite_reversed;
+    const bool reversed = depth_model.reversed();
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_TRUE);
     gl.StencilMask(~0U);
@@ -299,31 +327,35 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
 }
 
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
-                const Geometry& geometry) {
+                const Geometry& geometry, Counter counter) {
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_FALSE);
     gl.DepthFunc(GL_EQUAL);
     gl.Enable(GL_STENCIL_TEST);
     gl.StencilMask(0);
-    gl.StencilFunc(GL_EQUAL, 0, ~0U);
+    const bool stencil = counter == Counter::stencil;
+    gl.StencilFunc(stencil ? GL_EQUAL : GL_ALWAYS, 0, ~0U);
     gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     gl.Disable(GL_CULL_FACE); // a side that is culled in the surface pass is not the one seen
 
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
     gl.UseProgram(light.name());
     gl.BindTextureUnit(0, target.triangle.name());
+    gl.BindTextureUnit(1, target.sum.name());
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.lit_side_indices.name());
     const auto draw = [&](std::uint32_t first, std::uint32_t count) {
         gl.ProgramUniform1ui(light.name(), 7, first);
         draw_triangles(gl, geometry, geometry.lit_sides, first, count);
     };
+    gl.ProgramUniform1i(light.name(), 12, stencil ? 0 : 1);
     draw(0, geometry.receivers);
     gl.StencilFunc(GL_ALWAYS, 0, ~0U);
+    gl.ProgramUniform1i(light.name(), 12, 0);
     draw(geometry.receivers, geometry.lit_sides.count - geometry.receivers);
     check(gl, "the light pass");
 }
 
-Frame read_back(const GlFunctions& gl, const Target& target) {
+Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.surface.name());
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     Frame frame;
@@ -331,11 +363,24 @@ Frame read_back(const GlFunctions& gl, const Target& target) {
     frame.claim = read_picture<Visibility>(gl, target, GL_RED, GL_UNSIGNED_BYTE);
     gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT1);
     frame.triangle = read_picture<std::uint32_t>(gl, target, GL_RED_INTEGER, GL_UNSIGNED_INT);
-    frame.stencil = read_picture<std::uint8_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE);
     frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);
+    frame.counter =
+        counter == Counter::stencil
+            ? read_picture<std::uint32_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_INT)
+            : converted<std::uint32_t>(read_sum(gl, target), [](float sum) {
+                  return static_cast<std::uint32_t>(static_cast<std::int32_t>(sum)) & 0xffffffU;
+              });
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     check(gl, "reading back");
     return frame;
+}
+
+Image<float> read_sum(const GlFunctions& gl, const Target& target) {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.adding.name());
+    gl.NamedFramebufferReadBuffer(target.adding.name(), GL_COLOR_ATTACHMENT0);
+    Image<float> sum = read_picture<float>(gl, target, GL_RED, GL_FLOAT);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return sum;
 }
 
 } // namespace shadowproof

@@ -17,7 +17,7 @@
 
 namespace shadowproof {
 
-/// The pictures that the passes draw, of the camera's size.
+/// The pictures that the passes draw, of the camera's size. Only some techniques need the last two.
 struct Target {
     int width = 0;
     int height = 0;
@@ -26,8 +26,15 @@ struct Target {
     Texture depth_stencil; ///< D24 or D32F, and 8 bits
     Framebuffer surface;   ///< all three
     Framebuffer light;     ///< without `triangle`, which the light pass reads
+    Texture sum{};         ///< R32F: what faces are worth, added up; made by add_sum
+    Framebuffer adding{};  ///< `sum` and `depth_stencil`
 };
 Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
+void add_sum(const GlFunctions& gl, Target& target);
+
+/// Begins a pass whose faces' worth (volume.frag) is added up in `sum`, from zero on.
+void begin_adding(const GlFunctions& gl, const Target& target);
+void end_adding(const GlFunctions& gl);
 
 /// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
 /// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
@@ -117,12 +124,21 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 
-/// Draws the lit sides again where the depth is equal and the stencil zero, or where they show no
+/// Where faces are counted.
+enum class Counter : std::uint8_t {
+    stencil,
+    sum, ///< as colour, added up; exact to 24 bits
+};
+
+/// Draws the lit sides again where the depth is equal and the counter zero, or where they show no
 /// shadows: `lit`. Writes neither stencil nor depth.
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
-                const Geometry& geometry);
+                const Geometry& geometry, Counter counter);
 
 /// The pictures, rows from the top. Counting and depth model are left to the caller.
-Frame read_back(const GlFunctions& gl, const Target& target);
+Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
+
+/// What has been added up, rows from the top.
+Image<float> read_sum(const GlFunctions& gl, const Target& target);
 
 } // namespace shadowproof

@@ -1,28 +1,40 @@
 #include "raster/stencil.h"
 
+#include "raster/caster_parts.h"
+#include "raster/eye_count.h"
 #include "raster/near_cap.h"
 #include "raster/near_plane.h"
 #include "raster/shader.h"
-#include "raster/volume.h"
-#include "scenes/error.h"
+#include "raster/volume_measure.h"
 #include "scenes/extrusion.h"
-#include "scenes/holes.h"
 #include "scenes/plan.h"
 
-#include <array>
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <memory>
+#include <numeric>
 #include <optional>
 
 namespace shadowproof {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+/// What a face of a volume adds to the counter where its depth test comes out as counted: +1, -1.
+struct Steps {
+    int front = 0;
+    int back = 0;
+};
+
+/// In front of the surface, entering a volume counts; behind it, leaving one does.
+Steps steps_of(Counting::Test test) {
+    return test == Counting::Test::depth_pass ? Steps{+1, -1} : Steps{-1, +1};
+}
+
 GLenum operation(int step, Counting::Operation kind) {
-    assert(step >= -1 && step <= 1);
-    if (step == 0) return GL_KEEP;
     switch (kind) {
     case Counting::Operation::wrap:
         break;
@@ -34,26 +46,24 @@ GLenum operation(int step, Counting::Operation kind) {
     return step > 0 ? GL_INCR_WRAP : GL_DECR_WRAP;
 }
 
-/// State for counting. Strict depth tests: a light cap that coincides with the visible surface
-/// counts as behind it.
+/// State for counting in the stencil buffer. Strict depth tests: a light cap that coincides with
+/// the visible surface counts as behind it.
 void begin_counting(const GlFunctions& gl, const Target& target, const StencilRecipe& recipe) {
-    const bool reversed =
-        recipe.depth_model.projection == DepthModel::Projection::infinite_reversed;
-    const Counting& counting = recipe.counting;
     gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     gl.DepthMask(GL_FALSE);
-    gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
+    gl.DepthFunc(recipe.depth_model.reversed() ? GL_GREATER : GL_LESS);
     gl.Disable(GL_CULL_FACE);
     gl.Enable(GL_STENCIL_TEST);
-    gl.StencilMask((1U << static_cast<unsigned>(counting.stencil_bits)) - 1);
+    gl.StencilMask((1U << static_cast<unsigned>(recipe.counting.bits)) - 1);
     gl.StencilFunc(GL_ALWAYS, 0, ~0U);
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
 }
 
-void set_steps(const GlFunctions& gl, const Counting& counting, const StencilSteps& steps) {
+void set_steps(const GlFunctions& gl, Counting::Operation kind, Counting::Test test,
+               const Steps& steps) {
     const auto set = [&](GLenum face, int step) {
-        const GLenum counted = operation(step, counting.operation);
-        if (counting.test == Counting::Test::depth_pass)
+        const GLenum counted = operation(step, kind);
+        if (test == Counting::Test::depth_pass)
             gl.StencilOpSeparate(face, GL_KEEP, GL_KEEP, counted);
         else
             gl.StencilOpSeparate(face, GL_KEEP, counted, GL_KEEP);
@@ -68,64 +78,34 @@ VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) 
     VisibleDepths visible;
     const bool clamp = recipe.counting.depth_clamp;
     if (clamp) visible.near = static_cast<float>(camera.near);
-    if (clamp || recipe.depth_model.projection != DepthModel::Projection::finite)
+    if (clamp || !recipe.depth_model.finite())
         visible.far = static_cast<float>(camera.far);
     return visible;
 }
 
-/// Whether the way from a point to the light (l, w) meets a triangle that faces the light: the
-/// point lies behind the triangle, and on the inner side of the three planes through light and
-/// edges.
-bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec4& light,
-             const glm::dvec3& point) {
-    if (side(scene, triangle, glm::dvec4(point, 1)) >= 0) return false;
-    for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 a = corner(scene, triangle, k);
-        const glm::dvec3 b = corner(scene, triangle, (k + 1) % 3);
-        const glm::dvec3 plane = glm::cross(light.w * a - glm::dvec3(light), b - a);
-        if (glm::dot(plane, point - a) > 0) return false;
-    }
-    return true;
-}
-
-/// Volumes around the eye, by asking every triangle that faces the light.
-std::size_t volumes_around_eye(const Scene& scene) {
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
-    std::size_t count = 0;
-    for (const std::uint32_t triangle : triangles_facing_light(scene))
-        count += shadows(scene, triangle, light, scene.camera.eye) ? 1U : 0U;
-    return count;
-}
-
-/// The scene without what casts no shadow, its holes filled where the recipe asks for it.
-Scene casters_of(const Scene& scene, const Counting& counting) {
-    Scene casters = counting.holes_filled ? with_holes_filled(scene) : scene;
-    const std::vector<std::uint8_t> casts = casting_triangles(casters);
-    std::size_t kept = 0;
-    for (std::size_t triangle = 0; triangle < casts.size(); ++triangle)
-        if (casts[triangle] != 0) casters.triangles[kept++] = casters.triangles[triangle];
-    casters.triangles.resize(kept);
-    casters.meshes.clear(); // they no longer say which triangles are whose
-    return casters;
-}
+/// Casters that are counted alike, ready to be drawn.
+struct Part {
+    Counting::Caster caster;
+    Scene casters;
+    VolumePass volumes{};
+};
 
 /// What the passes of one frame draw with.
 struct Frames {
     const GlFunctions& gl;
     const Scene& scene;
     const StencilRecipe& recipe;
-    Scene casters;
+    std::vector<std::unique_ptr<Part>> parts; // which their passes refer to
     Target target;
     Geometry geometry;
     ClipTransform transform;
     Program surface;
     Program light;
-    VolumePass volumes;
     std::optional<VolumePass> occluders;
     std::uint8_t start = 0;
 
     Frames(Gpu& gpu, const Scene& drawn, const StencilRecipe& with)
-        : gl(gpu.gl()), scene(drawn), recipe(with), casters(casters_of(drawn, with.counting)),
+        : gl(gpu.gl()), scene(drawn), recipe(with),
           target(make_target(gl, drawn.camera, with.depth_model.floating)),
           geometry(upload(gl, drawn,
                           std::isfinite(with.counting.extrusion)
@@ -133,13 +113,14 @@ struct Frames {
                               : std::vector<glm::vec3>{})),
           transform(clip_transform(drawn, with.depth_model)),
           surface(link_projection(gl, "surface.frag", transform, geometry, between(with))),
-          light(link_light(gl, drawn, transform, geometry, between(with))),
-          volumes(with.near_plane == NearPlane::capped
-                      ? make_capped_pass(gl, casters, geometry, transform, with.depth_model)
-                      : make_volume_pass(gl, casters, geometry, transform, with.counting,
-                                         with.making, with.extruder(casters))) {
+          light(link_light(gl, drawn, transform, geometry, between(with))) {
+        add_sum(gl, target);
+        for (auto& [caster, casters] : caster_parts(drawn, with.counting)) {
+            parts.push_back(std::make_unique<Part>(Part{caster, std::move(casters)}));
+            parts.back()->volumes = make_volumes(*parts.back());
+        }
         if (with.near_plane == NearPlane::from_light)
-            occluders = make_occluder_pass(gl, casters, geometry);
+            occluders = make_occluder_pass(gl, parts.front()->casters, geometry);
         check(gl, "making the passes");
     }
     Frames(const Frames&) = delete;
@@ -150,12 +131,55 @@ struct Frames {
                                                               : Between::nothing;
     }
 
+    VolumePass make_volumes(const Part& part) const {
+        if (recipe.near_plane == NearPlane::capped)
+            return make_capped_pass(gl, part.casters, geometry, transform, recipe.depth_model);
+        const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
+        return make_volume_pass(gl, part.casters, geometry, transform, caps, recipe.making,
+                                recipe.extruder(part.casters));
+    }
+
     void update() {
-        volumes.update();
+        for (const auto& part : parts) part->volumes.update();
         if (occluders) occluders->update();
         start = 0;
         if (recipe.counting.start == Counting::Start::eye)
-            start = static_cast<std::uint8_t>(volumes_around_eye(casters));
+            start = static_cast<std::uint8_t>(volumes_around_eye(parts.front()->casters));
+    }
+
+    void count_in_stencil() {
+        begin_counting(gl, target, recipe);
+        const Counting::Operation kind = recipe.counting.operation;
+        for (const auto& part : parts) {
+            const Steps steps = steps_of(part->caster.test);
+            set_steps(gl, kind, part->caster.test, steps);
+            part->volumes.draw();
+            set_steps(gl, kind, part->caster.test, {.front = steps.back, .back = steps.front});
+            part->volumes.draw_turned();
+        }
+        if (!occluders) return;
+        gl.StencilOp(GL_KEEP, GL_KEEP, operation(+1, kind));
+        occluders->draw();
+    }
+
+    /// Blending adds up what passes the depth test, so that the test is turned over where faces
+    /// behind the surface are to be counted: what does not pass the strict one.
+    void count_in_sum() {
+        begin_adding(gl, target);
+        for (const auto& part : parts) {
+            const bool pass = part->caster.test == Counting::Test::depth_pass;
+            const GLenum nearer = recipe.depth_model.reversed() ? GL_GREATER : GL_LESS;
+            const GLenum others = recipe.depth_model.reversed() ? GL_LEQUAL : GL_GEQUAL;
+            gl.DepthFunc(pass ? nearer : others);
+            const Steps steps = steps_of(part->caster.test);
+            const auto front = static_cast<float>(steps.front);
+            const auto back = static_cast<float>(steps.back);
+            set_worth(gl, part->volumes, front, back);
+            part->volumes.draw();
+            set_worth(gl, part->volumes, back, front);
+            part->volumes.draw_turned();
+        }
+        end_adding(gl);
     }
 
     void draw() {
@@ -163,47 +187,70 @@ struct Frames {
         gl.DepthRange(recipe.near_plane == NearPlane::capped ? ledge : 0, 1);
         draw_surface(gl, surface, target, geometry, recipe.depth_model,
                      visible_depths(scene.camera, recipe), start);
-        begin_counting(gl, target, recipe);
-        const StencilSteps& steps = recipe.steps;
-        set_steps(gl, recipe.counting, steps);
-        volumes.draw();
-        set_steps(gl, recipe.counting, {.front = steps.back, .back = steps.front});
-        volumes.draw_turned();
-        if (occluders) {
-            gl.StencilOp(GL_KEEP, GL_KEEP, operation(+1, recipe.counting.operation));
-            occluders->draw();
-        }
+        if (recipe.counter == Counter::stencil)
+            count_in_stencil();
+        else
+            count_in_sum();
         check(gl, "the volume pass");
-        draw_light(gl, light, target, geometry);
+        draw_light(gl, light, target, geometry, recipe.counter);
+    }
+
+    void measure(Frame& frame) {
+        std::vector<const VolumePass*> passes;
+        for (const auto& part : parts) passes.push_back(&part->volumes);
+        if (occluders) passes.push_back(&*occluders);
+        measure_volumes(
+            gl, target, recipe.depth_model, passes,
+            [&] {
+                for (const auto& part : parts) {
+                    part->volumes.draw();
+                    part->volumes.draw_turned();
+                }
+            },
+            frame);
     }
 };
+
+/// Of up to three frames, or as many as take about a tenth of a second.
+Clock::duration quickest_frame(Frames& frames) {
+    Clock::duration quickest = Clock::duration::max();
+    Clock::duration all{};
+    for (int i = 0; i < 3 && all < std::chrono::milliseconds(100); ++i) {
+        const auto start = Clock::now();
+        frames.update();
+        frames.draw();
+        frames.gl.Finish();
+        const Clock::duration elapsed = Clock::now() - start;
+        quickest = std::min(quickest, elapsed);
+        all += elapsed;
+    }
+    return quickest;
+}
 
 } // namespace
 
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe) {
+    assert(recipe.counter == Counter::stencil ||
+           (recipe.counting.operation == Counting::Operation::wrap &&
+            recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
-    std::chrono::steady_clock::duration elapsed{};
-    for (int run = 0; run < 2; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        frames.update();
-        frames.draw();
-        gl.Finish();
-        elapsed = std::chrono::steady_clock::now() - start;
-    }
-    end_frame(gl);
-
-    Frame frame = read_back(gl, frames.target);
+    frames.update();
+    frames.draw();
+    gl.Finish();
+    const Clock::duration elapsed = quickest_frame(frames);
+    Frame frame = read_back(gl, frames.target, recipe.counter);
     frame.counting = recipe.counting;
     frame.depth_model = recipe.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
     frame.milliseconds = std::chrono::duration<double, std::milli>(elapsed).count();
+    frames.measure(frame);
+    end_frame(gl);
     return frame;
 }
 
 StencilRecipe zpass_recipe(const Scene& scene) {
     return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
-            .steps = {.front = +1, .back = -1},
             .depth_model = {.projection = DepthModel::Projection::finite,
                             .near = scene.camera.near,
                             .far = finite_far(scene)}};
@@ -211,7 +258,6 @@ StencilRecipe zpass_recipe(const Scene& scene) {
 
 StencilRecipe zfail_reversed_recipe(const Scene& scene) {
     return {.counting = {.test = Counting::Test::depth_fail},
-            .steps = {.front = -1, .back = +1},
             .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
                             .near = scene.camera.near,
                             .floating = true,

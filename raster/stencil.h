@@ -8,13 +8,6 @@
 
 namespace shadowproof {
 
-/// What a face of the volume adds to the counter where its depth test comes out as counted: +1, -1
-/// or 0.
-struct StencilSteps {
-    int front = 0;
-    int back = 0;
-};
-
 /// How a technique that counts in front of the surface makes up for what the near plane clips.
 enum class NearPlane : std::uint8_t {
     lost,       ///< not at all
@@ -24,17 +17,18 @@ enum class NearPlane : std::uint8_t {
 
 /// All that tells one stencil technique from another.
 struct StencilRecipe {
-    Counting counting; ///< near_plane's effect on `start` included
-    StencilSteps steps;
+    Counting counting;      ///< near_plane's effect on `start` included
     DepthModel depth_model; ///< subpixel_bits is taken from the driver
     VolumeMaking making = VolumeMaking::on_cpu;
     std::function<Extruder(const Scene& casters)> extruder = by_silhouettes; ///< on the CPU
     NearPlane near_plane = NearPlane::lost;
+    Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping
 };
 
-/// Draws the frame twice, for the first time compiles what the driver has put off, and reads back
-/// and times the second, with the making of what depends on the light. Throws Error for a
-/// directional light, and where the driver fails.
+/// Draws the frame once, so that the driver compiles what it has put off, and then up to three
+/// times, of which the quickest is timed, with the making of what depends on the light. Reads back
+/// the pictures, and draws the volumes once more to show and to measure them. Throws Error where
+/// the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
 
 /// The recipes that the techniques begin with.

@@ -19,14 +19,14 @@ struct Making {
     const Scene& scene;
     const Geometry& geometry;
     const ClipTransform& transform;
-    Counting counting;
+    VolumeCaps caps;
 };
 
 std::vector<std::span<const glm::uvec3>> drawn_parts(const ShadowVolume& volume,
-                                                     const Counting& counting) {
+                                                     const VolumeCaps& caps) {
     std::vector<std::span<const glm::uvec3>> parts{volume.sides};
-    if (counting.light_cap) parts.emplace_back(volume.light_cap);
-    if (counting.dark_cap) parts.emplace_back(volume.dark_cap);
+    if (caps.light) parts.emplace_back(volume.light_cap);
+    if (caps.dark) parts.emplace_back(volume.dark_cap);
     return parts;
 }
 
@@ -41,7 +41,7 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
     return {.update =
                 [made, making, extruder] {
                     const ShadowVolume volume = extruder();
-                    made->faces = upload_triangles(making.gl, drawn_parts(volume, making.counting));
+                    made->faces = upload_triangles(making.gl, drawn_parts(volume, making.caps));
                     made->turned = upload_triangles(
                         making.gl, std::array{std::span<const glm::uvec3>(volume.turned_sides)});
                 },
@@ -54,7 +54,8 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
                 [made, making] {
                     making.gl.UseProgram(made->program.name());
                     draw_triangles(making.gl, making.geometry, made->turned, 0, made->turned.count);
-                }};
+                },
+            .programs = {made->program.name()}};
 }
 
 /// The light where shaders tell its side in double; locations as facing.glsl's users lay them out.
@@ -94,8 +95,8 @@ VolumePass geometry_shader_pass(const Making& making) {
     const auto draw = [made, making](bool turned) {
         const GlFunctions& gl = making.gl;
         const GLuint program = made->program.name();
-        gl.ProgramUniform1i(program, 9, making.counting.light_cap && !turned ? 1 : 0);
-        gl.ProgramUniform1i(program, 10, making.counting.dark_cap && !turned ? 1 : 0);
+        gl.ProgramUniform1i(program, 9, making.caps.light && !turned ? 1 : 0);
+        gl.ProgramUniform1i(program, 10, making.caps.dark && !turned ? 1 : 0);
         gl.ProgramUniform1i(program, 12, turned ? 1 : 0);
         gl.UseProgram(program);
         gl.VertexArrayElementBuffer(making.geometry.vertices.name(), made->indices.name());
@@ -103,7 +104,8 @@ VolumePass geometry_shader_pass(const Making& making) {
     };
     return {.update = [made, making] { set_light(making, made->program); },
             .draw = [draw] { draw(false); },
-            .draw_turned = [draw] { draw(true); }};
+            .draw_turned = [draw] { draw(true); },
+            .programs = {made->program.name()}};
 }
 
 constexpr std::uint32_t no_corner = 0xffffffffU;
@@ -185,20 +187,26 @@ VolumePass degenerate_quads_pass(const Making& making) {
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, made->corners.name());
         gl.BindVertexArray(made->no_attributes.name());
         gl.UseProgram(made->caps.name());
-        const GLsizei light = making.counting.light_cap ? made->cap_vertices : 0;
-        const GLsizei dark = making.counting.dark_cap ? made->cap_vertices : 0;
+        const GLsizei light = making.caps.light ? made->cap_vertices : 0;
+        const GLsizei dark = making.caps.dark ? made->cap_vertices : 0;
         gl.DrawArrays(GL_TRIANGLES, made->cap_vertices - light, light + dark);
         gl.BindVertexArray(making.geometry.vertices.name());
     };
-    return {.update = update, .draw = draw, .draw_turned = [draw_quads] { draw_quads(true); }};
+    return {.update = update, .draw = draw, .draw_turned = [draw_quads] { draw_quads(true); },
+            .programs = {made->quads.name(), made->caps.name()}};
 }
 
 } // namespace
 
+void set_worth(const GlFunctions& gl, const VolumePass& pass, float front, float back) {
+    // Location as volume.frag lays it out.
+    for (const GLuint program : pass.programs) gl.ProgramUniform2f(program, 15, front, back);
+}
+
 VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                            const ClipTransform& transform, const Counting& counting,
+                            const ClipTransform& transform, const VolumeCaps& caps,
                             VolumeMaking making, const Extruder& extruder) {
-    const Making all{gl, scene, geometry, transform, counting};
+    const Making all{gl, scene, geometry, transform, caps};
     switch (making) {
     case VolumeMaking::on_cpu:
         break;

@@ -4,10 +4,10 @@
 
 #include "raster/passes.h"
 #include "raster/volume.h"
-#include "scenes/frame.h"
 #include "scenes/scene.h"
 
 #include <functional>
+#include <vector>
 
 namespace shadowproof {
 
@@ -17,21 +17,31 @@ enum class VolumeMaking : std::uint8_t {
     geometry_shader,  ///< of triangles with adjacency
 };
 
+/// Which caps are drawn with the sides.
+struct VolumeCaps {
+    bool light = true;
+    bool dark = true;
+};
+
 /// The volume's faces, ready to be drawn again and again.
 struct VolumePass {
     /// What has to be done anew when the light moves.
     std::function<void()> update;
-    /// Draws sides, then light caps, then dark caps, as `counting` has them. Binds its programs and
+    /// Draws sides, then light caps, then dark caps, as `caps` has them. Binds its programs and
     /// buffers; all other state is the caller's.
     std::function<void()> draw;
     /// Draws those sides whose front and back are exchanged (ShadowVolume::turned_sides).
     std::function<void()> draw_turned;
+    std::vector<GLuint> programs; ///< all that it draws faces with
 };
 
-/// Keeps references to all but `counting`; corners at a volume's far end are transformed as
+/// What a face adds to a colour that counts or shows it, seen from either side.
+void set_worth(const GlFunctions& gl, const VolumePass& pass, float front, float back);
+
+/// Keeps references to all but `caps`; corners at a volume's far end are transformed as
 /// set_transform says. Throws Error where the driver fails.
 VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                            const ClipTransform& transform, const Counting& counting,
+                            const ClipTransform& transform, const VolumeCaps& caps,
                             VolumeMaking making, const Extruder& extruder);
 
 } // namespace shadowproof

@@ -16,10 +16,6 @@ namespace {
 /// Pixels along the side of the regions whose ledgers are found together.
 constexpr int region_side = 16;
 
-bool is_infinite(const DepthModel& depth_model) {
-    return depth_model.projection != DepthModel::Projection::finite;
-}
-
 /// Whether the formulas of shadow depths hold: each face counts by one, whichever comes first, and
 /// all faces are drawn but the dark cap at infinity.
 bool follows_from_depths(const Counting& counting) {
@@ -28,7 +24,7 @@ bool follows_from_depths(const Counting& counting) {
 
 std::int32_t count_from_depths(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
                                const Counting& counting, const DepthModel& depth_model) {
-    const bool infinite = is_infinite(depth_model);
+    const bool infinite = !depth_model.finite();
     const bool background = truth.triangle.at(x, y) == no_triangle;
     const std::int32_t near = depths.at_near.at(x, y);
     // A clamped or finite picture's background is at its far plane, an infinite one's at infinity.
@@ -49,6 +45,10 @@ double depth_of_seen(const Scene& scene, std::uint32_t seen, const glm::dvec3& d
 }
 
 } // namespace
+
+std::string_view name_of(Counting::Test test) {
+    return test == Counting::Test::depth_pass ? "depth_pass" : "depth_fail";
+}
 
 std::string_view name_of(Counting::Operation operation) {
     switch (operation) {
@@ -90,7 +90,7 @@ namespace {
 
 std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
     if (counting.operation != Counting::Operation::saturate) return count + step;
-    const std::int64_t most = (std::int64_t{1} << counting.stencil_bits) - 1;
+    const std::int64_t most = (std::int64_t{1} << counting.bits) - 1;
     return std::clamp<std::int64_t>(count + step, 0, most);
 }
 
@@ -111,12 +111,12 @@ std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
     auto face = faces.begin();
     const auto count_while = [&](bool turned) {
         for (; face != faces.end() && (turned || !face->turned); ++face)
-            count = stepped(count, weight(counting) * face->change, counting);
+            count = stepped(count, weight(counting, *face) * face->change, counting);
     };
     if (counting.operation != Counting::Operation::saturate) count_while(true);
     count_while(false);
     for (std::int64_t i = 0; i < dark_caps; ++i)
-        count = stepped(count, -weight(counting), counting);
+        count = stepped(count, -weight(Counting::Test::depth_fail), counting);
     count_while(true);
     return count;
 }
@@ -130,7 +130,8 @@ std::int64_t counted(const CountedRay& ray, double far, const Counting& counting
     // A ray that ends inside volumes leaves them through their dark caps at infinity.
     const bool caps = tally_of_dark_caps(counting, depth_model) == Tally::counted;
     return counted_in_order(std::move(drawn), start_of(counting, ray.at_eye, ray.at_near),
-                            caps ? ray.at_infinity : 0, counting);
+                            caps ? dark_caps_at_infinity(counting, ray.at_eye, ray.crossings) : 0,
+                            counting);
 }
 
 Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
@@ -167,8 +168,7 @@ Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const
                                      surface,
                                      seen,
                                      depths_.at_eye,
-                                     depths_.at_near.at(x, y),
-                                     depths_.at_infinity.at(x, y)};
+                                     depths_.at_near.at(x, y)};
                 counts_.at(x, y) =
                     static_cast<std::int32_t>(counted(ray, depths.far, counting, depth_model));
             }

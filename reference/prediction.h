@@ -20,9 +20,9 @@ struct CountedRay {
     std::uint32_t seen = no_triangle;
     std::int32_t at_eye = 0; ///< shadow depths
     std::int32_t at_near = 0;
-    std::int32_t at_infinity = 0;
 };
 
+std::string_view name_of(Counting::Test test);           ///< "depth_pass"
 std::string_view name_of(Counting::Operation operation); ///< "wrap"
 std::string_view name_of(Counting::Start start);         ///< "near_plane"
 

@@ -7,7 +7,7 @@ namespace shadowproof {
 namespace {
 
 bool clips_at_far(const Counting& counting, const DepthModel& depth_model) {
-    return depth_model.projection == DepthModel::Projection::finite && !counting.depth_clamp;
+    return depth_model.finite() && !counting.depth_clamp;
 }
 
 } // namespace
@@ -31,19 +31,20 @@ std::string_view name_of(Tally tally) {
 Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double far,
             const Counting& counting, const DepthModel& depth_model) {
     if (seen == no_triangle)
-        surface = depth_model.projection == DepthModel::Projection::finite
+        surface = depth_model.finite()
                       ? far
                       : std::numeric_limits<double>::infinity();
     const bool own = crossing.triangle == seen && crossing.part == Crossing::Part::light_cap;
     const bool in_front = !own && crossing.depth < surface;
-    const bool asked_for = in_front == (counting.test == Counting::Test::depth_pass);
+    const Counting::Caster caster = counting.caster(crossing.triangle);
+    const bool asked_for = in_front == (caster.test == Counting::Test::depth_pass);
     if (!asked_for) return Tally::beyond;
     if (in_front && !counting.depth_clamp && crossing.depth < depth_model.near)
         return Tally::lost_near;
     if (!in_front && clips_at_far(counting, depth_model) && crossing.depth >= far)
         return Tally::lost_far;
-    if (crossing.part == Crossing::Part::light_cap && !counting.light_cap) return Tally::lost_cap;
-    if (crossing.part == Crossing::Part::dark_cap && !counting.dark_cap) return Tally::lost_cap;
+    if (crossing.part == Crossing::Part::light_cap && !caster.light_cap) return Tally::lost_cap;
+    if (crossing.part == Crossing::Part::dark_cap && !caster.dark_cap) return Tally::lost_cap;
     return Tally::counted;
 }
 
@@ -51,6 +52,14 @@ Tally tally_of_dark_caps(const Counting& counting, const DepthModel& depth_model
     if (counting.test == Counting::Test::depth_pass) return Tally::beyond;
     if (clips_at_far(counting, depth_model)) return Tally::lost_far;
     return counting.dark_cap ? Tally::counted : Tally::lost_cap;
+}
+
+std::int64_t dark_caps_at_infinity(const Counting& counting, std::int32_t at_eye,
+                                   std::span<const Crossing> crossings) {
+    std::int64_t inside = at_eye;
+    for (const Crossing& crossing : crossings)
+        if (counting.casters.empty() || weight(counting, crossing) < 0) inside += crossing.change;
+    return inside;
 }
 
 } // namespace shadowproof

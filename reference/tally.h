@@ -5,6 +5,7 @@
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace shadowproof {
@@ -29,9 +30,17 @@ Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double
 /// What becomes of the dark caps, which close at infinity the volumes that the ray has not left.
 Tally tally_of_dark_caps(const Counting& counting, const DepthModel& depth_model);
 
-/// What a counted crossing, or dark cap, adds to the counter: +1 or -1 times this.
-constexpr int weight(const Counting& counting) {
-    return counting.test == Counting::Test::depth_pass ? 1 : -1;
+/// What a counted crossing of a caster's volume adds to the counter: its change times this.
+constexpr int weight(Counting::Test test) {
+    return test == Counting::Test::depth_pass ? 1 : -1;
 }
+inline int weight(const Counting& counting, const Crossing& crossing) {
+    return weight(counting.caster(crossing.triangle).test);
+}
+
+/// How many dark caps at infinity a ray runs into that begins in `at_eye` volumes: those of the
+/// casters whose faces are counted behind the surface. The others' volumes do not hold the eye.
+std::int64_t dark_caps_at_infinity(const Counting& counting, std::int32_t at_eye,
+                                   std::span<const Crossing> crossings);
 
 } // namespace shadowproof

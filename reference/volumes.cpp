@@ -29,6 +29,19 @@ Scene extruded_scene(const Scene& scene, double distance) {
     return extruded;
 }
 
+bool leaves_casters_out(const Counting& counting) {
+    return std::any_of(counting.casters.begin(), counting.casters.end(),
+                       [](const Counting::Caster& caster) { return caster.left_out; });
+}
+
+/// Meshes are left out as wholes.
+Scene with_casters_left_out(Scene scene, const Counting& counting) {
+    for (Mesh& mesh : scene.meshes)
+        if (mesh.triangle_count > 0 && counting.casters[mesh.first_triangle].left_out)
+            mesh.casts = false;
+    return scene;
+}
+
 Image<std::int32_t> difference(Image<std::int32_t> from, const Image<std::int32_t>& what) {
     std::transform(from.pixels.begin(), from.pixels.end(), what.pixels.begin(), from.pixels.begin(),
                    std::minus<>());
@@ -39,10 +52,14 @@ Image<std::int32_t> difference(Image<std::int32_t> from, const Image<std::int32_
 
 Volumes::Volumes(const Tracer& tracer, const Silhouette& silhouette, const Counting& counting)
     : tracer_(&tracer), silhouette_(&silhouette) {
-    if (counting.holes_filled) {
-        filled_ = std::make_unique<Variant>(with_holes_filled(tracer.scene()), tracer.threads());
-        tracer_ = &filled_->tracer;
-        silhouette_ = &filled_->silhouette;
+    if (counting.holes_filled)
+        others_ = std::make_unique<Variant>(with_holes_filled(tracer.scene()), tracer.threads());
+    else if (leaves_casters_out(counting))
+        others_ = std::make_unique<Variant>(with_casters_left_out(tracer.scene(), counting),
+                                            tracer.threads());
+    if (others_) {
+        tracer_ = &others_->tracer;
+        silhouette_ = &others_->silhouette;
     }
     if (std::isfinite(counting.extrusion))
         ends_ = std::make_unique<Variant>(extruded_scene(casters(), counting.extrusion),
@@ -59,7 +76,7 @@ int Volumes::threads() const {
 }
 
 ShadowDepths Volumes::shadow_depths(const GroundTruth& truth, const ShadowDepths& depths) const {
-    const ShadowDepths inside = filled_ ? count_shadow_depths(*tracer_, truth, depths.far) : depths;
+    const ShadowDepths inside = others_ ? count_shadow_depths(*tracer_, truth, depths.far) : depths;
     if (!ends_) return inside;
     const ShadowDepths beyond = count_shadow_depths_at(ends_->tracer, truth.depth, depths.far);
     return {difference(inside.at_surface, beyond.at_surface),

@@ -1,5 +1,5 @@
 // The shadow volumes that a technique counts: the casters' own, out to infinity; of casters whose
-// holes are filled; or cut off where they are extruded by a finite distance.
+// holes are filled; of some casters alone; or cut off where they are extruded by a finite distance.
 #pragma once
 
 #include "reference/region_ledger.h"
@@ -34,13 +34,13 @@ public:
     /// Where the casters' positions lie once extruded; null where that is at infinity.
     const std::vector<glm::vec3>* far_ends() const;
     /// Whether they are those of the casters as given, out to infinity.
-    bool are_the_casters() const { return !filled_ && !ends_; }
+    bool are_the_casters() const { return !others_ && !ends_; }
 
 private:
     struct Variant; ///< another scene under the same light and camera
     const Tracer* tracer_;
     const Silhouette* silhouette_;
-    std::unique_ptr<Variant> filled_;
+    std::unique_ptr<Variant> others_; ///< filled up, or with casters left out
     std::unique_ptr<Variant> ends_;
 };
 

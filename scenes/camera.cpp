@@ -78,4 +78,12 @@ glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera) {
     return clip;
 }
 
+glm::dmat4 clip_from_view_finite_reversed(const Camera& camera, double far) {
+    const double near = camera.near;
+    glm::dmat4 clip = perspective(camera);
+    clip[2][2] = near / (far - near);
+    clip[3][2] = far * near / (far - near);
+    return clip;
+}
+
 } // namespace shadowproof

@@ -50,5 +50,6 @@ glm::dmat4 view_from_world(const Camera& camera);
 glm::dmat4 clip_from_view_finite(const Camera& camera, double far); ///< z in [-w, w]
 glm::dmat4 clip_from_view_infinite(const Camera& camera);           ///< z in [-w, w]
 glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera);  ///< z in [0, w], 1 at near
+glm::dmat4 clip_from_view_finite_reversed(const Camera& camera, double far); ///< the same, 0 at far
 
 } // namespace shadowproof

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -22,8 +24,8 @@ struct Counting {
     Test test = Test::depth_fail;
     /// What a counted face does to the counter.
     enum class Operation : std::uint8_t {
-        wrap,     ///< one more or less, modulo 2^stencil_bits
-        saturate, ///< one more or less, but never past 0 and 2^stencil_bits - 1
+        wrap,     ///< one more or less, modulo 2^bits
+        saturate, ///< one more or less, but never past 0 and 2^bits - 1
         invert,   ///< all bits turn over: only whether the count is odd is kept
     };
     Operation operation = Operation::wrap;
@@ -37,40 +39,78 @@ struct Counting {
     bool depth_clamp = false; ///< faces past the near and far planes are kept
     bool light_cap = true;    ///< the light-facing triangles themselves are drawn
     bool dark_cap = true;     ///< so are they at infinity, where the projection keeps them
-    int stencil_bits = 8;
+    int bits = 8; ///< of the counter
     bool holes_filled = false; ///< open casters are closed before volumes are made of them
     /// By how much the volumes' far ends lie further from the light than their casters, in world
     /// units; infinite: at infinity.
     double extrusion = std::numeric_limits<double>::infinity();
+
+    /// What holds of one caster where casters are not counted alike.
+    struct Caster {
+        Test test = Test::depth_fail;
+        bool left_out = false; ///< it has no volume
+        bool light_cap = true;
+        bool dark_cap = true;
+        friend bool operator==(const Caster&, const Caster&) = default;
+    };
+    /// One a triangle of the scene; empty: all as above. `light_cap` and `dark_cap` above are then
+    /// true, as those left out are those that make no difference.
+    std::vector<Caster> casters{};
+
+    Caster caster(std::uint32_t triangle) const {
+        if (triangle < casters.size()) return casters[triangle];
+        return {test, false, light_cap, dark_cap};
+    }
 };
 
-/// The counter as a buffer of `counting.stencil_bits` holds it. A saturating one has been kept in
+/// The counter as a buffer of `counting.bits` holds it. A saturating one has been kept in
 /// its range step by step.
-constexpr std::uint8_t stored(std::int64_t count, const Counting& counting) {
-    const std::int64_t most = (std::int64_t{1} << counting.stencil_bits) - 1;
+inline std::uint32_t stored(std::int64_t count, const Counting& counting) {
+    const std::int64_t most = (std::int64_t{1} << counting.bits) - 1;
     if (counting.operation == Counting::Operation::invert) count = (count & 1) != 0 ? most : 0;
-    return static_cast<std::uint8_t>(count & most);
+    return static_cast<std::uint32_t>(count & most);
 }
 
 /// How window depth is made and stored.
 struct DepthModel {
-    enum class Projection : std::uint8_t { finite, infinite, infinite_reversed };
+    enum class Projection : std::uint8_t { finite, finite_reversed, infinite, infinite_reversed };
     Projection projection = Projection::finite;
     double near = 0.1;
     double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
     bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
     bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
+
+    /// Window depth falls away from the eye, from 1 at the near plane to 0.
+    bool reversed() const {
+        return projection == Projection::finite_reversed ||
+               projection == Projection::infinite_reversed;
+    }
+    bool finite() const {
+        return projection == Projection::finite || projection == Projection::finite_reversed;
+    }
+};
+
+/// What a technique spared against drawing everything.
+struct Savings {
+    std::string against; ///< the technique that does
+    double milliseconds = 0;
+    std::int64_t volume_fragments = 0;
 };
 
 struct Frame {
     Image<Visibility> claim;
-    Image<std::uint8_t> stencil;   ///< the counter, before the light pass
+    Image<std::uint32_t> counter;  ///< as read back, before the light pass
     Image<float> depth;            ///< window depth in [0, 1]
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
     Counting counting;
     DepthModel depth_model;
-    double milliseconds = 0; ///< drawing and finishing, without the read-back
+    double milliseconds = 0; ///< making the volumes, drawing and finishing, without the read-back
+    std::uint64_t volume_fragments = 0; ///< that the volumes' faces cover, hidden or not
+    /// How many of them are not behind what is seen, at most 255: the volumes as a picture.
+    Image<std::uint8_t> volumes;
+    std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
+    std::optional<Savings> saved;      ///< by leaving it out
 };
 
 /// The driver behind a frame, as it names itself.

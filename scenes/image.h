@@ -2,6 +2,7 @@
 // (x, y) is at (x + 0.5, y + 0.5), measured from the top left corner.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <vector>
@@ -27,5 +28,13 @@ struct Image {
     T& at(int x, int y) { return pixels[index(x, y)]; }
     const T& at(int x, int y) const { return pixels[index(x, y)]; }
 };
+
+/// A picture whose pixels are those of another, each converted.
+template <class To, class From, class Convert>
+Image<To> converted(const Image<From>& from, const Convert& convert) {
+    Image<To> to(from.width, from.height);
+    std::transform(from.pixels.begin(), from.pixels.end(), to.pixels.begin(), convert);
+    return to;
+}
 
 } // namespace shadowproof

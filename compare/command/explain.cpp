@@ -121,7 +121,7 @@ std::string lost_words(const PixelRecord& record, const TechniqueAtPixel& techni
         add(fmt::format("{:+} at {:.9g}", crossings_of(record, technique)[i].change,
                         crossings_of(record, technique)[i].depth),
             technique.tallies[i]);
-    const std::int32_t open = record.ledger.counts.at_infinity;
+    const std::int64_t open = technique.dark_cap_count;
     if (open != 0)
         add(fmt::format("{} dark {}", open, open == 1 ? "cap" : "caps"), technique.dark_caps);
     if (technique.counting.test == Counting::Test::depth_pass && record.ledger.counts.at_eye != 0)

@@ -262,12 +262,12 @@ var cutaway = (function () {
     columns.forEach(function (column, i) {
       if (!column[0].status) return;
       var last = runs[runs.length - 1];
-      if (last && last.status === column[0].status) last.end = i;
-      else runs.push({ status: column[0].status, begin: i, end: i });
+      if (last && last.status === column[0].status && last.test === column[0].test) last.end = i;
+      else runs.push({ status: column[0].status, test: column[0].test, begin: i, end: i });
     });
     runs.forEach(function (run) {
       var begin = columnCentre(run.begin) - step * 0.42, end = columnCentre(run.end) + step * 0.42;
-      var good = run.status === 'counted', label = say.fateWords(run.status, technique.test);
+      var good = run.status === 'counted', label = say.fateWords(run.status, run.test);
       var color = good ? 'ink' : run.status === 'beyond' ? 'quiet' : 'bad';
       var half = room(label, 11.5) / 2;
       var middle = clamp((begin + end) / 2, half + 6, width - half - 6), row = 0;
@@ -389,7 +389,9 @@ var cutaway = (function () {
     text += fates.text;
 
     var notes = [say.lightWords(plane, place)];
-    if (technique.test === 'depth_fail' && crossings > 0)
+    if (technique.tests && crossings > 0)
+      notes.push('Some casters are counted in front of the surface, others behind it.');
+    else if (technique.test === 'depth_fail' && crossings > 0)
       notes.push('Counted behind the surface, where an exit adds one and an entry takes one.');
     if (technique.test === 'depth_pass' && record.inside.eye !== 0)
       notes.push('The eye itself is inside ' + record.inside.eye +

@@ -70,7 +70,8 @@ var cutawayGeometry = (function () {
   function eventsOf(record, technique) {
     var events = record.crossings.map(function (crossing, i) {
       return { kind: 'crossing', depth: crossing.depth, rank: 2, crossing: crossing,
-               status: technique.statuses[i] };
+               status: technique.statuses[i],
+               test: technique.tests ? technique.tests[i] : technique.test };
     });
     events.push({ kind: 'near', depth: record.near, rank: 0 });
     if (record.seen) events.push({ kind: 'surface', depth: record.seen.depth, rank: 1 });
@@ -79,8 +80,9 @@ var cutawayGeometry = (function () {
     events = events.map(function (event, i) { event.order = i; return event; })
       .sort(function (a, b) { return a.depth - b.depth || a.rank - b.rank || a.order - b.order; });
     events.unshift({ kind: 'eye', depth: 0 });
-    if (technique.test === 'depth_fail' && record.inside.infinity !== 0)
-      events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap });
+    if (technique.test === 'depth_fail' && technique.dark_caps !== 0)
+      events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap,
+                    test: technique.test });
     var inside = record.inside.eye;
     events.forEach(function (event) {
       if (event.kind === 'crossing') inside += event.crossing.change;

@@ -12,9 +12,12 @@ var cutawayWords = (function () {
   function room(text, size) { return 0.6 * size * text.length; }
 
   /** How a technique counts a crossing: behind the surface an exit adds and an entry takes. */
-  function contribution(technique, crossing) {
-    return technique.test === 'depth_fail' ? -crossing.change : crossing.change;
+  function contribution(technique, crossing, i) {
+    return testOf(technique, i) === 'depth_fail' ? -crossing.change : crossing.change;
   }
+
+  /** Which crossings count: technique.tests tells it where casters are not counted alike. */
+  function testOf(technique, i) { return technique.tests ? technique.tests[i] : technique.test; }
 
   function fateWords(status, test) {
     if (status === 'beyond')
@@ -30,16 +33,16 @@ var cutawayWords = (function () {
     var terms = [], sum = technique.start || 0, up = 0, down = 0;
     record.crossings.forEach(function (crossing, i) {
       if (technique.statuses[i] !== 'counted') return;
-      var value = contribution(technique, crossing);
+      var value = contribution(technique, crossing, i);
       terms.push(signed(value));
       sum += value;
       if (value > 0) ++up; else ++down;
     });
     if (terms.length > 10) terms = [up + ' times +1, ' + down + ' times \u22121'];
     if (technique.test === 'depth_fail' && technique.dark_cap === 'counted' &&
-        record.inside.infinity !== 0) {
-      terms.push('dark caps ' + signed(record.inside.infinity));
-      sum += record.inside.infinity;
+        technique.dark_caps !== 0) {
+      terms.push('dark caps ' + signed(technique.dark_caps));
+      sum += technique.dark_caps;
     }
     if (technique.start) terms.unshift('from ' + technique.start + ':');
     var text = terms.length === 0 ? 'Counted nothing: 0' :

@@ -44,7 +44,9 @@ function pixelFacts(record) {
 }
 
 /** What a technique's counter gets of a crossing that it counts. */
-const countedAs = (technique, change) => (technique.test === 'depth_fail' ? -change : change);
+const testOf = (technique, i) => technique.tests?.[i] ?? technique.test;
+const countedAs = (technique, i, change) =>
+  (testOf(technique, i) === 'depth_fail' ? -change : change);
 
 function ledgerRows(record) {
   const [technique] = record.techniques;
@@ -54,7 +56,7 @@ function ledgerRows(record) {
     const status = technique.statuses[i];
     const isCounted = status === 'counted';
     inside += crossing.change;
-    if (isCounted) running += countedAs(technique, crossing.change);
+    if (isCounted) running += countedAs(technique, i, crossing.change);
     return element('tr', { class: status },
       element('td', { class: 'number depth' }, printed(crossing.depth)),
       element('td', { class: 'number change' }, signed(crossing.change)),
@@ -62,8 +64,8 @@ function ledgerRows(record) {
       element('td', { class: 'what' },
               `${crossing.kind}${crossing.caster ? ` of ${triangleWords(crossing.caster)}` : ''}`),
       element('td', { class: 'fate' }, isCounted
-        ? `counted ${signed(countedAs(technique, crossing.change))}`
-        : wordsOfStatus(status, technique.test)),
+        ? `counted ${signed(countedAs(technique, i, crossing.change))}`
+        : wordsOfStatus(status, testOf(technique, i))),
       element('td', { class: 'number running' }, isCounted ? signed(running) : ''));
   });
   return { rows, running };
@@ -71,15 +73,15 @@ function ledgerRows(record) {
 
 function darkCapRow(record, running) {
   const [technique] = record.techniques;
-  if (technique.test !== 'depth_fail' || record.inside.infinity === 0) return null;
+  if (technique.test !== 'depth_fail' || technique.dark_caps === 0) return null;
   const isCounted = technique.dark_cap === 'counted';
   return element('tr', { class: technique.dark_cap },
     element('td', { class: 'number' }, 'infinity'), element('td', {}), element('td', {}),
-    element('td', { class: 'what' }, `${counted(record.inside.infinity, 'dark cap')}`),
-    element('td', { class: 'fate' }, isCounted ? `counted ${signed(record.inside.infinity)}`
+    element('td', { class: 'what' }, `${counted(technique.dark_caps, 'dark cap')}`),
+    element('td', { class: 'fate' }, isCounted ? `counted ${signed(technique.dark_caps)}`
                                                : wordsOfStatus(technique.dark_cap, technique.test)),
     element('td', { class: 'number running' },
-            isCounted ? signed(running + record.inside.infinity) : ''));
+            isCounted ? signed(running + technique.dark_caps) : ''));
 }
 
 const ledgerRowsShown = 60;

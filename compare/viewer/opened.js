@@ -92,7 +92,7 @@ async function openCell(scene, cell) {
     predicted: blocks?.predicted ?? null,
     readBack: blocks?.read_back ?? null,
     blocks,
-    bits: cellFile?.counting?.stencil_bits ?? 8,
+    bits: cellFile?.counting?.bits ?? 8,
   };
   if (opened.visibility) checkTruth(opened);
   if (causes) checkCell(opened);

@@ -92,8 +92,27 @@ function crossingsOf(opened, ledger, eye, direction, light) {
 /** What became of the dark caps, which lie at infinity. */
 function darkCapStatus({ counting, depth }) {
   if (counting.test === 'depth_pass') return 'beyond';
-  if (depth.projection === 'finite' && !counting.depth_clamp) return 'lost_far';
+  if (depth.projection.startsWith('finite') && !counting.depth_clamp) return 'lost_far';
   return counting.dark_cap ? 'counted' : 'lost_cap';
+}
+
+/** How each crossing is counted, where casters are not counted alike. */
+function testsOf({ cellFile, sceneFile, blocks }, ledger) {
+  const { tests } = cellFile.counting;
+  if (!tests) return undefined;
+  const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
+  return Array.from(blocks.crossing_face.subarray(begin, end), (face) => {
+    const triangle = blocks.face[2 * face];
+    return tests[sceneFile.meshes.findIndex(({ first, count }) =>
+      triangle >= first && triangle < first + count)];
+  });
+}
+
+/** Dark caps at infinity: of the casters that are counted behind the surface. */
+function darkCapCount(inside, crossings, tests) {
+  if (!tests) return inside.infinity;
+  return crossings.reduce((sum, { change }, i) =>
+    (tests[i] === 'depth_fail' ? sum + change : sum), inside.eye);
 }
 
 /** Pixels to the nearest centre whose truth is of another class; null where there is none. */
@@ -155,6 +174,7 @@ function pixelRecord(opened, x, y) {
                                 homogeneous(light));
   const inside = insideOf(opened, ledger, seen);
   const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
+  const tests = testsOf(opened, ledger);
   return {
     schema: 'shadowproof/pixel/1', scene: scene.name, x, y, width, height: opened.height,
     eye: camera.eye, direction, near: camera.near, far: sceneFile.far, light,
@@ -164,7 +184,7 @@ function pixelRecord(opened, x, y) {
     margin: { depth: marginDepth(seen, crossings), pixels: distanceToOtherClass(opened, x, y) },
     inside, crossings, adds_up: blocks.ledger_exact[ledger] === 1,
     techniques: [{
-      name: cell.name, test: cellFile.counting.test,
+      name: cell.name, test: cellFile.counting.test, tests,
       operation: cellFile.counting.operation,
       start: { zero: 0, eye: inside.eye, near_plane: inside.near }[cellFile.counting.start],
       predicted: blocks.ledger_predicted[ledger],
@@ -174,6 +194,7 @@ function pixelRecord(opened, x, y) {
       cause: received.legend.causes[opened.causes[pixel]].name,
       statuses: Array.from(blocks.crossing_status.subarray(begin, end), (i) => statusNames[i]),
       dark_cap: darkCapStatus(cellFile),
+      dark_caps: darkCapCount(inside, crossings, tests),
     }],
   };
 }

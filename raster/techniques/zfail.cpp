@@ -12,7 +12,6 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     return draw_stencil_shadows(
         gpu, scene,
         {.counting = {.test = Counting::Test::depth_fail, .dark_cap = false},
-         .steps = {.front = -1, .back = +1},
          .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
 }
 

@@ -13,7 +13,6 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
         {.counting = {.test = Counting::Test::depth_fail,
                       .depth_clamp = plan.volume_meets_far,
                       .dark_cap = plan.dark_cap},
-         .steps = {.front = -1, .back = +1},
          .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
 }
 

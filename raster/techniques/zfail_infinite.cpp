@@ -11,7 +11,6 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     return draw_stencil_shadows(
         gpu, scene,
         {.counting = {.test = Counting::Test::depth_fail, .dark_cap = plan.dark_cap},
-         .steps = {.front = -1, .back = +1},
          .depth_model = {.projection = DepthModel::Projection::infinite,
                          .near = scene.camera.near}});
 }

@@ -25,7 +25,6 @@ std::function<Extruder(const Scene&)> tampered(const Tamper& tamper) {
 
 StencilRecipe clamp_recipe(const Scene& scene) {
     return {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
-            .steps = {.front = -1, .back = +1},
             .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
 }
 
@@ -54,7 +53,11 @@ Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
 
 Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = clamp_recipe(scene);
-    std::swap(recipe.steps.front, recipe.steps.back);
+    // Wound the other way, a face is the other side's.
+    recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) {
+        for (auto* faces : {&volume.light_cap, &volume.sides, &volume.turned_sides, &volume.dark_cap})
+            for (glm::uvec3& face : *faces) std::swap(face.x, face.y);
+    });
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -1,0 +1,116 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+#include "scenes/caster_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace shadowproof {
+
+namespace {
+
+/// What the plan leaves of one caster's volume. Counting in front of the surface needs no dark cap,
+/// and no light cap where none is seen before what is nearer; counting behind it needs the light
+/// cap always.
+Counting::Caster counted_as(const CasterPlan& plan) {
+    if (!plan.left_out.empty()) return {.left_out = true};
+    if (plan.meets_near) return {.dark_cap = plan.reaches_infinity};
+    return {.test = Counting::Test::depth_pass, .light_cap = plan.cap_in_front, .dark_cap = false};
+}
+
+std::vector<Counting::Caster> counted_as(const Scene& scene, const std::vector<CasterPlan>& plans) {
+    std::vector<Counting::Caster> casters(scene.triangles.size());
+    for (const CasterPlan& plan : plans) {
+        const Mesh& mesh = scene.meshes[plan.mesh];
+        std::fill_n(casters.begin() + mesh.first_triangle, mesh.triangle_count, counted_as(plan));
+    }
+    return casters;
+}
+
+bool is_counted_behind(const CasterPlan& plan) {
+    return plan.left_out.empty() && plan.meets_near;
+}
+
+/// "casters 'floor', 'wall' and 3 more"
+std::string caster_words(const Scene& scene, const std::vector<const CasterPlan*>& plans) {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> names;
+    for (const CasterPlan* plan : plans)
+        if (names.size() < most) names.push_back(fmt::format("'{}'", scene.meshes[plan->mesh].name));
+    std::string words = fmt::format("{} {}", plans.size() == 1 ? "caster" : "casters",
+                                    fmt::join(names, ", "));
+    if (plans.size() > most) words += fmt::format(" and {} more", plans.size() - most);
+    return words;
+}
+
+/// What the scene does not need, a clause a reason: the casters of which it holds.
+std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPlan>& plans) {
+    std::vector<std::string> reasons;
+    for (const CasterPlan& plan : plans)
+        if (!plan.left_out.empty() &&
+            std::find(reasons.begin(), reasons.end(), plan.left_out) == reasons.end())
+            reasons.push_back(plan.left_out);
+    std::vector<std::string> clauses;
+    const auto add = [&](const std::string& what, const std::string& why, const auto& holds) {
+        std::vector<const CasterPlan*> those;
+        for (const CasterPlan& plan : plans)
+            if (holds(plan)) those.push_back(&plan);
+        if (!those.empty())
+            clauses.push_back(fmt::format("{}{}: {}", what, caster_words(scene, those), why));
+    };
+    for (const std::string& reason : reasons)
+        add("volumes of ", reason, [&](const CasterPlan& plan) { return plan.left_out == reason; });
+    add("dark caps and counting behind the surface for ", "the near plane does not meet the volume",
+        [](const CasterPlan& plan) { return plan.left_out.empty() && !plan.meets_near; });
+    add("light caps of ", "none is seen before what is nearer", [](const CasterPlan& plan) {
+        return plan.left_out.empty() && !plan.meets_near && !plan.cap_in_front;
+    });
+    add("dark caps of ", "the volume is not seen to infinity", [](const CasterPlan& plan) {
+        return plan.left_out.empty() && plan.meets_near && !plan.reaches_infinity;
+    });
+    clauses.emplace_back("depth clamp: the projection has no far plane");
+    return clauses;
+}
+
+/// zfail_reversed without what this scene does not need of it: caster by caster, its volume, a cap,
+/// or the search behind the surface.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    const std::vector<CasterPlan> plans = plan_casters(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.extruder = by_half_edges;
+    recipe.counting.casters = counted_as(scene, plans);
+    if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
+        // What lies past the far plane is not asked for.
+        recipe.counting.test = Counting::Test::depth_pass;
+        recipe.depth_model.projection = DepthModel::Projection::finite_reversed;
+        recipe.depth_model.far = finite_far(scene);
+    }
+    Frame frame = draw_stencil_shadows(gpu, scene, recipe);
+    frame.left_out = left_out(scene, plans);
+
+    const Technique* whole = find_technique("zfail_reversed");
+    assert(whole != nullptr);
+    const Frame spent = whole->run(gpu, scene, plan);
+    frame.saved = {.against = std::string(whole->name),
+                   .milliseconds = spent.milliseconds - frame.milliseconds,
+                   .volume_fragments = static_cast<std::int64_t>(spent.volume_fragments) -
+                                       static_cast<std::int64_t>(frame.volume_fragments)};
+    return frame;
+}
+
+} // namespace
+
+Technique auto_technique() {
+    return {.name = "auto",
+            .summary = "zfail_reversed without what the scene does not need, caster by caster",
+            .source = "McGuire, Hughes, Egan, Kilgard & Everitt 2003",
+            .needs = "closed volumes, glClipControl, a D32F depth buffer, and a plan of the scene",
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

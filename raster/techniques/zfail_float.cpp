@@ -1,0 +1,30 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// zfail_reversed with a counter that no scene overflows: faces are added up in a colour of 32-bit
+/// floating point, which holds all whole numbers of 24 bits. Blending takes what passes a depth
+/// test, so the test asks for what lies behind the surface.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    recipe.counter = Counter::sum;
+    recipe.counting.bits = 24;
+    recipe.counting.dark_cap = plan.dark_cap;
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique zfail_float_technique() {
+    return {.name = "zfail_float",
+            .summary = "zfail_reversed that adds up faces in a floating-point colour",
+            .source = "Roettger, Irion & Ertl 2002, \"Shadow Volumes Revisited\": counting by blending",
+            .needs = "blending into an R32F colour buffer",
+            .fails_at = {Cause::precision, Cause::open_mesh},
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,161 @@
+#include "scenes/beam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+/// How far off a rasterizer's float transform may put a point, relative to the largest coordinate
+/// in play: a dot product of 4 terms, each with 8 roundings of 2^-24 at most, and as much again
+/// for the rounding of the matrix: 4 * 8 * 2 * 2^-24. Double rounding, 2^-53, vanishes beside it.
+constexpr double transform_error = 0x1p-18;
+
+/// The four rays through the picture's corners, at view depth 1, around the picture.
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera) {
+    const double w = camera.width;
+    const double h = camera.height;
+    return {ray_direction(camera, 0, 0), ray_direction(camera, w, 0), ray_direction(camera, w, h),
+            ray_direction(camera, 0, h)};
+}
+
+/// The largest coordinate of anything that is transformed, and of the picture at depth `depth`.
+double largest_coordinate(const Scene& scene, double depth) {
+    double largest = 0;
+    const auto include = [&](const glm::dvec3& v) {
+        largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    for (const glm::dvec3 position : scene.positions) include(position);
+    include(scene.camera.eye);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    if (light.w != 0) include(light);
+    for (const glm::dvec3& ray : corner_rays(scene.camera)) include(scene.camera.eye + depth * ray);
+    return largest;
+}
+
+/// What the beam takes up of an axis, its margin included.
+Beam::Axis extent(const Beam& beam, const glm::dvec3& direction) {
+    Beam::Axis axis{direction, glm::dot(direction, beam.points[0]), 0};
+    axis.high = axis.low;
+    for (const glm::dvec3& point : beam.points) {
+        axis.low = std::min(axis.low, glm::dot(direction, point));
+        axis.high = std::max(axis.high, glm::dot(direction, point));
+    }
+    const double margin = beam.margin * glm::length(direction);
+    axis.low -= margin;
+    axis.high += margin;
+    return axis;
+}
+
+/// Whether all of `points` lie on one side of the beam. Any axis is a sound one; a zero axis
+/// separates nothing.
+bool separates(const Beam::Axis& axis, const Beam& beam, std::span<const glm::dvec3> points) {
+    bool below = true;
+    bool above = true;
+    for (const glm::dvec3& point : points) {
+        const double place = glm::dot(axis.direction, point - beam.origin);
+        below = below && place < axis.low;
+        above = above && place > axis.high;
+    }
+    return below || above;
+}
+
+/// A corner of the picture's part, and the edges that go out from it.
+struct PictureCorner {
+    glm::dvec3 point;
+    std::vector<glm::dvec3> edges;
+};
+
+/// The hull of those corners and the light. Relative to a point light, which is its last point. A
+/// light in a face's plane flattens the beam, which the axes survive. To a directional light, it is
+/// relative to the eye, and as long as any scene in it can be: two points are apart by no more than
+/// 2 sqrt(3) times the largest coordinate. The direction to it, of unit length, is rounded as
+/// points are, which weighs as much as the beam is long.
+Beam beam_to(const Scene& scene, std::span<const PictureCorner> corners, double depth) {
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const double largest = largest_coordinate(scene, depth);
+    const bool directional = light.w == 0;
+    const glm::dvec3 along = 4 * largest * glm::dvec3(light);
+    Beam beam;
+    beam.origin = directional ? scene.camera.eye : glm::dvec3(light);
+    beam.margin = transform_error * (directional ? 4 : 1) * largest;
+    std::vector<glm::dvec3> axes{scene.camera.forward};
+    for (const auto& [point, edges] : corners) {
+        beam.points.push_back(point - beam.origin);
+        const glm::dvec3 ray = directional ? along : beam.points.back();
+        for (const glm::dvec3& edge : edges) axes.push_back(glm::cross(ray, edge));
+        if (directional) beam.points.push_back(beam.points.back() + along);
+    }
+    if (!directional) beam.points.emplace_back(0, 0, 0);
+    for (const glm::dvec3& axis : axes) beam.axes.push_back(extent(beam, axis));
+    return beam;
+}
+
+/// Around the rectangle, each with the edge to the next.
+std::vector<PictureCorner> rectangle(const Camera& camera, double depth) {
+    const std::array<glm::dvec3, 4> rays = corner_rays(camera);
+    std::vector<PictureCorner> corners;
+    for (std::size_t i = 0; i < 4; ++i)
+        corners.push_back({camera.eye + depth * rays[i], {rays[(i + 1) % 4] - rays[i]}});
+    return corners;
+}
+
+} // namespace
+
+Corners corners_of(const Scene& scene, std::uint32_t triangle) {
+    return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
+}
+
+Beam beam_to_rectangle(const Scene& scene, double depth) {
+    return beam_to(scene, rectangle(scene.camera, depth), depth);
+}
+
+Beam beam_to_pyramid(const Scene& scene, double depth) {
+    std::vector<PictureCorner> corners = rectangle(scene.camera, depth);
+    const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
+    corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
+    Beam beam = beam_to(scene, corners, depth);
+    for (std::size_t i = 0; i < 4; ++i)
+        beam.axes.push_back(extent(beam, glm::cross(rays[i], rays[(i + 1) % 4])));
+    return beam;
+}
+
+bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
+              std::span<const glm::dvec3> own) {
+    const auto finds_gap = [&](const Beam::Axis& axis) { return separates(axis, beam, points); };
+    return std::none_of(beam.axes.begin(), beam.axes.end(), finds_gap) &&
+           std::none_of(own.begin(), own.end(), [&](const glm::dvec3& direction) {
+               return finds_gap(extent(beam, direction));
+           });
+}
+
+bool may_meet(const Beam& beam, const Corners& corners) {
+    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    return may_meet(beam, corners, std::span(&normal, 1));
+}
+
+PictureCone picture_cone(const Scene& scene) {
+    const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
+    PictureCone cone;
+    for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye
+        cone.inward[i] = glm::normalize(glm::cross(rays[i], rays[(i + 1) % 4]));
+    cone.inward[4] = scene.camera.forward;
+    cone.error = transform_error * largest_coordinate(scene, scene.camera.near);
+    return cone;
+}
+
+// The margin is an angle, plus the transform's error at the vertex.
+bool may_point_into(const PictureCone& cone, const Corners& corners, const glm::dvec3& from) {
+    return std::none_of(cone.inward.begin(), cone.inward.end(), [&](const glm::dvec3& axis) {
+        return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& point) {
+            const glm::dvec3 direction = point - from;
+            const double margin = transform_error * glm::length(direction) + cone.error;
+            return glm::dot(axis, direction) < -margin;
+        });
+    });
+}
+
+} // namespace shadowproof

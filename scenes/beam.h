@@ -1,0 +1,60 @@
+// What may lie between the light and a part of the picture. Every answer is conservative: "no" is
+// certain, for the rasterizer's floats, too.
+#pragma once
+
+#include "scenes/scene.h"
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+using Corners = std::array<glm::dvec3, 3>;
+
+Corners corners_of(const Scene& scene, std::uint32_t triangle);
+
+/// All points between the light and some point of a part of the picture: a convex hull, relative to
+/// `origin`.
+struct Beam {
+    /// A direction along which a gap is looked for, and what the hull takes up of it.
+    struct Axis {
+        glm::dvec3 direction{0, 0, 0};
+        double low = 0;
+        double high = 0;
+    };
+    glm::dvec3 origin{0, 0, 0};
+    std::vector<glm::dvec3> points; ///< the hull's corners
+    std::vector<Axis> axes;
+    double margin = 0; ///< by which the rasterizer may miss the hull
+};
+
+/// From the light to the picture's rectangle at view depth `depth`.
+Beam beam_to_rectangle(const Scene& scene, double depth);
+
+/// From the light to the pyramid between the eye and that rectangle.
+Beam beam_to_pyramid(const Scene& scene, double depth);
+
+/// Whether the convex hull of `points` and the beam may meet. Axes tried: the beam's own, and
+/// `own` of the points; where none separates them, the answer is "may".
+bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
+              std::span<const glm::dvec3> own);
+
+/// The same for a triangle, whose own axis is its normal.
+bool may_meet(const Beam& beam, const Corners& corners);
+
+/// The directions in which the picture looks: those on the inner side of its four side planes and
+/// of the plane across `forward`.
+struct PictureCone {
+    std::array<glm::dvec3, 5> inward; ///< normals of the planes
+    double error = 0;                 ///< the transform's, for points of the scene
+};
+PictureCone picture_cone(const Scene& scene);
+
+/// Whether some of the directions from `from` to a triangle's points may be the picture's. With the
+/// eye: whether it may be in the picture; with the light: whether its volume may be seen at
+/// infinity.
+bool may_point_into(const PictureCone& cone, const Corners& corners, const glm::dvec3& from);
+
+} // namespace shadowproof

@@ -1,0 +1,256 @@
+#include "scenes/caster_plan.h"
+
+#include "scenes/beam.h"
+#include "scenes/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+/// Triangles times corners that two meshes may have to be compared one by one.
+constexpr std::size_t most_comparisons = std::size_t{1} << 24U;
+
+/// (b - a) x (c - a) . (l - w a), w being 0 or 1, where its sign is certain, which is that of the side on which a
+/// homogeneous point (l, w) lies; 0 where it is zero, and NaN where it is uncertain. With u = 2^-53,
+/// a difference is rounded once, a product of three four times with its factors' own roundings, and
+/// two sums on top: each of the six products is off by less than 16 u of its size. Products of
+/// zeros are exact, and so is a point in the plane y = 0 beside a triangle in it.
+double certain_side(const Corners& t, const glm::dvec4& point) {
+    constexpr double rounding = 16 * 0x1p-53;
+    const glm::dvec3 b = t[1] - t[0];
+    const glm::dvec3 c = t[2] - t[0];
+    const glm::dvec3 p = glm::dvec3(point) - point.w * t[0];
+    const glm::dvec3 size_b = glm::abs(b);
+    const glm::dvec3 size_c = glm::abs(c);
+    const glm::dvec3 products(size_b.y * size_c.z + size_b.z * size_c.y,
+                              size_b.z * size_c.x + size_b.x * size_c.z,
+                              size_b.x * size_c.y + size_b.y * size_c.x);
+    const glm::dvec3 size_p = glm::abs(p);
+    const double value = glm::dot(glm::cross(b, c), p);
+    const double error = rounding * glm::dot(products, size_p);
+    if (std::abs(value) > error) return value;
+    return error == 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
+}
+
+double certain_side(const Corners& t, const glm::dvec3& point) {
+    return certain_side(t, glm::dvec4(point, 1));
+}
+
+/// A set of triangles, their corners each once, and the box around them.
+struct Body {
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> corners; ///< indices into Scene::positions
+    glm::dvec3 low{0, 0, 0};
+    glm::dvec3 high{0, 0, 0};
+    bool empty() const { return triangles.empty(); }
+};
+
+Body body_of(const Scene& scene, std::vector<std::uint32_t> triangles) {
+    Body body;
+    body.triangles = std::move(triangles);
+    if (body.empty()) return body;
+    for (const std::uint32_t triangle : body.triangles)
+        for (int k = 0; k < 3; ++k) body.corners.push_back(scene.triangles[triangle][k]);
+    std::sort(body.corners.begin(), body.corners.end());
+    body.corners.erase(std::unique(body.corners.begin(), body.corners.end()), body.corners.end());
+    body.low = body.high = scene.positions[body.corners.front()];
+    for (const std::uint32_t corner : body.corners) {
+        body.low = glm::min(body.low, glm::dvec3(scene.positions[corner]));
+        body.high = glm::max(body.high, glm::dvec3(scene.positions[corner]));
+    }
+    return body;
+}
+
+std::vector<std::uint32_t> triangles_of(const Mesh& mesh) {
+    std::vector<std::uint32_t> triangles(mesh.triangle_count);
+    std::iota(triangles.begin(), triangles.end(), mesh.first_triangle);
+    return triangles;
+}
+
+/// Whether a triangle may be in the picture with the side towards it that is the light's.
+bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_sided,
+                       const PictureCone& cone) {
+    const Corners corners = corners_of(scene, triangle);
+    const double of_light = certain_side(corners, homogeneous(chosen_light(scene)));
+    const double of_eye = certain_side(corners, scene.camera.eye);
+    if (of_light == 0 || of_eye == 0 || of_light * of_eye < 0) return false;
+    if (!double_sided && of_eye < 0) return false;
+    return may_point_into(cone, corners, scene.camera.eye);
+}
+
+/// What of a mesh may be seen lit, if nothing shadows it. Nothing else asks for a shadow.
+Body lit_body(const Scene& scene, const Mesh& mesh, const PictureCone& cone) {
+    std::vector<std::uint32_t> triangles;
+    if (!mesh.receives) return {};
+    const bool double_sided = scene.materials[mesh.material].double_sided;
+    for (const std::uint32_t triangle : triangles_of(mesh))
+        if (may_show_lit_side(scene, triangle, double_sided, cone)) triangles.push_back(triangle);
+    return body_of(scene, std::move(triangles));
+}
+
+/// Whether a plane across a coordinate axis lies between: the caster on or behind it, the receiver
+/// on it or before it, the light before it. Only numbers as given are compared.
+bool is_box_behind(const Body& caster, const Body& receiver, const glm::dvec4& light) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int sign : {-1, 1}) {
+            const double plane = sign > 0 ? caster.high[axis] : -caster.low[axis];
+            const double nearest = sign > 0 ? receiver.low[axis] : -receiver.high[axis];
+            const double beyond = sign * light[axis] - light.w * plane;
+            if ((beyond > 0 && nearest >= plane) || (beyond >= 0 && nearest > plane)) return true;
+        }
+    return false;
+}
+
+/// Whether each of `planes`' triangles has the light on one side for certain, and all of `others`'
+/// corners on that side (`on_light_side`) or on the other, or in its plane.
+bool all_on_side(const Scene& scene, const Body& planes, const Body& others,
+                 const glm::dvec4& light, bool on_light_side) {
+    return std::all_of(
+        planes.triangles.begin(), planes.triangles.end(), [&](std::uint32_t triangle) {
+            const Corners corners = corners_of(scene, triangle);
+            const double of_light = certain_side(corners, light);
+            if (of_light == 0) return true; // no segment to the light crosses it
+            if (std::isnan(of_light)) return false;
+            const double sign = (of_light > 0) == on_light_side ? 1 : -1;
+            return std::all_of(
+                others.corners.begin(), others.corners.end(), [&](std::uint32_t corner) {
+                    return sign * certain_side(corners, glm::dvec3(scene.positions[corner])) >= 0;
+                });
+        });
+}
+
+/// Whether a caster may lie between the light and some point of a receiver's lit sides. It does not
+/// where it lies wholly behind each of those sides, as a convex body does behind its own; nor where
+/// the receiver and the light lie before each of the caster's planes, as in a room.
+bool may_shadow(const Scene& scene, const Body& caster, const Body& receiver,
+                const glm::dvec4& light) {
+    if (is_box_behind(caster, receiver, light)) return false;
+    if (caster.triangles.size() * receiver.corners.size() <= most_comparisons &&
+        all_on_side(scene, caster, receiver, light, true))
+        return false;
+    return receiver.triangles.size() * caster.corners.size() > most_comparisons ||
+           !all_on_side(scene, receiver, caster, light, false);
+}
+
+/// All that may be between the light and what is seen: the picture's pyramid, as deep as the scene.
+Beam beam_to_seen(const Scene& scene) {
+    double deepest = scene.camera.near;
+    for (const glm::dvec3 position : scene.positions)
+        deepest = std::max(deepest, view_depth(scene.camera, position));
+    return beam_to_pyramid(scene, std::min(deepest, scene.camera.far));
+}
+
+bool body_may_meet(const Scene& scene, const Body& body, const Beam& beam) {
+    return std::any_of(
+        body.triangles.begin(), body.triangles.end(),
+        [&](std::uint32_t triangle) { return may_meet(beam, corners_of(scene, triangle)); });
+}
+
+/// Why nothing seen can lie in a caster's shadow; empty where something may.
+std::string reason_to_leave_out(const Scene& scene, const Body& caster,
+                                const std::vector<Body>& receivers, const Beam& to_seen) {
+    if (caster.empty()) return "it has no triangles";
+    if (!body_may_meet(scene, caster, to_seen)) return "its shadow falls outside the picture";
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const bool shadows = std::any_of(receivers.begin(), receivers.end(), [&](const Body& receiver) {
+        return !receiver.empty() && may_shadow(scene, caster, receiver, light);
+    });
+    return shadows ? "" : "nothing seen lies behind it, as the light looks";
+}
+
+/// The first mesh of the body that each mesh belongs to: meshes that share a corner are one.
+std::vector<std::uint32_t> first_of_body(const Scene& scene) {
+    const std::vector<std::uint32_t> welded = weld_by_position(scene.positions);
+    std::vector<std::uint32_t> parent(scene.meshes.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t mesh) {
+        while (parent[mesh] != mesh) mesh = parent[mesh] = parent[parent[mesh]];
+        return mesh;
+    };
+    constexpr std::uint32_t nobody = 0xffffffffU;
+    std::vector<std::uint32_t> owner(scene.positions.size(), nobody);
+    for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        if (!scene.meshes[mesh].casts) continue;
+        for (const std::uint32_t triangle : triangles_of(scene.meshes[mesh]))
+            for (int k = 0; k < 3; ++k) {
+                std::uint32_t& first = owner[welded[scene.triangles[triangle][k]]];
+                if (first == nobody) first = mesh;
+                const std::uint32_t one = root(first);
+                const std::uint32_t other = root(mesh);
+                parent[std::max(one, other)] = std::min(one, other);
+            }
+    }
+    for (std::uint32_t mesh = 0; mesh < parent.size(); ++mesh) parent[mesh] = root(mesh);
+    return parent;
+}
+
+/// Whether a closed body, wound outwards, lies beyond the near plane for certain: whatever of it is
+/// culled has something of it in front. Where nothing of it is culled, that is so anyhow.
+bool hides_its_caps(const Scene& scene, const CasterReport& report, const Beam& to_near) {
+    const Mesh& mesh = scene.meshes[report.mesh];
+    if (scene.materials[mesh.material].double_sided) return true;
+    if (!report.closed() || report.inverted || report.first_fault) return false;
+    const std::vector<std::uint32_t> triangles = triangles_of(mesh);
+    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
+        const Corners corners = corners_of(scene, triangle);
+        return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& point) {
+            return view_depth(scene.camera, point) > scene.camera.near + to_near.margin;
+        });
+    });
+}
+
+} // namespace
+
+std::vector<CasterPlan> plan_casters(const Scene& scene) {
+    const PictureCone cone = picture_cone(scene);
+    const Beam to_seen = beam_to_seen(scene);
+    const Beam to_near = beam_to_pyramid(scene, scene.camera.near);
+    std::vector<Body> receivers;
+    for (const Mesh& mesh : scene.meshes) receivers.push_back(lit_body(scene, mesh, cone));
+
+    const Light& light = chosen_light(scene);
+    const auto reaches_infinity = [&](std::uint32_t triangle) {
+        return light.kind != Light::Kind::directional &&
+               may_point_into(cone, corners_of(scene, triangle), light.position);
+    };
+    std::vector<CasterPlan> plans;
+    for (const CasterReport& report : inspect_casters(scene)) {
+        const Body caster = body_of(scene, triangles_of(scene.meshes[report.mesh]));
+        CasterPlan& plan = plans.emplace_back();
+        plan.mesh = report.mesh;
+        plan.left_out = reason_to_leave_out(scene, caster, receivers, to_seen);
+        plan.meets_near = body_may_meet(scene, caster, to_near);
+        plan.reaches_infinity =
+            std::any_of(caster.triangles.begin(), caster.triangles.end(), reaches_infinity);
+        plan.cap_in_front = !hides_its_caps(scene, report, to_near);
+    }
+
+    const std::vector<std::uint32_t> body = first_of_body(scene);
+    std::vector<CasterPlan> of_body(scene.meshes.size());
+    for (CasterPlan& all : of_body)
+        all.meets_near = all.reaches_infinity = all.cap_in_front = false;
+    for (const CasterPlan& plan : plans) {
+        if (!plan.left_out.empty()) continue;
+        CasterPlan& all = of_body[body[plan.mesh]];
+        all.meets_near |= plan.meets_near;
+        all.reaches_infinity |= plan.reaches_infinity;
+        all.cap_in_front |= plan.cap_in_front;
+    }
+    for (CasterPlan& plan : plans) {
+        const CasterPlan& all = of_body[body[plan.mesh]];
+        plan.meets_near = all.meets_near;
+        plan.reaches_infinity = all.reaches_infinity;
+        plan.cap_in_front = all.cap_in_front;
+    }
+    return plans;
+}
+
+} // namespace shadowproof
