@@ -21,14 +21,14 @@ constexpr std::size_t bytes_of(Image<T>... /*pictures*/) {
     return (sizeof(T) + ... + 0);
 }
 
-/// Of a target in OpenGL, which in software lies in the same memory: claim (R8), triangle (R32UI)
-/// and depth with stencil (D24_S8, the smaller of the two formats).
-constexpr std::size_t target_bytes = 1 + 4 + 4;
+/// Of a target in OpenGL, which in software lies in the same memory: claim (R8), triangle (R32UI),
+/// sum (R32F), and depth with stencil (D24_S8, the smaller of the two formats).
+constexpr std::size_t target_bytes = 1 + 4 + 4 + 4;
 
 std::size_t technique_bytes() {
     const Frame frame;
     const Comparison comparison;
-    return bytes_of(frame.claim, frame.counter, frame.depth, frame.triangle) +
+    return bytes_of(frame.claim, frame.counter, frame.volumes, frame.depth, frame.triangle) +
            bytes_of(comparison.cause, comparison.ledger_miss, comparison.predicted);
 }
 
@@ -43,11 +43,11 @@ std::size_t truth_bytes() {
     return bytes_of(truth.visibility, truth.triangle, truth.depth, truth.exactness);
 }
 
-std::size_t comparison_bytes(std::size_t techniques_kept) {
+std::size_t comparison_bytes() {
     const ShadowDepths depths;
     return truth_bytes() +
            bytes_of(depths.at_surface, depths.at_near, depths.at_far, depths.at_infinity) +
-           technique_bytes() * std::max<std::size_t>(techniques_kept, 1) + target_bytes;
+           technique_bytes() + target_bytes;
 }
 
 std::uint64_t memory_there_is() {

@@ -11,9 +11,8 @@ inline constexpr const char* out_of_memory = "there is not enough memory; try a 
 
 /// Bytes a pixel of the truth alone.
 std::size_t truth_bytes();
-/// Bytes a pixel of truth and shadow depths, of the technique that is being drawn, and of so many
-/// techniques that are kept with it.
-std::size_t comparison_bytes(std::size_t techniques_kept);
+/// Bytes a pixel of truth and shadow depths, and of the technique that is being drawn and judged.
+std::size_t comparison_bytes();
 
 /// Bytes that this process may have: of the machine, its control group (Linux cgroup 2) and its
 /// own limit (RLIMIT_AS), the least.

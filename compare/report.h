@@ -25,6 +25,9 @@ struct Cell {
     std::string error;   ///< not empty: the cell could not run; the rest is then meaningless
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
+    std::uint64_t volume_fragments = 0;
+    std::vector<std::string> left_out;            ///< what the technique did without
+    std::optional<Savings> saved;                 ///< by that
     std::vector<Cause> excused;                   ///< causes found that technique and scene excuse
     std::optional<Since> since;                   ///< against the same cell of a baseline
     std::optional<FirstDifference> first_failing; ///< the first pixel that fails the gate
@@ -111,7 +114,11 @@ std::string no_longer_provoked_words(const SceneResult& scene);
 /// system and URL takes.
 std::string folder_of(const SceneResult& scene);
 
-/// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause.
+/// "saved 3.1 ms and 271,004 of 800,123 volume fragments against zfail_reversed"
+std::string words_of(const Savings& saved, std::uint64_t volume_fragments);
+
+/// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause,
+/// volumes.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
 
 /// The same for the picture that all cells of a scene share.
@@ -135,9 +142,13 @@ public:
     /// Throws Error where `folder` exists and is not a report, or cannot be written.
     explicit ReportFolder(const std::filesystem::path& folder);
 
-    /// Writes pictures and data of a scene, which may then be dropped, and packs its cause maps.
+    /// Writes the truth and what else the cells of a scene share.
+    void add_scene(const SceneResult& scene);
+    /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
     /// threads 0: one per core.
-    void add_pictures(SceneResult& scene, int threads = 0);
+    void add_cell(const SceneResult& scene, Cell& cell, int threads = 0);
+    /// Removes what was added of a scene that came to nothing.
+    void remove_scene(const SceneResult& scene);
     /// Where files are written until finish() renames them into place.
     const std::filesystem::path& unfinished() const { return beside_.path(); }
     /// Writes index.html, results.json and results.js, and replaces an older report.

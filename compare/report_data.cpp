@@ -102,6 +102,7 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
                   {{"claim", picture_block(cell.frame.claim)},
                    {"predicted", block(cell.comparison.predicted.pixels)},
                    {"read_back", block(cell.frame.counter.pixels)},
+                   {"faces", block(cell.frame.volumes.pixels)},
                    {"seen", block(ledgers.seen)},
                    {"shown", block(ledgers.shown)},
                    {"exactness", block(ledgers.exactness)},

@@ -58,13 +58,28 @@ ReportFolder::ReportFolder(const fs::path& folder)
     if (error) throw_unwritable(folder_, error.message());
 }
 
-void ReportFolder::add_pictures(SceneResult& scene, int threads) {
+void ReportFolder::add_scene(const SceneResult& scene) {
     const auto lock = hold_unfinished();
     try {
-        write_pictures(scene, beside_.path(), threads);
+        write_scene(scene, beside_.path());
     } catch (const fs::filesystem_error& error) {
         throw_unwritable(folder_, error.code().message());
     }
+}
+
+void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) {
+    const auto lock = hold_unfinished();
+    try {
+        write_cell(scene, cell, beside_.path(), threads);
+    } catch (const fs::filesystem_error& error) {
+        throw_unwritable(folder_, error.code().message());
+    }
+}
+
+void ReportFolder::remove_scene(const SceneResult& scene) {
+    const auto lock = hold_unfinished();
+    std::error_code ignored;
+    fs::remove_all(beside_.path() / folder_of(scene), ignored);
 }
 
 void ReportFolder::finish(const Report& report) {

@@ -41,6 +41,12 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     }
     const Comparison& comparison = cell.comparison;
     json["ms"] = cell.milliseconds;
+    json["volume_fragments"] = cell.volume_fragments;
+    if (!cell.left_out.empty()) json["left_out"] = cell.left_out;
+    if (cell.saved)
+        json["saved"] = {{"against", cell.saved->against},
+                         {"ms", cell.saved->milliseconds},
+                         {"volume_fragments", cell.saved->volume_fragments}};
     json["verdict"] = name_of(cell.verdict);
     json["pixels"] =
         static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
@@ -53,7 +59,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     json["ledger"] = {{"equal", comparison.ledger.equal},
                       {"in_band", comparison.ledger.in_band},
                       {"unexplained", comparison.ledger.unexplained}};
-    for (const char* kind : {"claim", "difference", "cause"})
+    for (const char* kind : {"claim", "difference", "cause", "volumes"})
         json["images"][kind] = picture_path(scene, cell, kind);
     json["cause_map"] = cell.cause_map;
     if (cell.since) json["since"] = since_of(*cell.since);

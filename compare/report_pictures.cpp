@@ -105,31 +105,49 @@ PalettePicture cause_picture(const Cell& cell) {
         [&](std::size_t i) { return cell.comparison.cause.pixels[i]; });
 }
 
-void write_pictures(SceneResult& scene, const std::filesystem::path& report, int threads) {
-    if (!scene.error.empty()) return;
-    std::vector<std::function<void()>> jobs;
+PalettePicture volume_picture(const Cell& cell) {
+    // As many faces as the picture can tell apart under each class of the claim.
+    constexpr int levels = 256 / 3;
+    constexpr Rgb full{0xFF, 0xC0, 0x40};
+    const Image<std::uint8_t>& faces = cell.frame.volumes;
+    const int most = std::clamp<int>(*std::max_element(faces.pixels.begin(), faces.pixels.end()), 6,
+                                     levels - 1);
+    PalettePicture picture{Image<std::uint8_t>(faces.width, faces.height), {}};
+    for (const Visibility claim :
+         {Visibility::lit, Visibility::shadowed, Visibility::background}) // as dimmed_index says
+        for (int level = 0; level < levels; ++level) {
+            Rgb color = dimmed(claim);
+            for (std::size_t i = 0; i < color.size(); ++i)
+                color[i] = static_cast<std::uint8_t>(
+                    std::min(255, color[i] + full[i] * std::min(level, most) / most));
+            picture.palette.push_back(color);
+        }
+    for (std::size_t i = 0; i < faces.pixels.size(); ++i)
+        picture.indices.pixels[i] = static_cast<std::uint8_t>(
+            dimmed_index(cell.frame.claim.pixels[i]) * levels +
+            std::min<int>(faces.pixels[i], levels - 1));
+    return picture;
+}
+
+void write_scene(const SceneResult& scene, const std::filesystem::path& report) {
     std::filesystem::create_directories((report / truth_path(scene)).parent_path());
-    jobs.emplace_back([&] { write_png(report / truth_path(scene), scene.truth.visibility); });
-    jobs.emplace_back(
-        [&] { write_text(report / folder_of(scene) / "scene.js", scene_script(scene)); });
-    for (Cell& cell : scene.cells) {
-        if (!cell.error.empty()) continue;
-        jobs.emplace_back([&cell] { cell.cause_map = packed_cause_map(cell.comparison); });
-        const auto path = [&](const char* kind) {
-            return report / picture_path(scene, cell, kind);
-        };
-        const std::filesystem::path folder = path("claim").parent_path();
-        std::filesystem::create_directories(folder);
-        jobs.emplace_back([&scene, &cell, file = folder / "cell.js"] {
-            write_text(file, cell_script(scene, cell));
-        });
-        jobs.emplace_back([&cell, file = path("claim")] { write_png(file, cell.frame.claim); });
-        jobs.emplace_back([&scene, &cell, file = path("difference")] {
-            write_png(file, difference_picture(scene.truth, cell));
-        });
-        jobs.emplace_back([&cell, file = path("cause")] { write_png(file, cause_picture(cell)); });
-    }
-    run_all(jobs, threads);
+    write_png(report / truth_path(scene), scene.truth.visibility);
+    write_text(report / folder_of(scene) / "scene.js", scene_script(scene));
+}
+
+void write_cell(const SceneResult& scene, Cell& cell, const std::filesystem::path& report,
+                int threads) {
+    if (!cell.error.empty()) return;
+    const auto path = [&](const char* kind) { return report / picture_path(scene, cell, kind); };
+    const std::filesystem::path folder = path("claim").parent_path();
+    std::filesystem::create_directories(folder);
+    run_all({[&] { write_text(folder / "cell.js", cell_script(scene, cell)); },
+             [&] { cell.cause_map = packed_cause_map(cell.comparison); },
+             [&] { write_png(path("claim"), cell.frame.claim); },
+             [&] { write_png(path("difference"), difference_picture(scene.truth, cell)); },
+             [&] { write_png(path("cause"), cause_picture(cell)); },
+             [&] { write_png(path("volumes"), volume_picture(cell)); }},
+            threads);
 }
 
 } // namespace shadowproof

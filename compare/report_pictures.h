@@ -15,8 +15,15 @@ PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell);
 /// The dimmed claim with each differing pixel in the colour of its cause.
 PalettePicture cause_picture(const Cell& cell);
 
-/// Packs the cause maps and writes truth once, and claim, difference and cause of each cell that
-/// ran, into `report`, at the paths of truth_path and picture_path. threads 0: one per core.
-void write_pictures(SceneResult& scene, const std::filesystem::path& report, int threads);
+/// The dimmed claim, and over it the faces of the volumes that nothing hides, added up: the most of
+/// them that lie at one pixel, or six, are the full colour.
+PalettePicture volume_picture(const Cell& cell);
+
+/// Writes the truth, at truth_path, and the data that the cells share into `report`.
+void write_scene(const SceneResult& scene, const std::filesystem::path& report);
+/// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
+/// threads 0: one per core.
+void write_cell(const SceneResult& scene, Cell& cell, const std::filesystem::path& report,
+                int threads);
 
 } // namespace shadowproof

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace shadowproof {
 
@@ -49,6 +50,15 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
                             grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
                             comparison.ledger.first_y);
     return line + fmt::format("  {:.1f} ms", cell.milliseconds);
+}
+
+std::string words_of(const Savings& saved, std::uint64_t volume_fragments) {
+    const std::int64_t fragments = saved.volume_fragments;
+    const std::uint64_t all = volume_fragments + static_cast<std::uint64_t>(fragments);
+    return fmt::format("saved {:.1f} ms and {}{} of {} volume fragments against {}",
+                       saved.milliseconds, fragments < 0 ? "-" : "",
+                       grouped(static_cast<std::uint64_t>(std::abs(fragments))), grouped(all),
+                       saved.against);
 }
 
 std::string why_it_fails(const Cell& cell, const Gate& gate) {

@@ -53,6 +53,12 @@ void side(const Place& place) {
 void milliseconds(const Place& place) {
     require(place.value.is_number() && place.value.get<double>() >= 0, place, "a number from 0");
 }
+void number(const Place& place) {
+    require(place.value.is_number(), place, "a number");
+}
+void whole_number(const Place& place) {
+    require(place.value.is_number_integer(), place, "a whole number");
+}
 void cause(const Place& place) {
     require(place.value.is_string() && cause_named(place.value.get_ref<const std::string&>()),
             place, "the name of a cause");
@@ -194,7 +200,11 @@ void truth_images(const Place& place) {
     object(place, {{"truth", text}});
 }
 void cell_images(const Place& place) {
-    object(place, {{"claim", text}, {"difference", text}, {"cause", text}});
+    object(place, {{"claim", text}, {"difference", text}, {"cause", text}, {"volumes", text}});
+}
+
+void saved(const Place& place) {
+    object(place, {{"against", text}, {"ms", number}, {"volume_fragments", whole_number}});
 }
 
 void failed_cell(const Place& place) {
@@ -213,6 +223,9 @@ void cell(const Place& place) {
                    {"command", text},
                    {"fails", boolean},
                    {"ms", milliseconds},
+                   {"volume_fragments", count},
+                   {"left_out", list_of<text>, Need::optional},
+                   {"saved", saved, Need::optional},
                    {"verdict", verdict},
                    {"pixels", size},
                    {"differing", count},

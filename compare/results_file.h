@@ -12,7 +12,7 @@ namespace shadowproof {
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Of the data beside the results: the viewer of one format does not read another's.
-inline constexpr int results_format = 2;
+inline constexpr int results_format = 3;
 
 using ResultsJson = nlohmann::ordered_json; ///< members in the order of the file
 

@@ -226,7 +226,7 @@ std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>
 int explain(const ExplainOptions& options) {
     for (const std::string& file : {options.json, options.svg})
         if (!file.empty()) check_writable(file);
-    refuse_too_large(options.picture.size.width, options.picture.size.height, comparison_bytes(1));
+    refuse_too_large(options.picture.size.width, options.picture.size.height, comparison_bytes());
     const Scene scene = load_scene(options.scene, options.picture.request());
     const Plan plan = make_plan(scene);
     const Tracer tracer(scene, options.picture.threads);

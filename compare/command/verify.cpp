@@ -64,6 +64,9 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
     try {
         cell.frame = render(technique, trial.scene, trial.plan, gpu);
         cell.milliseconds = cell.frame.milliseconds;
+        cell.volume_fragments = cell.frame.volume_fragments;
+        cell.left_out = cell.frame.left_out;
+        cell.saved = cell.frame.saved;
         refuse_blank(technique.name, trial.truth, cell.frame);
         const Prediction prediction(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame.counting, cell.frame.depth_model);
@@ -128,6 +131,7 @@ struct Run {
     Gpu& gpu;
     Console& console;
     Report& report;
+    ReportFolder& folder;
 };
 
 /// Judges the cell by the gate, and says how it went.
@@ -137,14 +141,38 @@ void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
     const Gate& gate = run.report.gate;
     if (cell.error.empty()) cell.first_failing = first_that_fails(cell, gate);
     run.console.cell(scene, cell, widths, fails(cell, gate));
+    for (const std::string& clause : cell.left_out) run.console.line("  left out: " + clause);
+    if (cell.saved) run.console.line("  " + words_of(*cell.saved, cell.volume_fragments));
     if (cell.since) run.console.line("  since the baseline: " + words_of(*cell.since));
     const std::string allowed = cause_counts(pixels_allowed(cell, gate));
     if (cell.error.empty() && !allowed.empty()) run.console.line("  allowed: " + allowed);
 }
 
+/// Pictures are on the disk by now; the figures stay.
+void drop_pictures(Cell& cell) {
+    cell.frame = {};
+    cell.ledgers = {};
+    cell.comparison.cause = {};
+    cell.comparison.ledger_miss = {};
+    cell.comparison.predicted = {};
+}
+void drop_truth(SceneResult& scene) {
+    const TraceStatistics statistics = scene.truth.statistics;
+    scene.truth = {};
+    scene.truth.statistics = statistics;
+}
+
+/// Work for the report, in the time that is said to go to it.
+template <class Work>
+void add_timed(Report& report, const Work& work) {
+    const Stopwatch writing;
+    work();
+    report.report_milliseconds += writing.milliseconds();
+}
+
 /// Judges the chosen light of a scene.
 void verify_light(const Run& run, const Scene& scene, SceneResult& result) {
-    const auto& [options, baseline, gpu, console, report] = run;
+    const auto& [options, baseline, gpu, console, report, folder] = run;
     result.light = chosen_light(scene);
     result.name = scene.name;
     if (result.one_of_many) result.name += "-" + result.light.choice;
@@ -177,21 +205,11 @@ void verify_light(const Run& run, const Scene& scene, SceneResult& result) {
         console.progress(fmt::format("{}: {}", result.name, technique->name));
         Cell& cell = result.cells.emplace_back(try_technique(trial, *technique, gpu));
         conclude_cell(run, result, cell, widths);
+        add_timed(report, [&] { run.folder.add_cell(result, cell, options.scene.threads); });
+        drop_pictures(cell);
     }
-}
-
-/// Pictures are on the disk by now; the figures stay.
-void drop_pictures(SceneResult& scene) {
-    const TraceStatistics statistics = scene.truth.statistics;
-    scene.truth = {};
-    scene.truth.statistics = statistics;
-    for (Cell& cell : scene.cells) {
-        cell.frame = {};
-        cell.ledgers = {};
-        cell.comparison.cause = {};
-        cell.comparison.ledger_miss = {};
-        cell.comparison.predicted = {};
-    }
+    add_timed(report, [&] { run.folder.add_scene(result); });
+    drop_truth(result);
 }
 
 /// What goes wrong in `work` becomes the result.
@@ -205,14 +223,15 @@ void attempt(const Run& run, SceneResult& result, const Work& work) {
         result.error = error.what();
     }
     if (result.error.empty()) return;
+    if (!result.cells.empty()) run.folder.remove_scene(result);
     result.name = unique_name(run.report, result);
     result.cells.clear();
     complain(result.error);
 }
 
 /// A scene of several lights is judged under each of them, unless one was chosen: a result each.
-void verify_scene(const Run& run, ReportFolder& folder, const std::string& argument) {
-    const auto& [options, baseline, gpu, console, report] = run;
+void verify_scene(const Run& run, const std::string& argument) {
+    const auto& [options, baseline, gpu, console, report, folder] = run;
     const std::size_t first = report.scenes.size();
     std::optional<Scene> scene;
     std::size_t lights = 1;
@@ -239,11 +258,6 @@ void verify_scene(const Run& run, ReportFolder& folder, const std::string& argum
             if (!result.no_longer_provoked.empty())
                 console.always(result.name + ": " + no_longer_provoked_words(result));
         }
-        console.progress(fmt::format("{}: writing pictures", result.name));
-        const Stopwatch writing;
-        folder.add_pictures(result, options.scene.threads);
-        report.report_milliseconds += writing.milliseconds();
-        drop_pictures(result);
     }
 }
 
@@ -269,16 +283,16 @@ int verify(const VerifyOptions& options) {
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
     check_outputs(options.output);
     refuse_too_large(options.scene.size.width, options.scene.size.height,
-                     comparison_bytes(options.technique.chosen().size()));
+                     comparison_bytes());
     for (const Allowance& allowance : options.gate.gate.allow)
         if (allowance.cause == Cause::edge)
             console.line("note: --allow edge changes nothing: edge pixels never fail");
     ReportFolder folder(options.output.out);
     Gpu gpu(options.technique.platform);
     Report report = begin_report(options, gpu);
-    const Run run{options, baseline, gpu, console, report};
+    const Run run{options, baseline, gpu, console, report, folder};
     for (const std::string& argument : scenes_to_verify(options))
-        verify_scene(run, folder, argument);
+        verify_scene(run, argument);
     if (baseline)
         report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
                                    notes_on(*baseline, report)};

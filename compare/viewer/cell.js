@@ -169,17 +169,17 @@ function valueRows({ visibility, claim }) {
 const countersShown = 12;
 
 function counterRows({ predicted, readBack, bits }) {
-  const before = predicted && tallied(predicted);
-  const after = readBack && tallied(readBack);
-  const values = [...Array(256).keys()].filter((v) => before?.[v] || after?.[v])
+  const before = predicted && talliedAll(predicted);
+  const after = readBack && talliedAll(readBack);
+  const values = [...new Set([...before?.keys() ?? [], ...after?.keys() ?? []])]
     .sort((a, b) => Math.abs(asCount(a, bits)) - Math.abs(asCount(b, bits)) || a - b);
   const rows = values.slice(0, countersShown).map((value) => {
     const count = asCount(value, bits);
     return element('tr', {},
       element('th', { scope: 'row' }, swatch(`rgb(${counterColor(count).join(',')})`),
               count < 0 ? `${value} (${count})` : String(value)),
-      element('td', { class: 'number' }, before ? grouped(before[value]) : '?'),
-      element('td', { class: 'number' }, after ? grouped(after[value]) : '?'));
+      element('td', { class: 'number' }, before ? grouped(before.get(value) ?? 0) : '?'),
+      element('td', { class: 'number' }, after ? grouped(after.get(value) ?? 0) : '?'));
   });
   if (values.length > countersShown)
     rows.push(element('tr', {}, element('td', { colspan: 3 },
@@ -201,12 +201,17 @@ const legends = (page) => element('div', { class: 'legends' },
   legendTable('How the claim contradicts', ['Difference', 'Pixels', 'Meaning'],
               contradictionRows(page.opened)),
   legendTable('Values', ['Class', 'Truth', 'Claim'], valueRows(page.opened)),
-  legendTable('Stencil counter', ['Value', 'Predicted', 'Read back'], counterRows(page.opened)));
+  legendTable('Counter', ['Value', 'Predicted', 'Read back'], counterRows(page.opened)));
 
 function remarks(title, items) {
   return items?.length ? [element('p', { class: 'label' }, title),
                           element('ul', {}, items.map((item) => element('li', {}, item)))] : null;
 }
+
+/** "3.1 ms and 271,004 volume fragments against zfail_reversed" */
+const savingWords = ({ against, ms, volume_fragments: fragments }) =>
+  `${ms < 0 ? '−' : ''}${milliseconds(Math.abs(ms))} and ` +
+  `${fragments < 0 ? '−' : ''}${grouped(Math.abs(fragments))} volume fragments against ${against}`;
 
 /** Plan, times, versions and the command that makes this cell again. */
 function howMade(results, { scene, cell }) {
@@ -216,12 +221,15 @@ function howMade(results, { scene, cell }) {
     cell.command ? commandLine('copy-command', 'Reproduce this cell', cell.command) : null,
     facts([
       ['Technique', cell.summary], ['Drawn in', cell.error ? null : milliseconds(cell.ms)],
+      ['Volume fragments', cell.error ? null : grouped(cell.volume_fragments)],
+      ['Saved', cell.saved && savingWords(cell.saved)],
       ['Truth traced in', reference && milliseconds(reference.ms)],
       ['Rays', reference && grouped(reference.rays)],
       ['Decided in exact arithmetic', reference && grouped(reference.exact_decisions)],
       ['File', scene.file], ['Size', `${scene.width} × ${scene.height}`],
       ['Triangles', scene.triangles && grouped(scene.triangles)], ['Light', scene.light],
       ['Provokes', provokes?.join(', ')]]),
+    remarks('Left out by the technique', cell.left_out),
     remarks('The plan: left out, as this scene does not need it', scene.left_out),
     remarks('Notes', scene.notes),
     madeWith(results));

@@ -42,6 +42,13 @@ function tallied(values) {
   return counts;
 }
 
+/** How often each value stands in an array, of whatever size it is. */
+function talliedAll(values) {
+  const counts = new Map();
+  for (const value of values) counts.set(value, (counts.get(value) ?? 0) + 1);
+  return counts;
+}
+
 function checkTruth(opened) {
   const { scene, visibility, problems } = opened;
   const counts = tallied(visibility);
@@ -64,7 +71,7 @@ function checkCell(opened) {
 }
 
 const lengthsOfCell = (pixels, n) => ({
-  claim: pixels, predicted: pixels, read_back: pixels,
+  claim: pixels, predicted: pixels, read_back: pixels, faces: pixels,
   seen: n, shown: n, exactness: n, ledger: n,
   ledger_start: null, ledger_counts: null, ledger_exact: null, ledger_predicted: null,
   crossing_face: null, crossing_change: null, crossing_status: null,
@@ -91,6 +98,7 @@ async function openCell(scene, cell) {
     claim: blocks?.claim ?? null,
     predicted: blocks?.predicted ?? null,
     readBack: blocks?.read_back ?? null,
+    faces: blocks?.faces ?? null,
     blocks,
     bits: cellFile?.counting?.bits ?? 8,
   };

@@ -1,9 +1,11 @@
-// The pictures of a cell: six panes that zoom and pan as one, or two in one pane that slide, blend
+// The pictures of a cell: seven panes that zoom and pan as one, or two in one pane that slide, blend
 // or toggle. A pane is a canvas that shows the picture's pixels as they are, by nearest sampling.
 
-const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back'];
+const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back',
+                      'volumes'];
 const pictureTitles = { truth: 'Truth', claim: 'Claim', difference: 'Difference', cause: 'Cause',
-                        predicted: 'Stencil predicted', read_back: 'Stencil read back' };
+                        predicted: 'Counter predicted', read_back: 'Counter read back',
+                        volumes: 'Volumes' };
 const zooms = [0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
 const valueNames = { 0: 'none', 64: 'dark', 255: 'lit' };
 
@@ -33,20 +35,24 @@ function counterPicture(values, width, height, bits) {
   const canvas = element('canvas', { width, height });
   const context = canvas.getContext('2d');
   const pixels = context.createImageData(width, height);
-  const colors = Array.from({ length: 256 }, (_, value) => counterColor(asCount(value, bits)));
-  values.forEach((value, i) => pixels.data.set([...colors[value], 255], 4 * i));
+  const colors = new Map();
+  values.forEach((value, i) => {
+    if (!colors.has(value)) colors.set(value, [...counterColor(asCount(value, bits)), 255]);
+    pixels.data.set(colors.get(value), 4 * i);
+  });
   context.putImageData(pixels, 0, 0);
   return canvas;
 }
 
 /** What a picture says of one pixel, in a word that fits into it. */
 function pixelWord(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack } = opened;
+  const { visibility, claim, causes, predicted, readBack, faces } = opened;
   switch (name) {
   case 'truth': return visibility ? valueNames[visibility[pixel]] : '';
   case 'claim': return claim ? valueNames[claim[pixel]] : '';
   case 'predicted': return predicted ? String(predicted[pixel]) : '';
   case 'read_back': return readBack ? String(readBack[pixel]) : '';
+  case 'volumes': return faces ? String(faces[pixel]) : '';
   case 'cause': return !causes || causes[pixel] === noDifference ? ''
     : received.legend.causes[causes[pixel]].name;
   default: return !visibility || !claim || claim[pixel] === visibility[pixel] ? ''
@@ -59,12 +65,13 @@ const colorBytes = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at 
 
 /** Black or white, whichever is read on the pixel's own colour. */
 function pixelInk(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack, bits } = opened;
+  const { visibility, claim, causes, predicted, readBack, faces, bits } = opened;
   const colors = {
     truth: () => [visibility[pixel], visibility[pixel], visibility[pixel]],
     claim: () => [claim[pixel], claim[pixel], claim[pixel]],
     predicted: () => counterColor(asCount(predicted[pixel], bits)),
     read_back: () => counterColor(asCount(readBack[pixel], bits)),
+    volumes: () => (faces[pixel] > 2 ? [255, 192, 64] : [40, 40, 44]),
     cause: () => colorBytes(received.legend.causes[causes[pixel]].color),
     difference: () => colorBytes(
       received.legend.contradictions[contradictionOf(visibility[pixel], claim[pixel])].color),
@@ -76,7 +83,7 @@ async function loadedPictures(opened) {
   const { scene, cell, width, height } = opened;
   const paths = { truth: scene.images?.truth, ...cell.images };
   const pictures = {};
-  await Promise.all(['truth', 'claim', 'difference', 'cause'].map(async (name) => {
+  await Promise.all(['truth', 'claim', 'difference', 'cause', 'volumes'].map(async (name) => {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
                                  : { problem: `the results name no picture of the ${name}` };
   }));

@@ -23,7 +23,10 @@ function timeless(results) {
   for (const scene of copy.scenes) {
     delete scene.reference.ms;
     delete scene.reference.build_ms;
-    for (const cell of scene.techniques) delete cell.ms;
+    for (const cell of scene.techniques) {
+      delete cell.ms;
+      delete cell.saved?.ms;
+    }
   }
   return copy;
 }

@@ -27,7 +27,7 @@ test('a second run replaces the report whole and leaves nothing beside it', () =
   assert.deepEqual(filesBelow(join(scratch, 'c')), [
     'index.html', 'ordinary/scene.js', 'ordinary/truth.png', 'ordinary/zfail/cause.png',
     'ordinary/zfail/cell.js', 'ordinary/zfail/claim.png', 'ordinary/zfail/difference.png',
-    'results.js', 'results.json']);
+    'ordinary/zfail/volumes.png', 'results.js', 'results.json']);
   assert.ok(filesBelow(scratch).every((file) => !/\.(writing|older)-/.test(file)));
 });
 

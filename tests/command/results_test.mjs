@@ -17,15 +17,17 @@ function assertValid({ code, ...results }) {
   assert.ok(validate(results), JSON.stringify(validate.errors, null, 1));
 }
 
-const all = resultsOf(['verify']);
+const all = resultsOf(['verify', '--size', '96x96']);
 
 test('the results of all bundled scenes are valid', () => assertValid(all));
 
 test('the gate, the verdicts and the exit code say the same', () => {
   const verdicts = all.scenes.flatMap((scene) => scene.techniques.map((cell) => cell.verdict));
   const bad = verdicts.some((verdict) => verdict === 'defect' || verdict === 'unexplained');
-  assert.equal(all.passed, !bad);
-  assert.equal(all.code, bad ? 1 : 0);
+  // So few pixels need not show all that a scene provokes.
+  const missed = all.scenes.some((scene) => scene.no_longer_provoked.length > 0);
+  assert.equal(all.passed, !bad && !missed);
+  assert.equal(all.code, bad || missed ? 1 : 0);
 });
 
 test('pixels add up: classes to the picture, causes to the differing, ledger to the picture', () => {

@@ -36,6 +36,8 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     cell.verdict = verdict;
     cell.milliseconds = 3.125;
     cell.frame.claim = Image<Visibility>(4, 3);
+    cell.frame.volumes = Image<std::uint8_t>(4, 3);
+    cell.frame.volumes.pixels = {0, 1, 2, 2, 0, 1, 0, 255, 0, 0, 0, 0};
     cell.frame.claim.pixels = {B, L, L, L, B, L, L, S, B, S, S, L};
     Comparison& comparison = cell.comparison;
     comparison.cause = Image<std::uint8_t>(4, 3, no_difference);

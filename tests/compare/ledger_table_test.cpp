@@ -60,7 +60,7 @@ TEST_P(LedgerTableTest, what_was_counted_adds_up_to_the_prediction_at_every_diff
         std::int64_t count = caps_counted ? table.counts[5 * ledger + 4] : 0;
         for (std::uint32_t k = table.start[ledger]; k < table.start[ledger + 1]; ++k)
             if (table.crossing_tally[k] == static_cast<std::uint8_t>(Tally::counted))
-                count += weight(counting) * table.crossing_change[k];
+                count += weight(counting.test) * table.crossing_change[k];
         ASSERT_EQ(count, cell.prediction->counts().at(x, y)) << x << ", " << y;
     });
 }

@@ -18,7 +18,11 @@ namespace fs = std::filesystem;
 
 void write_report(Report report, const fs::path& folder) {
     ReportFolder pages(folder);
-    for (SceneResult& scene : report.scenes) pages.add_pictures(scene);
+    for (SceneResult& scene : report.scenes) {
+        if (!scene.error.empty()) continue;
+        pages.add_scene(scene);
+        for (Cell& cell : scene.cells) pages.add_cell(scene, cell);
+    }
     pages.finish(report);
 }
 
@@ -150,7 +154,7 @@ TEST(ReportFolder, two_writings_have_the_same_bytes) {
     write_report(handmade_report(), scratch.path / "a");
     write_report(handmade_report(), scratch.path / "b");
     const auto a = files_of(scratch.path / "a");
-    EXPECT_EQ(a.size(), 3 + 2 * 6U);
+    EXPECT_EQ(a.size(), 3 + 2 * 7U); // the page and the results; two scenes of one cell each
     EXPECT_TRUE(a.contains("index.html"));
     EXPECT_EQ(a, files_of(scratch.path / "b"));
 }
@@ -195,7 +199,7 @@ TEST(ReportFolder, one_that_is_dropped_leaves_the_older_report_and_nothing_else)
     {
         ReportFolder folder(scratch.path / "report");
         SceneResult scene = handmade_report().scenes[0];
-        folder.add_pictures(scene);
+        folder.add_scene(scene);
     }
     EXPECT_EQ(files_of(scratch.path), before);
 }

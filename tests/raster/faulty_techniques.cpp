@@ -53,10 +53,13 @@ Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
 
 Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = clamp_recipe(scene);
-    // Wound the other way, a face is the other side's.
+    // What is turned is counted with exchanged steps.
     recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) {
-        for (auto* faces : {&volume.light_cap, &volume.sides, &volume.turned_sides, &volume.dark_cap})
-            for (glm::uvec3& face : *faces) std::swap(face.x, face.y);
+        std::swap(volume.sides, volume.turned_sides);
+        for (auto* caps : {&volume.light_cap, &volume.dark_cap}) {
+            volume.turned_sides.insert(volume.turned_sides.end(), caps->begin(), caps->end());
+            caps->clear();
+        }
     });
     return draw_stencil_shadows(gpu, scene, recipe);
 }

@@ -14,7 +14,7 @@ namespace {
 
 void expect_same(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.claim.pixels, b.claim.pixels);
-    EXPECT_EQ(a.stencil.pixels, b.stencil.pixels);
+    EXPECT_EQ(a.counter.pixels, b.counter.pixels);
     EXPECT_EQ(a.depth.pixels, b.depth.pixels);
     EXPECT_EQ(a.triangle.pixels, b.triangle.pixels);
 }
@@ -82,18 +82,20 @@ TEST(Render, says_how_it_counted_and_how_it_made_depth) {
     Gpu gpu(GlPlatform::osmesa);
     for (const Technique& technique : all_techniques()) {
         const Frame frame = render(technique, scene, Plan{}, gpu);
-        const bool reversed =
-            frame.depth_model.projection == DepthModel::Projection::infinite_reversed;
-        EXPECT_EQ(frame.counting.test, technique.name.starts_with("zfail")
-                                           ? Counting::Test::depth_fail
-                                           : Counting::Test::depth_pass);
+        const bool reversed = frame.depth_model.reversed();
+        const bool fail = technique.name.starts_with("zfail");
+        if (technique.name != "auto") {
+            EXPECT_EQ(frame.counting.test,
+                      fail ? Counting::Test::depth_fail : Counting::Test::depth_pass);
+        }
+        EXPECT_EQ(frame.counting.bits, technique.name == "zfail_float" ? 24 : 8);
+        EXPECT_EQ(frame.counting.casters.empty(), technique.name != "auto");
         EXPECT_EQ(frame.counting.depth_clamp, technique.name == "zfail_clamp");
         EXPECT_EQ(frame.depth_model.floating, reversed);
         EXPECT_EQ(frame.depth_model.eye_relative, reversed);
         EXPECT_EQ(frame.depth_model.near, scene.camera.near);
         EXPECT_EQ(frame.depth_model.subpixel_bits, 8);
-        EXPECT_EQ(std::isfinite(frame.depth_model.far),
-                  frame.depth_model.projection == DepthModel::Projection::finite);
+        EXPECT_EQ(std::isfinite(frame.depth_model.far), frame.depth_model.finite());
         EXPECT_GT(frame.milliseconds, 0);
     }
 }
@@ -106,9 +108,12 @@ TEST(Render, stores_the_window_depth_that_the_depth_model_says) {
         const Frame frame = render(technique, scene, Plan{}, gpu);
         const double n = frame.depth_model.near;
         const double f = frame.depth_model.far;
-        const double expected = frame.depth_model.projection == DepthModel::Projection::finite
+        using Projection = DepthModel::Projection;
+        const double expected = frame.depth_model.projection == Projection::finite
                                     ? f * (3 - n) / (3 * (f - n))
-                                : frame.depth_model.projection == DepthModel::Projection::infinite
+                                : frame.depth_model.projection == Projection::finite_reversed
+                                    ? n * (f - 3) / (3 * (f - n))
+                                : frame.depth_model.projection == Projection::infinite
                                     ? 1 - n / 3
                                     : n / 3;
         // The caps on the near plane take a ledge of the depths.
@@ -148,7 +153,7 @@ TEST(Render, refuses_a_picture_larger_than_the_driver_can_draw) {
 Frame broken_frame(const Scene& scene) {
     Frame frame;
     frame.claim = {scene.camera.width, scene.camera.height};
-    frame.stencil = {scene.camera.width, scene.camera.height};
+    frame.counter = {scene.camera.width, scene.camera.height};
     frame.depth = {scene.camera.width, scene.camera.height};
     frame.triangle = {scene.camera.width, scene.camera.height, no_triangle};
     return frame;

@@ -25,15 +25,15 @@ protected:
 
 /// The counter, the claim and the triangle at a pixel.
 struct Seen {
-    int stencil = 0;
+    std::uint32_t counter = 0;
     Visibility claim = Visibility::background;
     bool operator==(const Seen&) const = default;
 };
 void PrintTo(const Seen& seen, std::ostream* out) {
-    *out << "stencil " << seen.stencil << ", claim " << static_cast<int>(seen.claim);
+    *out << "counter " << seen.counter << ", claim " << static_cast<int>(seen.claim);
 }
 Seen at(const Frame& frame, const Pixel& pixel) {
-    return {frame.stencil.at(pixel.x, pixel.y), frame.claim.at(pixel.x, pixel.y)};
+    return {frame.counter.at(pixel.x, pixel.y), frame.claim.at(pixel.x, pixel.y)};
 }
 
 TEST_F(Stencil, a_box_over_a_floor_counts_one_in_its_shadow_and_none_beside) {
@@ -90,7 +90,7 @@ TEST_F(Stencil, a_single_sided_wall_seen_from_behind_is_not_seen_but_casts) {
         EXPECT_GE(frame.triangle.at(32, 32), 2U); // the second wall, through the first
         EXPECT_LT(frame.triangle.at(32, 32), 4U);
         EXPECT_EQ(at(frame, {32, 32}).claim, Visibility::shadowed);
-        EXPECT_EQ(at(frame, {32, 32}).stencil, 0); // nothing before it and the light
+        EXPECT_EQ(at(frame, {32, 32}).counter, 0U); // nothing before it and the light
     }
 }
 

@@ -22,14 +22,14 @@ TEST_P(Ways, all_give_the_same_stencil_bit_for_bit_where_every_caster_is_closed)
     Gpu gpu(GlPlatform::osmesa);
     const Frame expected = render(*find_technique("zfail_reversed"), scene, plan, gpu);
     EXPECT_TRUE(
-        std::ranges::any_of(expected.stencil.pixels, [](auto count) { return count != 0; }));
+        std::ranges::any_of(expected.counter.pixels, [](auto count) { return count != 0; }));
     for (const char* technique : {"zfail_half_edge", "zfail_degenerate_quads",
                                   "zfail_geometry_shader", "zfail_per_triangle"}) {
         SCOPED_TRACE(technique);
         const Frame frame = render(*find_technique(technique), scene, plan, gpu);
         std::size_t differing = 0;
-        for (std::size_t i = 0; i < frame.stencil.pixels.size(); ++i)
-            differing += frame.stencil.pixels[i] != expected.stencil.pixels[i] ? 1U : 0U;
+        for (std::size_t i = 0; i < frame.counter.pixels.size(); ++i)
+            differing += frame.counter.pixels[i] != expected.counter.pixels[i] ? 1U : 0U;
         EXPECT_EQ(differing, 0U);
     }
 }

@@ -65,7 +65,7 @@ const cellActions = {
   'Side by side': async (page, key) => {
     await page.locator('#view-blend').click();
     await press(page, key);
-    assert.equal(await page.locator('canvas.pane').count(), 6);
+    assert.equal(await page.locator('canvas.pane').count(), 7);
   },
   Slide: async (page, key) => {
     await press(page, key);

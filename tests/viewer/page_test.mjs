@@ -56,7 +56,7 @@ test('failures stand first, with the reason; nothing fails without being named',
   results.scenes.push({ name: 'torn', file: 'torn.gltf', error: 'torn.gltf: ends early' });
   writeFileSync(join(copy, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
   const { page, said } = await openReport(copy);
-  assert.match(await text(page, 'h1'), /Failed: 2 of 20 cells/);
+  assert.match(await text(page, 'h1'), /Failed: 2 of 24 cells/);
   const failures = await text(page, '.failures');
   for (const words of [/far_plane \/ zfail/, /defect/, /the far plane cuts a shadow volume/,
                        /no glClipControl/, /torn\.gltf: ends early/, /12 new, 3 gone, first at \(3, 4\): far_plane, was no difference/])
@@ -133,7 +133,7 @@ test('the drawing is saved as a picture that stands alone', async () => {
 });
 
 test('pictures for people: overview, cell, inspector, drawing, in both themes', async () => {
-  const large = writeReport('large', undefined, '512x512');
+  const large = writeReport('large', undefined, '512x512', null);
   for (const theme of ['light', 'dark']) {
     const { page, open, said } = await openReport(large, { theme });
     await keepScreenshot(page, `overview-${theme}`, { fullPage: true });
