@@ -1,5 +1,6 @@
 #include "compare/band.h"
 
+#include "compare/freedom.h"
 #include "reference/tally.h"
 
 #include <algorithm>
@@ -8,72 +9,15 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 
 namespace shadowproof {
 
 namespace {
 
-constexpr double v = 0x1p-24;                 ///< rounding unit of float
-constexpr double depth_roundings = 2 * 8 * v; ///< see depth_freedom
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
-/// point, the largest over the three. World coordinates carry the eye's distance from the origin
-/// with them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A
-/// point of a volume's side was extruded from the light, and that direction is rounded too.
-double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
-    const Camera& camera = scene.camera;
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
-    double largest = 0;
-    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
-        const auto terms = [&](const glm::dvec3& p) {
-            return glm::dot(glm::abs(axis), glm::abs(p));
-        };
-        const double position = depth_model.eye_relative ? 2 * terms(point - camera.eye)
-                                                         : terms(point) + terms(camera.eye);
-        largest = std::max(largest, position + terms(light.w * point - glm::dvec3(light)));
-    }
-    return largest;
-}
-
-/// View depth of `point`, at least the near plane's.
-double depth_of(const Camera& camera, const glm::dvec3& point) {
-    return std::max(view_depth(camera, point), camera.near);
-}
-
 } // namespace
-
-// A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes. In x
-// that moves a point by scale / depth pixels a unit, in w by its own distance from the middle, at
-// most half the picture, over the depth. The division, the viewport's product and its sum each
-// round a coordinate of up to the picture's width: 3 v.
-double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
-    const Camera& camera = scene.camera;
-    const double half_step = std::exp2(-depth_model.subpixel_bits - 1);
-    const double pixels = std::max(camera.width, camera.height);
-    const double scale = 0.5 * camera.height / camera.tan_half_height;
-    const double terms = transform_terms(scene, depth_model, point);
-    const double transform = 5 * v * (scale + 0.5 * pixels) * terms / depth_of(camera, point);
-    return half_step + transform + 3 * v * pixels;
-}
-
-// Window depth z is rounded at 1/w, z/w, the viewport's sum (its product is by a power of two), and
-// at the pixel in two products and two sums of its plane: 7 times by at most v z, where z = 1 is
-// the largest standard depth and z = n/t the reversed one (where that is finite, a difference of
-// terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
-// more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
-// are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
-// lateral_freedom), which 8 covers too. (The plane's slope is computed from its
-// corners: its error is one of place, far below the snapping step, and covered with that.)
-double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
-    const double t = depth_of(scene.camera, point);
-    const double near = depth_model.near;
-    const double far = depth_model.far;
-    double window_depth_error = t * t / near; // dt/dz times z, projection infinite
-    if (depth_model.finite()) window_depth_error = t * t * (far - near) / (far * near);
-    if (depth_model.reversed()) window_depth_error = t;
-    return depth_roundings * (window_depth_error + transform_terms(scene, depth_model, point));
-}
 
 Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius) {
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
@@ -223,6 +167,7 @@ private:
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
     bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
     std::vector<Crossing> crossings_;  ///< of the sample at hand
+    mutable std::unordered_map<std::uint32_t, double> thinness_; ///< by Crossing::edge
 
     bool certainly_in_front(std::uint32_t triangle) const {
         return surface_range(triangle).upper < shown_range_.lower;
@@ -239,10 +184,22 @@ private:
         return range;
     }
 
+    /// As thinness_freedom has it, once for each edge at this pixel.
+    double thinness_error(const Crossing& side) const {
+        const auto [known, is_new] = thinness_.try_emplace(side.edge, 0.0);
+        if (is_new)
+            known->second =
+                thinness_freedom(volumes_.casters, volumes_.far_ends, side, around_.rays.front());
+        return known->second;
+    }
+
     /// A volume face's plane over the neighbourhood: on a ray D it is met at a depth that is
     /// inverse to D . plane; not at all where that changes its sign.
     DepthRange face_range(const Crossing& crossing, const glm::dvec3& direction) const {
         DepthRange range{crossing.depth, crossing.depth, crossing.depth};
+        if (crossing.is_side())
+            range.include(crossing.depth,
+                          thinness_error(crossing) * crossing.depth * crossing.depth);
         const double here = glm::dot(direction, crossing.plane);
         for (const glm::dvec3& other : around_.corners) {
             const double ratio = here / glm::dot(other, crossing.plane);

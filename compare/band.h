@@ -15,14 +15,6 @@
 
 namespace shadowproof {
 
-/// How far, in pixels, the rasterizer may move what it draws at a world point sideways: half a
-/// step of the snapping grid, and the float transform's error.
-double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
-
-/// How far, in view depth, two faces at a world point may be apart and yet be stored in either
-/// order: the quantum of the depth format and the float transform's error.
-double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
-
 /// How far a pixel's neighbourhood reaches to each side, in pixels.
 struct BandRadius {
     double surface = 0; ///< for what is seen
@@ -54,7 +46,9 @@ struct PixelBand {
 
 /// Where a pixel's counters come from.
 struct PixelVolumes {
-    RegionLedger& counted;           ///< the volumes that the technique counts, around the pixel
+    RegionLedger& counted; ///< the volumes that the technique counts, around the pixel
+    const Scene& casters;  ///< of those volumes
+    const std::vector<glm::vec3>* far_ends = nullptr; ///< their far ends, null at infinity
     RegionLedger* ideal = nullptr;   ///< those of the casters, where they are not the same
     std::int32_t counted_at_eye = 0; ///< shadow depths of the eye
     std::int32_t ideal_at_eye = 0;

@@ -1,6 +1,7 @@
 #include "compare/classify.h"
 
 #include "compare/band.h"
+#include "compare/freedom.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -249,8 +250,12 @@ void look_around_region(const Context& context, const Region& region,
         const PixelPlace p = region.places[i];
         RegionLedger counted_here(counted, around[i].corners);
         RegionLedger ideal_here(ideal, around[i].corners);
-        const PixelVolumes here{counted_here, volumes.are_the_casters() ? nullptr : &ideal_here,
-                                context.prediction.depths().at_eye, context.depths.at_eye};
+        const PixelVolumes here{counted_here,
+                                volumes.casters(),
+                                volumes.far_ends(),
+                                volumes.are_the_casters() ? nullptr : &ideal_here,
+                                context.prediction.depths().at_eye,
+                                context.depths.at_eye};
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
         truths = truths.subspan(truth.size());
         const PixelBand band =

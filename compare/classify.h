@@ -33,7 +33,7 @@ struct LedgerCheck {
 struct Comparison {
     Image<std::uint8_t> cause;       ///< Cause, or no_difference
     Image<std::uint8_t> ledger_miss; ///< 1 where the counter is neither predicted nor in the band
-    Image<std::uint32_t> predicted;   ///< the counter predicted at the centre, as stored
+    Image<std::uint32_t> predicted;  ///< the counter predicted at the centre, as stored
     std::array<std::uint64_t, all_causes.size()> causes{}; ///< pixels by cause
     std::uint64_t differing = 0;
     /// First in rows from the top; a pixel whose cause is worst (unexplained, then any but edge,

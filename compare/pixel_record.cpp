@@ -202,8 +202,8 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
         technique.tallies.push_back(tally(crossing, record.ledger.surface, record.seen, record.far,
                                           frame.counting, frame.depth_model));
     technique.dark_caps = tally_of_dark_caps(frame.counting, frame.depth_model);
-    technique.dark_cap_count = dark_caps_at_infinity(
-        frame.counting, prediction.depths().at_eye, crossings_of(record, technique));
+    technique.dark_cap_count = dark_caps_at_infinity(frame.counting, prediction.depths().at_eye,
+                                                     crossings_of(record, technique));
     return technique;
 }
 

@@ -78,20 +78,19 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
     const Counting& counting = cell.frame.counting;
     const DepthModel& depth = cell.frame.depth_model;
     const bool finite = std::isfinite(depth.far);
-    Json header{
-        {"counting",
-         {{"test", name_of(counting.test)},
-          {"operation", name_of(counting.operation)},
-          {"start", name_of(counting.start)},
-          {"depth_clamp", counting.depth_clamp},
-          {"light_cap", counting.light_cap},
-          {"dark_cap", counting.dark_cap},
-          {"bits", counting.bits}}},
-        {"depth",
-         {{"projection", name_of(depth.projection)},
-          {"floating", depth.floating},
-          {"near", depth.near},
-          {"far", finite ? Json(depth.far) : Json(nullptr)}}}};
+    Json header{{"counting",
+                 {{"test", name_of(counting.test)},
+                  {"operation", name_of(counting.operation)},
+                  {"start", name_of(counting.start)},
+                  {"depth_clamp", counting.depth_clamp},
+                  {"light_cap", counting.light_cap},
+                  {"dark_cap", counting.dark_cap},
+                  {"bits", counting.bits}}},
+                {"depth",
+                 {{"projection", name_of(depth.projection)},
+                  {"floating", depth.floating},
+                  {"near", depth.near},
+                  {"far", finite ? Json(depth.far) : Json(nullptr)}}}};
     if (!counting.casters.empty()) {
         Json& tests = header["counting"]["tests"] = Json::array(); // one a mesh
         for (const Mesh& mesh : scene.meshes)

@@ -110,8 +110,8 @@ PalettePicture volume_picture(const Cell& cell) {
     constexpr int levels = 256 / 3;
     constexpr Rgb full{0xFF, 0xC0, 0x40};
     const Image<std::uint8_t>& faces = cell.frame.volumes;
-    const int most = std::clamp<int>(*std::max_element(faces.pixels.begin(), faces.pixels.end()), 6,
-                                     levels - 1);
+    const int most =
+        std::clamp<int>(*std::max_element(faces.pixels.begin(), faces.pixels.end()), 6, levels - 1);
     PalettePicture picture{Image<std::uint8_t>(faces.width, faces.height), {}};
     for (const Visibility claim :
          {Visibility::lit, Visibility::shadowed, Visibility::background}) // as dimmed_index says
@@ -123,9 +123,9 @@ PalettePicture volume_picture(const Cell& cell) {
             picture.palette.push_back(color);
         }
     for (std::size_t i = 0; i < faces.pixels.size(); ++i)
-        picture.indices.pixels[i] = static_cast<std::uint8_t>(
-            dimmed_index(cell.frame.claim.pixels[i]) * levels +
-            std::min<int>(faces.pixels[i], levels - 1));
+        picture.indices.pixels[i] =
+            static_cast<std::uint8_t>(dimmed_index(cell.frame.claim.pixels[i]) * levels +
+                                      std::min<int>(faces.pixels[i], levels - 1));
     return picture;
 }
 

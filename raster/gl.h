@@ -80,6 +80,7 @@ struct Platform; // platform.h
     X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                                               \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                   \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \
+    X(PFNGLSCISSORPROC, Scissor)                                                                   \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                         \
     X(PFNGLSTENCILFUNCPROC, StencilFunc)                                                           \
     X(PFNGLSTENCILMASKPROC, StencilMask)                                                           \

@@ -211,11 +211,22 @@ struct Frames {
     }
 };
 
-/// Of up to three frames: as many as are begun within 30 ms.
+/// One frame of which a single pixel is filled: the driver compiles what it has put off.
+void compile_all(Frames& frames) {
+    const GlFunctions& gl = frames.gl;
+    gl.Scissor(0, 0, 1, 1);
+    gl.Enable(GL_SCISSOR_TEST);
+    frames.update();
+    frames.draw();
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.Finish();
+}
+
+/// Of up to three frames: as many as are begun within 20 ms.
 Clock::duration quickest_frame(Frames& frames) {
     Clock::duration quickest = Clock::duration::max();
     Clock::duration all{};
-    for (int i = 0; i < 3 && all < std::chrono::milliseconds(30); ++i) {
+    for (int i = 0; i < 3 && all < std::chrono::milliseconds(20); ++i) {
         const auto start = Clock::now();
         frames.update();
         frames.draw();
@@ -235,9 +246,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
             recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
-    frames.update();
-    frames.draw();
-    gl.Finish();
+    compile_all(frames);
     const Clock::duration elapsed = quickest_frame(frames);
     Frame frame = read_back(gl, frames.target, recipe.counter);
     frame.counting = recipe.counting;

@@ -25,8 +25,8 @@ struct StencilRecipe {
     Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping
 };
 
-/// Draws the frame once, so that the driver compiles what it has put off, and then up to three
-/// times, of which the quickest is timed, with the making of what depends on the light. Reads back
+/// Draws one pixel of the frame, so that the driver compiles what it has put off, and then the whole
+/// up to three times, of which the quickest is timed, with the making of what depends on the light. Reads back
 /// the pictures, and draws the volumes once more to show and to measure them. Throws Error where
 /// the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);

@@ -1,0 +1,32 @@
+// What a rasterizer that keeps to OpenGL's rules may still make of a face: how far to the side it
+// may be drawn, and how far off its depth may come out. Derived from the driver's snapping, the
+// depth format and the roundings of floats, term by term; never tuned.
+#pragma once
+
+#include "reference/ledger.h"
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+/// Roundings of window depth between two faces that are compared: see depth_freedom.
+inline constexpr double depth_roundings = 2 * 8 * 0x1p-24;
+
+/// How far, in pixels, the rasterizer may move what it draws at a world point sideways: half a
+/// step of the snapping grid, and the float transform's error.
+double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
+
+/// How far, in view depth, two faces at a world point may be apart and yet be stored in either
+/// order: the quantum of the depth format and the float transform's error.
+double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
+
+/// How far off the inverse of a side's view depth may come out at a pixel because the side is thin
+/// in the picture: `direction` is the pixel's ray, and `far_ends` where the casters' positions lie
+/// once extruded, null where that is at infinity. Infinite where the side is seen edge-on.
+double thinness_freedom(const Scene& casters, const std::vector<glm::vec3>* far_ends,
+                        const Crossing& side, const glm::dvec3& direction);
+
+} // namespace shadowproof
