@@ -37,6 +37,14 @@ std::string picture_block(const Image<Visibility>& picture) {
     return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
 }
 
+/// In bytes where a counter fits into one.
+std::string counter_block(const Image<std::uint32_t>& counter, const Counting& counting) {
+    if (counting.bits > 8) return block(counter.pixels);
+    return block(converted<std::uint8_t>(counter, [](std::uint32_t count) {
+                     return static_cast<std::uint8_t>(count);
+                 }).pixels);
+}
+
 std::string_view name_of(DepthModel::Projection projection) {
     switch (projection) {
     case DepthModel::Projection::finite:
@@ -99,8 +107,8 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
     const LedgerTable& ledgers = cell.ledgers;
     return script("cell", folder_of(scene) + "/" + cell.technique, header,
                   {{"claim", picture_block(cell.frame.claim)},
-                   {"predicted", block(cell.comparison.predicted.pixels)},
-                   {"read_back", block(cell.frame.counter.pixels)},
+                   {"predicted", counter_block(cell.comparison.predicted, counting)},
+                   {"read_back", counter_block(cell.frame.counter, counting)},
                    {"faces", block(cell.frame.volumes.pixels)},
                    {"seen", block(ledgers.seen)},
                    {"shown", block(ledgers.shown)},

@@ -11,7 +11,8 @@ namespace shadowproof {
 /// Casters that are all counted alike.
 struct CasterPart {
     Counting::Caster caster;
-    Scene scene; ///< without what casts no shadow; its meshes no longer say whose triangles are whose
+    Scene
+        scene; ///< without what casts no shadow; its meshes no longer say whose triangles are whose
 };
 
 /// One part where all casters are counted alike, else one for each way; none for those left out.

@@ -142,10 +142,8 @@ VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const G
         gl.Disable(GL_DEPTH_CLAMP);
         gl.Enable(GL_DEPTH_TEST);
     };
-    return {.update = update,
-            .draw = draw,
-            .draw_turned = [] {},
-            .programs = {made->program.name()}};
+    return {
+        .update = update, .draw = draw, .draw_turned = [] {}, .programs = {made->program.name()}};
 }
 
 } // namespace shadowproof

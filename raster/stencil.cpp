@@ -78,8 +78,7 @@ VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) 
     VisibleDepths visible;
     const bool clamp = recipe.counting.depth_clamp;
     if (clamp) visible.near = static_cast<float>(camera.near);
-    if (clamp || !recipe.depth_model.finite())
-        visible.far = static_cast<float>(camera.far);
+    if (clamp || !recipe.depth_model.finite()) visible.far = static_cast<float>(camera.far);
     return visible;
 }
 

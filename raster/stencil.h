@@ -25,10 +25,10 @@ struct StencilRecipe {
     Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping
 };
 
-/// Draws one pixel of the frame, so that the driver compiles what it has put off, and then the whole
-/// up to three times, of which the quickest is timed, with the making of what depends on the light. Reads back
-/// the pictures, and draws the volumes once more to show and to measure them. Throws Error where
-/// the driver fails.
+/// Draws one pixel of the frame, so that the driver compiles what it has put off, and then the
+/// whole up to three times, of which the quickest is timed, with the making of what depends on the
+/// light. Reads back the pictures, and draws the volumes once more to show and to measure them.
+/// Throws Error where the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
 
 /// The recipes that the techniques begin with.

@@ -192,7 +192,9 @@ VolumePass degenerate_quads_pass(const Making& making) {
         gl.DrawArrays(GL_TRIANGLES, made->cap_vertices - light, light + dark);
         gl.BindVertexArray(making.geometry.vertices.name());
     };
-    return {.update = update, .draw = draw, .draw_turned = [draw_quads] { draw_quads(true); },
+    return {.update = update,
+            .draw = draw,
+            .draw_turned = [draw_quads] { draw_quads(true); },
             .programs = {made->quads.name(), made->caps.name()}};
 }
 

@@ -164,10 +164,7 @@ Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const
                 const std::uint32_t seen = truth.triangle.at(x, y);
                 const double surface =
                     seen == no_triangle ? 0 : depth_of_seen(tracer.scene(), seen, direction);
-                const CountedRay ray{crossings,
-                                     surface,
-                                     seen,
-                                     depths_.at_eye,
+                const CountedRay ray{crossings, surface, seen, depths_.at_eye,
                                      depths_.at_near.at(x, y)};
                 counts_.at(x, y) =
                     static_cast<std::int32_t>(counted(ray, depths.far, counting, depth_model));

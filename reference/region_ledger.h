@@ -63,7 +63,7 @@ public:
     /// as dark caps.
     void cut_off(RegionLedger ends) { ends_ = std::make_shared<RegionLedger>(std::move(ends)); }
 
-    /// Crossings of one ray by increasing depth from the eye on, as ray_ledger lists them. Double
+    /// Crossings of one ray by increasing depth from the eye on, sides that cancel left out. Double
     /// precision with signs that neighbouring faces share, so that a closed volume is left as often
     /// as it is entered but where a product rounds to another sign: compare the sum with the exact
     /// counts.

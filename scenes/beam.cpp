@@ -63,8 +63,8 @@ bool separates(const Beam::Axis& axis, const Beam& beam, std::span<const glm::dv
     return below || above;
 }
 
-/// A corner of the picture's part, and the edges that go out from it.
-struct PictureCorner {
+/// A corner of what the beam goes to, and the edges that go out from it.
+struct BodyCorner {
     glm::dvec3 point;
     std::vector<glm::dvec3> edges;
 };
@@ -74,7 +74,7 @@ struct PictureCorner {
 /// relative to the eye, and as long as any scene in it can be: two points are apart by no more than
 /// 2 sqrt(3) times the largest coordinate. The direction to it, of unit length, is rounded as
 /// points are, which weighs as much as the beam is long.
-Beam beam_to(const Scene& scene, std::span<const PictureCorner> corners, double depth) {
+Beam beam_to(const Scene& scene, std::span<const BodyCorner> corners, double depth) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const double largest = largest_coordinate(scene, depth);
     const bool directional = light.w == 0;
@@ -95,9 +95,9 @@ Beam beam_to(const Scene& scene, std::span<const PictureCorner> corners, double 
 }
 
 /// Around the rectangle, each with the edge to the next.
-std::vector<PictureCorner> rectangle(const Camera& camera, double depth) {
+std::vector<BodyCorner> rectangle(const Camera& camera, double depth) {
     const std::array<glm::dvec3, 4> rays = corner_rays(camera);
-    std::vector<PictureCorner> corners;
+    std::vector<BodyCorner> corners;
     for (std::size_t i = 0; i < 4; ++i)
         corners.push_back({camera.eye + depth * rays[i], {rays[(i + 1) % 4] - rays[i]}});
     return corners;
@@ -114,13 +114,22 @@ Beam beam_to_rectangle(const Scene& scene, double depth) {
 }
 
 Beam beam_to_pyramid(const Scene& scene, double depth) {
-    std::vector<PictureCorner> corners = rectangle(scene.camera, depth);
+    std::vector<BodyCorner> corners = rectangle(scene.camera, depth);
     const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
     corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
     Beam beam = beam_to(scene, corners, depth);
     for (std::size_t i = 0; i < 4; ++i)
         beam.axes.push_back(extent(beam, glm::cross(rays[i], rays[(i + 1) % 4])));
     return beam;
+}
+
+Beam beam_to_box(const Scene& scene, const glm::dvec3& low, const glm::dvec3& high) {
+    std::vector<BodyCorner> corners;
+    for (const double x : {low.x, high.x})
+        for (const double y : {low.y, high.y})
+            for (const double z : {low.z, high.z})
+                corners.push_back({{x, y, z}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
+    return beam_to(scene, corners, scene.camera.near);
 }
 
 bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,

@@ -36,6 +36,9 @@ Beam beam_to_rectangle(const Scene& scene, double depth);
 /// From the light to the pyramid between the eye and that rectangle.
 Beam beam_to_pyramid(const Scene& scene, double depth);
 
+/// From the light to an axis-aligned box.
+Beam beam_to_box(const Scene& scene, const glm::dvec3& low, const glm::dvec3& high);
+
 /// Whether the convex hull of `points` and the beam may meet. Axes tried: the beam's own, and
 /// `own` of the points; where none separates them, the answer is "may".
 bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,

@@ -4,6 +4,7 @@
 #include "scenes/topology.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,16 +19,18 @@ namespace {
 /// Triangles times corners that two meshes may have to be compared one by one.
 constexpr std::size_t most_comparisons = std::size_t{1} << 24U;
 
-/// (b - a) x (c - a) . (l - w a), w being 0 or 1, where its sign is certain, which is that of the side on which a
-/// homogeneous point (l, w) lies; 0 where it is zero, and NaN where it is uncertain. With u = 2^-53,
-/// a difference is rounded once, a product of three four times with its factors' own roundings, and
-/// two sums on top: each of the six products is off by less than 16 u of its size. Products of
-/// zeros are exact, and so is a point in the plane y = 0 beside a triangle in it.
+/// (b - a) x (c - a) . (l - w a), w being 0 or 1, where its sign is certain, which is that of the
+/// side on which a homogeneous point (l, w) lies; 0 where it is zero, and NaN where it is
+/// uncertain. With u = 2^-53, a difference is rounded once, a product of three four times with its
+/// factors' own roundings, and two sums on top: each of the six products is off by less than 16 u
+/// of its size. Products of zeros are exact, and so is a point in the plane y = 0 beside a triangle
+/// in it.
 double certain_side(const Corners& t, const glm::dvec4& point) {
     constexpr double rounding = 16 * 0x1p-53;
     const glm::dvec3 b = t[1] - t[0];
     const glm::dvec3 c = t[2] - t[0];
     const glm::dvec3 p = glm::dvec3(point) - point.w * t[0];
+    if (point.w == 1 && (p == b || p == c)) return 0; // its own corner
     const glm::dvec3 size_b = glm::abs(b);
     const glm::dvec3 size_c = glm::abs(c);
     const glm::dvec3 products(size_b.y * size_c.z + size_b.z * size_c.y,
@@ -50,6 +53,7 @@ struct Body {
     std::vector<std::uint32_t> corners; ///< indices into Scene::positions
     glm::dvec3 low{0, 0, 0};
     glm::dvec3 high{0, 0, 0};
+    Beam beam; ///< from the light to the box; of receivers
     bool empty() const { return triangles.empty(); }
 };
 
@@ -93,7 +97,9 @@ Body lit_body(const Scene& scene, const Mesh& mesh, const PictureCone& cone) {
     const bool double_sided = scene.materials[mesh.material].double_sided;
     for (const std::uint32_t triangle : triangles_of(mesh))
         if (may_show_lit_side(scene, triangle, double_sided, cone)) triangles.push_back(triangle);
-    return body_of(scene, std::move(triangles));
+    Body body = body_of(scene, std::move(triangles));
+    if (!body.empty()) body.beam = beam_to_box(scene, body.low, body.high);
+    return body;
 }
 
 /// Whether a plane across a coordinate axis lies between: the caster on or behind it, the receiver
@@ -107,6 +113,17 @@ bool is_box_behind(const Body& caster, const Body& receiver, const glm::dvec4& l
             if ((beyond > 0 && nearest >= plane) || (beyond >= 0 && nearest > plane)) return true;
         }
     return false;
+}
+
+/// Whether the beam from the light to the receiver's box passes the caster's box by.
+bool is_box_beside(const Body& caster, const Body& receiver) {
+    constexpr std::array<glm::dvec3, 3> axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0),
+                                             glm::dvec3(0, 0, 1)};
+    std::vector<glm::dvec3> corners;
+    for (const double x : {caster.low.x, caster.high.x})
+        for (const double y : {caster.low.y, caster.high.y})
+            for (const double z : {caster.low.z, caster.high.z}) corners.emplace_back(x, y, z);
+    return !may_meet(receiver.beam, corners, axes);
 }
 
 /// Whether each of `planes`' triangles has the light on one side for certain, and all of `others`'
@@ -132,7 +149,7 @@ bool all_on_side(const Scene& scene, const Body& planes, const Body& others,
 /// the receiver and the light lie before each of the caster's planes, as in a room.
 bool may_shadow(const Scene& scene, const Body& caster, const Body& receiver,
                 const glm::dvec4& light) {
-    if (is_box_behind(caster, receiver, light)) return false;
+    if (is_box_behind(caster, receiver, light) || is_box_beside(caster, receiver)) return false;
     if (caster.triangles.size() * receiver.corners.size() <= most_comparisons &&
         all_on_side(scene, caster, receiver, light, true))
         return false;
@@ -149,21 +166,21 @@ Beam beam_to_seen(const Scene& scene) {
 }
 
 bool body_may_meet(const Scene& scene, const Body& body, const Beam& beam) {
-    return std::any_of(
-        body.triangles.begin(), body.triangles.end(),
-        [&](std::uint32_t triangle) { return may_meet(beam, corners_of(scene, triangle)); });
+    return std::any_of(body.triangles.begin(), body.triangles.end(), [&](std::uint32_t triangle) {
+        return may_meet(beam, corners_of(scene, triangle));
+    });
 }
 
 /// Why nothing seen can lie in a caster's shadow; empty where something may.
 std::string reason_to_leave_out(const Scene& scene, const Body& caster,
                                 const std::vector<Body>& receivers, const Beam& to_seen) {
     if (caster.empty()) return "it has no triangles";
-    if (!body_may_meet(scene, caster, to_seen)) return "its shadow falls outside the picture";
+    if (!body_may_meet(scene, caster, to_seen)) return "the shadow falls outside the picture";
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const bool shadows = std::any_of(receivers.begin(), receivers.end(), [&](const Body& receiver) {
         return !receiver.empty() && may_shadow(scene, caster, receiver, light);
     });
-    return shadows ? "" : "nothing seen lies behind it, as the light looks";
+    return shadows ? "" : "nothing seen lies behind, as the light looks";
 }
 
 /// The first mesh of the body that each mesh belongs to: meshes that share a corner are one.

@@ -36,10 +36,10 @@ struct Counting {
         near_plane, ///< the number of volumes around the point of the near plane
     };
     Start start = Start::zero;
-    bool depth_clamp = false; ///< faces past the near and far planes are kept
-    bool light_cap = true;    ///< the light-facing triangles themselves are drawn
-    bool dark_cap = true;     ///< so are they at infinity, where the projection keeps them
-    int bits = 8; ///< of the counter
+    bool depth_clamp = false;  ///< faces past the near and far planes are kept
+    bool light_cap = true;     ///< the light-facing triangles themselves are drawn
+    bool dark_cap = true;      ///< so are they at infinity, where the projection keeps them
+    int bits = 8;              ///< of the counter
     bool holes_filled = false; ///< open casters are closed before volumes are made of them
     /// By how much the volumes' far ends lie further from the light than their casters, in world
     /// units; infinite: at infinity.

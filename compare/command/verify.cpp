@@ -282,8 +282,7 @@ int verify(const VerifyOptions& options) {
     std::optional<ResultsFile> baseline;
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
     check_outputs(options.output);
-    refuse_too_large(options.scene.size.width, options.scene.size.height,
-                     comparison_bytes());
+    refuse_too_large(options.scene.size.width, options.scene.size.height, comparison_bytes());
     for (const Allowance& allowance : options.gate.gate.allow)
         if (allowance.cause == Cause::edge)
             console.line("note: --allow edge changes nothing: edge pixels never fail");
@@ -291,8 +290,7 @@ int verify(const VerifyOptions& options) {
     Gpu gpu(options.technique.platform);
     Report report = begin_report(options, gpu);
     const Run run{options, baseline, gpu, console, report, folder};
-    for (const std::string& argument : scenes_to_verify(options))
-        verify_scene(run, argument);
+    for (const std::string& argument : scenes_to_verify(options)) verify_scene(run, argument);
     if (baseline)
         report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
                                    notes_on(*baseline, report)};

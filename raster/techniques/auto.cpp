@@ -40,9 +40,10 @@ std::string caster_words(const Scene& scene, const std::vector<const CasterPlan*
     constexpr std::size_t most = 3;
     std::vector<std::string> names;
     for (const CasterPlan* plan : plans)
-        if (names.size() < most) names.push_back(fmt::format("'{}'", scene.meshes[plan->mesh].name));
-    std::string words = fmt::format("{} {}", plans.size() == 1 ? "caster" : "casters",
-                                    fmt::join(names, ", "));
+        if (names.size() < most)
+            names.push_back(fmt::format("'{}'", scene.meshes[plan->mesh].name));
+    std::string words =
+        fmt::format("{} {}", plans.size() == 1 ? "caster" : "casters", fmt::join(names, ", "));
     if (plans.size() > most) words += fmt::format(" and {} more", plans.size() - most);
     return words;
 }
@@ -64,7 +65,7 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
     };
     for (const std::string& reason : reasons)
         add("volumes of ", reason, [&](const CasterPlan& plan) { return plan.left_out == reason; });
-    add("dark caps and counting behind the surface for ", "the near plane does not meet the volume",
+    add("dark caps and counting behind the surface for ", "no volume meets the near plane",
         [](const CasterPlan& plan) { return plan.left_out.empty() && !plan.meets_near; });
     add("light caps of ", "none is seen before what is nearer", [](const CasterPlan& plan) {
         return plan.left_out.empty() && !plan.meets_near && !plan.cap_in_front;
@@ -72,7 +73,9 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
     add("dark caps of ", "the volume is not seen to infinity", [](const CasterPlan& plan) {
         return plan.left_out.empty() && plan.meets_near && !plan.reaches_infinity;
     });
-    clauses.emplace_back("depth clamp: the projection has no far plane");
+    clauses.push_back(std::any_of(plans.begin(), plans.end(), is_counted_behind)
+                          ? "depth clamp: the projection has no far plane"
+                          : "depth clamp: nothing behind the surface is counted");
     return clauses;
 }
 

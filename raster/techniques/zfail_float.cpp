@@ -21,7 +21,8 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
 Technique zfail_float_technique() {
     return {.name = "zfail_float",
             .summary = "zfail_reversed that adds up faces in a floating-point colour",
-            .source = "Roettger, Irion & Ertl 2002, \"Shadow Volumes Revisited\": counting by blending",
+            .source =
+                "Roettger, Irion & Ertl 2002, \"Shadow Volumes Revisited\": counting by blending",
             .needs = "blending into an R32F colour buffer",
             .fails_at = {Cause::precision, Cause::open_mesh},
             .run = run};

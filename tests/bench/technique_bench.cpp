@@ -35,8 +35,7 @@ bool is_right(const Tracer& tracer, const Silhouette& silhouette, const GroundTr
               const ShadowDepths& depths, const Frame& frame) {
     const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
                                 frame.depth_model);
-    const Comparison comparison =
-        classify(tracer, silhouette, truth, depths, frame, prediction);
+    const Comparison comparison = classify(tracer, silhouette, truth, depths, frame, prediction);
     return comparison.differing == comparison.causes[static_cast<std::size_t>(Cause::edge)];
 }
 
@@ -109,7 +108,8 @@ int run(int rounds, const std::vector<std::string>& names) {
                        whole.milliseconds / chosen.milliseconds);
         }
     }
-    fmt::print("\n{:<24}{:>8}{:>12}{:>8}\n", "against zfail_reversed", "time", "fragments", "right");
+    fmt::print("\n{:<24}{:>8}{:>12}{:>8}\n", "against zfail_reversed", "time", "fragments",
+               "right");
     for (const Technique& technique : all_techniques()) {
         const Sums& sum = sums[technique.name];
         fmt::print("{:<24}{:>8.2f}{:>12.2f}{:>5}/{}\n", technique.name,

@@ -113,9 +113,8 @@ TEST(Render, stores_the_window_depth_that_the_depth_model_says) {
                                     ? f * (3 - n) / (3 * (f - n))
                                 : frame.depth_model.projection == Projection::finite_reversed
                                     ? n * (f - 3) / (3 * (f - n))
-                                : frame.depth_model.projection == Projection::infinite
-                                    ? 1 - n / 3
-                                    : n / 3;
+                                : frame.depth_model.projection == Projection::infinite ? 1 - n / 3
+                                                                                       : n / 3;
         // The caps on the near plane take a ledge of the depths.
         const double least = technique.name == "zpass_capped" ? ledge : 0;
         // 16 steps of 24 bits: what the ledger grants D24 for its rounding and that of the matrix.

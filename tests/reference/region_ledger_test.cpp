@@ -3,6 +3,7 @@
 #include "reference/view.h"
 #include "scenes/catalog.h"
 #include "scenes/plan.h"
+#include "tests/reference/ray_ledger.h"
 
 #include <gtest/gtest.h>
 

@@ -29,19 +29,13 @@ TEST(bundled, the_author_writes_the_bytes_that_are_checked_in) {
         EXPECT_EQ(stages[i].name, bundled_scenes()[i].name);
         expect_written(stages[i], bundled_folder());
     }
-    for (const author::Stage& stage : author::unlisted_stages()) {
-        EXPECT_FALSE(is_bundled(stage.name));
-        expect_written(stage, bundled_folder() / "unlisted");
-    }
 }
 
-TEST(bundled, the_unlisted_scenes_have_a_directional_light_and_a_spot) {
-    const auto light_of = [](const char* name) {
-        return chosen_light(load_gltf(bundled_folder() / "unlisted" / name, {}));
-    };
-    EXPECT_EQ(light_of("sun.gltf").kind, Light::Kind::directional);
-    EXPECT_EQ(light_of("spot.gltf").kind, Light::Kind::spot);
-    EXPECT_NEAR(light_of("spot.gltf").outer_cone, 0.2871, 1e-6); // radians
+TEST(bundled, sun_and_spot_have_the_lights_that_they_are_named_for) {
+    const auto light_of = [](const char* name) { return chosen_light(load_scene(name, {})); };
+    EXPECT_EQ(light_of("sun").kind, Light::Kind::directional);
+    EXPECT_EQ(light_of("spot").kind, Light::Kind::spot);
+    EXPECT_NEAR(light_of("spot").outer_cone, 0.2871, 1e-6); // radians
 }
 
 TEST(bundled, an_unknown_name_is_answered_with_the_known_ones) {

@@ -67,6 +67,33 @@ Stage overlapping() {
     return stage;
 }
 
+/// Lanterns hang before and above the front rim of the floor, and the light stands behind it: their
+/// shadows miss the floor, and each other.
+Stage idle_casters() {
+    Stage stage = looking_along_floor("idle_casters",
+                                      "Lanterns whose shadows fall past the floor: their volumes "
+                                      "cross the picture, and nothing seen is in them.");
+    stage.light.position = {-0.471, 7.913, -9.113};
+    add(stage, {{.name = "torus",
+                 .shape = torus(0.787, 0.313, 32, 12),
+                 .color = teal,
+                 .position = {-0.713, 0.341, -0.471},
+                 .turn_axis = {1, 0, 0},
+                 .turn = 0.0213}});
+    for (int i = 0; i < 36; ++i) {
+        const int column = i % 9;
+        const int row = i / 9;
+        add(stage,
+            {{.name = "lantern " + std::to_string(i + 1),
+              .shape = gem(0.413, 0.471, 12),
+              .color = i % 2 == 0 ? amber : coral,
+              .position = {0.9713 * (column - 4) + 0.113, 1.871 + 1.013 * row, 4.113 + 0.213 * row},
+              .turn_axis = {0.31, 0.83, 0.47},
+              .turn = 0.3331 * i}});
+    }
+    return stage;
+}
+
 /// What of a shape is not in its highest plane.
 Shape without_top(Shape shape) {
     double top = shape.vertices.front().y;
@@ -196,7 +223,8 @@ Stage t_junctions() {
 } // namespace
 
 std::vector<Stage> stages_of_casters() {
-    return {nested(), overlapping(), open_lid(), inverted(), non_manifold(), t_junctions()};
+    return {nested(),   overlapping(),  idle_casters(), open_lid(),
+            inverted(), non_manifold(), t_junctions()};
 }
 
 } // namespace shadowproof::author

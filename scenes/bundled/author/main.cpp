@@ -1,5 +1,4 @@
-// shadowproof_author FOLDER: writes the bundled scenes there, and those that no catalog lists to
-// its subfolder unlisted/.
+// shadowproof_author FOLDER: writes the bundled scenes there.
 #include "scenes/bundled/author/stages.h"
 
 #include <cstdlib>
@@ -33,8 +32,6 @@ int main(int argc, char** argv) {
     }
     using namespace shadowproof::author;
     const std::filesystem::path folder = argv[1];
-    std::filesystem::create_directories(folder / "unlisted");
-    const bool written =
-        write_all(all_stages(), folder) && write_all(unlisted_stages(), folder / "unlisted");
-    return written ? 0 : 3;
+    std::filesystem::create_directories(folder);
+    return write_all(all_stages(), folder) ? 0 : 3;
 }

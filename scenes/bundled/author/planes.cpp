@@ -105,6 +105,24 @@ Stage eye_on_side() {
     return stage;
 }
 
+/// The plank is behind and above the picture. Its shadow reaches from the eye to the floor in the
+/// picture, and goes down too steeply to be seen far away.
+Stage seen_shadow() {
+    Stage stage = looking_along_floor("seen_shadow",
+                                      "A plank shades the eye and a strip of the floor that it "
+                                      "sees: its volume is needed, and begins around the eye.",
+                                      {"eye_inside"});
+    stage.light.position = {1.213, 14.013, 9.071};
+    stage.znear = 0.313;
+    add_still_life(stage);
+    add(stage, {{.name = "plank",
+                 .shape = box({0.263, 0.087, 3.213}, 4),
+                 .color = slate,
+                 .position = {1.271, 8.013, 9.113},
+                 .turn = 0.0171}});
+    return stage;
+}
+
 /// Nothing but bodies in space: a ray is in shadow at the far plane only where the plane lies
 /// inside a body, or in the shadow of one.
 Stage far_cut() {
@@ -139,7 +157,8 @@ Stage far_cut() {
 } // namespace
 
 std::vector<Stage> stages_of_planes() {
-    return {near_cap_all(), near_cap_some(), near_cap_none(), eye_on_side(), far_cut()};
+    return {near_cap_all(), near_cap_some(), near_cap_none(),
+            eye_on_side(),  seen_shadow(),   far_cut()};
 }
 
 } // namespace shadowproof::author

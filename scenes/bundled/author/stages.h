@@ -11,7 +11,4 @@ namespace shadowproof::author {
 /// In the order of the catalog.
 std::vector<Stage> all_stages();
 
-/// Of lights that are not yet judged: in no catalog.
-std::vector<Stage> unlisted_stages();
-
 } // namespace shadowproof::author

@@ -1,3 +1,5 @@
+#include "tests/reference/ray_ledger.h"
+
 #include "reference/faces.h"
 #include "reference/ledger.h"
 #include "reference/norms.h"

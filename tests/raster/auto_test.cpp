@@ -1,0 +1,119 @@
+// What auto leaves out, and what the volumes of a frame are said to cost.
+#include "raster/render.h"
+#include "scenes/catalog.h"
+#include "scenes/plan.h"
+#include "tests/raster/small_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+namespace shadowproof::tests {
+namespace {
+
+Scene small(const char* name) {
+    return load_scene(name, {.camera = {}, .light = {}, .time = 0, .width = 128, .height = 128});
+}
+
+Frame draw(Gpu& gpu, const Scene& scene, const char* technique) {
+    return render(*find_technique(technique), scene, make_plan(scene), gpu);
+}
+
+Counting::Caster counted_as(const Scene& scene, const Frame& frame, std::string_view mesh) {
+    const auto found = std::ranges::find(scene.meshes, mesh, &Mesh::name);
+    return frame.counting.caster(found->first_triangle);
+}
+
+TEST(Auto, counts_a_caster_behind_the_surface_where_its_volume_holds_the_eye_and_no_other) {
+    const Scene scene = small("seen_shadow");
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = draw(gpu, scene, "auto");
+    EXPECT_EQ(counted_as(scene, frame, "plank").test, Counting::Test::depth_fail);
+    EXPECT_FALSE(counted_as(scene, frame, "plank").left_out);
+    EXPECT_EQ(counted_as(scene, frame, "apple").test, Counting::Test::depth_pass);
+    EXPECT_FALSE(frame.depth_model.finite());
+    EXPECT_EQ(frame.claim.pixels, draw(gpu, scene, "zfail_reversed").claim.pixels);
+    EXPECT_NE(frame.claim.pixels, draw(gpu, scene, "zpass").claim.pixels); // which cannot do it
+}
+
+TEST(Auto, leaves_out_the_volume_around_the_eye_where_nothing_seen_is_in_it) {
+    const Scene scene = small("eye_inside");
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = draw(gpu, scene, "auto");
+    EXPECT_TRUE(counted_as(scene, frame, "canopy").left_out);
+    EXPECT_TRUE(counted_as(scene, frame, "floor").left_out);
+    EXPECT_FALSE(counted_as(scene, frame, "torus").left_out);
+    EXPECT_TRUE(frame.depth_model.finite()); // nothing behind the surface is asked for
+    EXPECT_EQ(frame.claim.pixels, draw(gpu, scene, "zfail_reversed").claim.pixels);
+}
+
+class AutoClaims : public testing::TestWithParam<std::string> {};
+
+TEST_P(AutoClaims, are_those_of_zfail_reversed_but_for_depths_that_tie) {
+    const Scene scene = small(GetParam().c_str());
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame whole = draw(gpu, scene, "zfail_reversed");
+    const Frame frame = draw(gpu, scene, "auto");
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
+        differing += frame.claim.pixels[i] != whole.claim.pixels[i] ? 1U : 0U;
+    // Sides that are left out, or of which other depths are asked, no longer round a pixel.
+    EXPECT_LE(differing, 4U);
+    EXPECT_LE(frame.volume_fragments, whole.volume_fragments);
+    ASSERT_TRUE(frame.saved.has_value());
+    EXPECT_EQ(frame.saved->against, "zfail_reversed");
+    EXPECT_EQ(frame.saved->volume_fragments,
+              static_cast<std::int64_t>(whole.volume_fragments - frame.volume_fragments));
+    EXPECT_FALSE(frame.left_out.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, AutoClaims, testing::ValuesIn([] {
+                             std::vector<std::string> names;
+                             for (const BundledScene& scene : bundled_scenes())
+                                 names.emplace_back(scene.name);
+                             return names;
+                         }()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST(Auto, draws_no_volume_where_no_caster_can_shadow_anything) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, {-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2});
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = draw(gpu, scene, "auto");
+    EXPECT_EQ(frame.volume_fragments, 0U);
+    EXPECT_TRUE(std::ranges::all_of(frame.counter.pixels, [](auto count) { return count == 0; }));
+    EXPECT_GT(draw(gpu, scene, "zfail_reversed").volume_fragments, 0U);
+}
+
+TEST(Volumes, a_box_over_a_floor_shows_the_faces_that_nothing_hides) {
+    const Scene scene = box_over_floor();
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = draw(gpu, scene, "zfail_reversed");
+    const std::uint64_t shown =
+        std::accumulate(frame.volumes.pixels.begin(), frame.volumes.pixels.end(), std::uint64_t{0});
+    EXPECT_GT(shown, 0U);
+    EXPECT_LT(shown, frame.volume_fragments); // some are hidden
+    // Each method draws the same faces.
+    for (const char* technique : {"zfail_half_edge", "zfail_float"}) {
+        const Frame other = draw(gpu, scene, technique);
+        EXPECT_EQ(other.volumes.pixels, frame.volumes.pixels) << technique;
+        EXPECT_EQ(other.volume_fragments, frame.volume_fragments) << technique;
+    }
+    EXPECT_GT(draw(gpu, scene, "zfail_per_triangle").volume_fragments, frame.volume_fragments);
+    EXPECT_LT(draw(gpu, scene, "zfail_no_light_cap").volume_fragments, frame.volume_fragments);
+}
+
+TEST(Counter, a_floating_point_sum_counts_past_what_eight_bits_hold) {
+    const Scene scene = small("nested");
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame sum = draw(gpu, scene, "zfail_float");
+    const Frame stencil = draw(gpu, scene, "zfail_reversed");
+    EXPECT_GT(*std::ranges::max_element(sum.counter.pixels), 256U);
+    for (std::size_t i = 0; i < sum.counter.pixels.size(); ++i)
+        ASSERT_EQ(sum.counter.pixels[i] & 0xffU, stencil.counter.pixels[i]);
+}
+
+} // namespace
+} // namespace shadowproof::tests
