@@ -262,6 +262,7 @@ std::vector<CasterPlan> plan_casters(const Scene& scene) {
         all.cap_in_front |= plan.cap_in_front;
     }
     for (CasterPlan& plan : plans) {
+        if (!plan.left_out.empty()) continue;
         const CasterPlan& all = of_body[body[plan.mesh]];
         plan.meets_near = all.meets_near;
         plan.reaches_infinity = all.reaches_infinity;

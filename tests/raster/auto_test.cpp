@@ -26,6 +26,16 @@ Counting::Caster counted_as(const Scene& scene, const Frame& frame, std::string_
     return frame.counting.caster(found->first_triangle);
 }
 
+std::size_t differing_claims(const Frame& frame, const Frame& other) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
+        differing += frame.claim.pixels[i] != other.claim.pixels[i] ? 1U : 0U;
+    return differing;
+}
+
+// Sides that are left out, or of which other depths are asked, no longer round a pixel.
+constexpr std::size_t few = 4;
+
 TEST(Auto, counts_a_caster_behind_the_surface_where_its_volume_holds_the_eye_and_no_other) {
     const Scene scene = small("seen_shadow");
     Gpu gpu(GlPlatform::osmesa);
@@ -34,8 +44,8 @@ TEST(Auto, counts_a_caster_behind_the_surface_where_its_volume_holds_the_eye_and
     EXPECT_FALSE(counted_as(scene, frame, "plank").left_out);
     EXPECT_EQ(counted_as(scene, frame, "apple").test, Counting::Test::depth_pass);
     EXPECT_FALSE(frame.depth_model.finite());
-    EXPECT_EQ(frame.claim.pixels, draw(gpu, scene, "zfail_reversed").claim.pixels);
-    EXPECT_NE(frame.claim.pixels, draw(gpu, scene, "zpass").claim.pixels); // which cannot do it
+    EXPECT_LE(differing_claims(frame, draw(gpu, scene, "zfail_reversed")), few);
+    EXPECT_GT(differing_claims(frame, draw(gpu, scene, "zpass")), 1000U); // which cannot do it
 }
 
 TEST(Auto, leaves_out_the_volume_around_the_eye_where_nothing_seen_is_in_it) {
@@ -46,7 +56,7 @@ TEST(Auto, leaves_out_the_volume_around_the_eye_where_nothing_seen_is_in_it) {
     EXPECT_TRUE(counted_as(scene, frame, "floor").left_out);
     EXPECT_FALSE(counted_as(scene, frame, "torus").left_out);
     EXPECT_TRUE(frame.depth_model.finite()); // nothing behind the surface is asked for
-    EXPECT_EQ(frame.claim.pixels, draw(gpu, scene, "zfail_reversed").claim.pixels);
+    EXPECT_LE(differing_claims(frame, draw(gpu, scene, "zfail_reversed")), few);
 }
 
 class AutoClaims : public testing::TestWithParam<std::string> {};
@@ -56,11 +66,7 @@ TEST_P(AutoClaims, are_those_of_zfail_reversed_but_for_depths_that_tie) {
     Gpu gpu(GlPlatform::osmesa);
     const Frame whole = draw(gpu, scene, "zfail_reversed");
     const Frame frame = draw(gpu, scene, "auto");
-    std::size_t differing = 0;
-    for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
-        differing += frame.claim.pixels[i] != whole.claim.pixels[i] ? 1U : 0U;
-    // Sides that are left out, or of which other depths are asked, no longer round a pixel.
-    EXPECT_LE(differing, 4U);
+    EXPECT_LE(differing_claims(frame, whole), few);
     EXPECT_LE(frame.volume_fragments, whole.volume_fragments);
     ASSERT_TRUE(frame.saved.has_value());
     EXPECT_EQ(frame.saved->against, "zfail_reversed");

@@ -43,6 +43,13 @@ Scene floor_alone() {
     return scene;
 }
 
+/// A floor on which the shadow of what hangs between light and eye is seen.
+Scene long_floor() {
+    Scene scene = empty_stage();
+    add_box(scene, "floor", {-3, -1, -3}, {3, 0, 9});
+    return scene;
+}
+
 bool is_left_out(const Scene& scene, std::size_t mesh) {
     return !plan_casters(scene).at(mesh).left_out.empty();
 }
@@ -57,7 +64,7 @@ TEST(caster_plan, a_floor_and_what_stands_on_it_shadow_no_lit_side_of_themselves
 
 TEST(caster_plan, what_dips_below_a_floors_top_may_be_shadowed_by_it) {
     Scene scene = floor_alone();
-    add_box(scene, "box through it", {4, -0.5F, -1}, {5, 1, 1}); // beside it, in its shadow
+    add_box(scene, "pillar beside it", {4, -4, -1}, {5, 1, 1}); // its foot is in the shadow
     EXPECT_FALSE(is_left_out(scene, 0));
 }
 
@@ -98,7 +105,7 @@ TEST(caster_plan, what_shows_no_shadows_asks_for_none) {
 }
 
 TEST(caster_plan, a_volume_around_the_eye_or_the_near_plane_is_counted_behind_the_surface) {
-    Scene scene = floor_alone();
+    Scene scene = long_floor();
     add_box(scene, "box", {-1, 1, -1}, {1, 2, 1});
     EXPECT_FALSE(plan_casters(scene)[1].meets_near);
     add_box(scene, "lid", {-1, 4, 4}, {1, 4.5F, 8}); // between the light and the eye
@@ -107,7 +114,7 @@ TEST(caster_plan, a_volume_around_the_eye_or_the_near_plane_is_counted_behind_th
 }
 
 TEST(caster_plan, meshes_that_share_a_corner_are_counted_alike) {
-    Scene scene = floor_alone();
+    Scene scene = long_floor();
     add_box(scene, "lid", {-1, 4, 4}, {1, 4.5F, 8});
     add_box(scene, "knob", {1, 4.5F, 4}, {1.1F, 4.6F, 4.1F});
     const std::vector<CasterPlan> plans = plan_casters(scene);
