@@ -389,9 +389,11 @@ var cutaway = (function () {
     text += fates.text;
 
     var notes = [say.lightWords(plane, place)];
-    if (technique.tests && crossings > 0)
+    var tests = technique.tests || [technique.test];
+    var behind = tests.indexOf('depth_fail') >= 0;
+    if (behind && tests.indexOf('depth_pass') >= 0)
       notes.push('Some casters are counted in front of the surface, others behind it.');
-    else if (technique.test === 'depth_fail' && crossings > 0)
+    else if (behind && crossings > 0)
       notes.push('Counted behind the surface, where an exit adds one and an entry takes one.');
     if (technique.test === 'depth_pass' && record.inside.eye !== 0)
       notes.push('The eye itself is inside ' + record.inside.eye +
