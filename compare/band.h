@@ -2,11 +2,11 @@
 // snaps vertices to a grid and rounds depths. Derived from both; nothing here is tuned.
 #pragma once
 
+#include "compare/neighbourhood.h"
 #include "reference/prediction.h"
 #include "reference/trace.h"
 #include "scenes/frame.h"
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -14,21 +14,6 @@
 #include <vector>
 
 namespace shadowproof {
-
-/// How far a pixel's neighbourhood reaches to each side, in pixels.
-struct BandRadius {
-    double surface = 0; ///< for what is seen
-    double nearest = 0; ///< for the nearest face that is counted, which may move further
-};
-
-/// Rays through the points at which a pixel's neighbourhood is looked at.
-struct Neighbourhood {
-    std::vector<glm::dvec3> rays;        ///< the pixel's centre first, then a grid to each radius
-    double reach = 0;                    ///< the larger radius, pixels
-    std::array<glm::dvec3, 4> corners{}; ///< of the larger grid, around it: what is linear is
-                                         ///< extreme there
-};
-Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius);
 
 /// One value that the counter may have at a pixel, and how it comes about.
 struct Reading {

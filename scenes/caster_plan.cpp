@@ -73,12 +73,6 @@ Body body_of(const Scene& scene, std::vector<std::uint32_t> triangles) {
     return body;
 }
 
-std::vector<std::uint32_t> triangles_of(const Mesh& mesh) {
-    std::vector<std::uint32_t> triangles(mesh.triangle_count);
-    std::iota(triangles.begin(), triangles.end(), mesh.first_triangle);
-    return triangles;
-}
-
 /// Whether a triangle may be in the picture with the side towards it that is the light's.
 bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_sided,
                        const PictureCone& cone) {

@@ -23,8 +23,8 @@ struct CasterPlan {
 };
 
 /// Of the meshes that cast, in the order of scene.meshes. Meshes that share a corner are one body:
-/// what is not left out of it is alike in the last three. Linear in time but for pairs of small meshes, of which each
-/// triangle is held against each corner of the other.
+/// what is not left out of it is alike in the last three. Linear in time but for pairs of small
+/// meshes, of which each triangle is held against each corner of the other.
 std::vector<CasterPlan> plan_casters(const Scene& scene);
 
 } // namespace shadowproof

@@ -81,12 +81,6 @@ std::vector<EdgeUse> edges_used(const Scene& scene, std::span<const std::uint32_
     return edges;
 }
 
-std::vector<std::uint32_t> triangles_of(const Mesh& mesh) {
-    std::vector<std::uint32_t> triangles(mesh.triangle_count);
-    std::iota(triangles.begin(), triangles.end(), mesh.first_triangle);
-    return triangles;
-}
-
 std::uint32_t end_of(const HalfEdgeMesh& mesh, const HalfEdge& half_edge) {
     return mesh.half_edges[half_edge.next].origin;
 }
@@ -163,6 +157,12 @@ std::string counted(std::size_t count, std::string_view singular, std::string_vi
 }
 
 } // namespace
+
+std::vector<std::uint32_t> triangles_of(const Mesh& mesh) {
+    std::vector<std::uint32_t> triangles(mesh.triangle_count);
+    std::iota(triangles.begin(), triangles.end(), mesh.first_triangle);
+    return triangles;
+}
 
 std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint32_t> welded,
                                   std::span<const std::uint32_t> triangles) {

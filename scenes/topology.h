@@ -17,6 +17,9 @@ namespace shadowproof {
 /// For each position the index of the first position that is equal to it (-0 equals 0).
 std::vector<std::uint32_t> weld_by_position(std::span<const glm::vec3> positions);
 
+/// Indices into Scene::triangles, in order.
+std::vector<std::uint32_t> triangles_of(const Mesh& mesh);
+
 /// A directed edge of the welded soup with its surplus: how many more triangles run through it
 /// from a to b than from b to a. All surpluses zero: the soup bounds a volume.
 struct SurplusEdge {
