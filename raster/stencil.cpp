@@ -205,6 +205,7 @@ struct Frames {
                     part->volumes.draw();
                     part->volumes.draw_turned();
                 }
+                if (occluders) occluders->draw();
             },
             frame);
     }

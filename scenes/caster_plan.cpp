@@ -30,7 +30,6 @@ double certain_side(const Corners& t, const glm::dvec4& point) {
     const glm::dvec3 b = t[1] - t[0];
     const glm::dvec3 c = t[2] - t[0];
     const glm::dvec3 p = glm::dvec3(point) - point.w * t[0];
-    if (point.w == 1 && (p == b || p == c)) return 0; // its own corner
     const glm::dvec3 size_b = glm::abs(b);
     const glm::dvec3 size_c = glm::abs(c);
     const glm::dvec3 products(size_b.y * size_c.z + size_b.z * size_c.y,
@@ -44,6 +43,7 @@ double certain_side(const Corners& t, const glm::dvec4& point) {
 }
 
 double certain_side(const Corners& t, const glm::dvec3& point) {
+    if (point == t[0] || point == t[1] || point == t[2]) return 0; // its own corner
     return certain_side(t, glm::dvec4(point, 1));
 }
 

@@ -64,10 +64,10 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
     try {
         cell.frame = render(technique, trial.scene, trial.plan, gpu);
         cell.milliseconds = cell.frame.milliseconds;
+        refuse_blank(technique.name, trial.truth, cell.frame);
         cell.volume_fragments = cell.frame.volume_fragments;
         cell.left_out = cell.frame.left_out;
         cell.saved = cell.frame.saved;
-        refuse_blank(technique.name, trial.truth, cell.frame);
         const Prediction prediction(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                     cell.frame.counting, cell.frame.depth_model);
         cell.comparison = classify(trial.tracer, trial.silhouette, trial.truth, trial.depths,
