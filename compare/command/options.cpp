@@ -78,7 +78,9 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         ->type_name("WxH");
     command.add_option("--camera", options.camera, "Camera, by name or index (the first)")
         ->type_name("CAMERA");
-    command.add_option("--light", options.light, "Light, by name or index (verify: each in turn, others: the first)")
+    command
+        .add_option("--light", options.light,
+                    "Light, by name or index (verify: each in turn, others: the first)")
         ->type_name("LIGHT");
     command.add_option("--time", options.time, "Seconds at which animations are posed (0)")
         ->type_name("T")
