@@ -18,7 +18,11 @@ TEST_P(Ways, all_give_the_same_stencil_bit_for_bit_where_every_caster_is_closed)
     const Scene scene =
         load_scene(GetParam(), {.camera = {}, .light = {}, .time = 0, .width = 512, .height = 512});
     const Plan plan = make_plan(scene);
-    if (plan.hole_filling) GTEST_SKIP() << "has an open caster";
+    if (plan.hole_filling) {
+        // Only the half-edge mesh fills holes; and only these two have any.
+        EXPECT_TRUE(GetParam() == "open_lid" || GetParam() == "t_junctions");
+        GTEST_SKIP() << "has an open caster";
+    }
     Gpu gpu(GlPlatform::osmesa);
     const Frame expected = render(*find_technique("zfail_reversed"), scene, plan, gpu);
     EXPECT_TRUE(
