@@ -156,13 +156,21 @@ private:
     }
 
     /// A light cap covers what its own surface covers, at the same depth bit for bit: it is in
-    /// front of the visible surface only where that surface is culled.
+    /// front of the visible surface only where that surface is culled, or past the far plane.
     bool is_never_in_front(const Crossing& crossing) const {
-        if (crossing.part != Crossing::Part::light_cap) return false;
+        if (crossing.part != Crossing::Part::light_cap || is_turned(crossing)) return false;
         if (crossing.triangle == shown_) return true;
+        if (crossing.depth >= clip_depth(far_, -1)) return false;
         // What fills a hole is no surface.
         return crossing.triangle < scene_.triangles.size() &&
                sides_of(tracer_, crossing.triangle).visible;
+    }
+
+    /// With its first two corners exchanged, a shader may make it so that it is clipped otherwise
+    /// than its surface, and its depth rounds otherwise.
+    bool is_turned(const Crossing& crossing) const {
+        const std::vector<std::uint8_t>& turned = frame_.counting.turned;
+        return crossing.triangle < turned.size() && turned[crossing.triangle] != 0;
     }
 
     /// Shadow depth at the shown surface, as the casters have it.
@@ -235,7 +243,9 @@ private:
             const bool maybe_front = !behind && range.lower <= shown_range_.upper;
             const bool maybe_behind = behind || range.upper >= shown_range_.lower;
             if (!(pass ? maybe_front : maybe_behind)) continue;
-            const bool in_front = !behind && crossing.depth < shown_range_.nominal;
+            const bool own =
+                crossing.triangle == shown_ && crossing.part == Crossing::Part::light_cap;
+            const bool in_front = !behind && !own && crossing.depth < shown_range_.nominal;
             found.push_back({crossing, in_front == pass, !(maybe_front && maybe_behind)});
         }
         return found;
@@ -277,20 +287,23 @@ private:
     std::vector<std::int64_t> possible_counts(const std::vector<Candidate>& faces,
                                               std::int64_t start, std::int64_t last) const {
         std::vector<Crossing> drawn;
-        std::vector<Crossing> uncertain;
+        std::vector<Candidate> uncertain;
         for (const Candidate& face : faces) {
             if (!face.certain)
-                uncertain.push_back(face.crossing);
+                uncertain.push_back(face);
             else if (face.nominally)
                 drawn.push_back(face.crossing);
         }
         std::vector<std::int64_t> counts;
         if (frame_.counting.operation == Counting::Operation::saturate) {
-            uncertain.resize(std::min(uncertain.size(), most_subsets));
+            while (uncertain.size() > most_subsets) {
+                if (uncertain.back().nominally) drawn.push_back(uncertain.back().crossing);
+                uncertain.pop_back();
+            }
             for (std::size_t subset = 0; subset < std::size_t{1} << uncertain.size(); ++subset) {
                 std::vector<Crossing> with = drawn;
                 for (std::size_t i = 0; i < uncertain.size(); ++i)
-                    if ((subset >> i & 1U) != 0) with.push_back(uncertain[i]);
+                    if ((subset >> i & 1U) != 0) with.push_back(uncertain[i].crossing);
                 counts.push_back(counted_in_order(with, start, last, frame_.counting));
             }
             return counts;
@@ -298,7 +311,7 @@ private:
         const std::int64_t certain = counted_in_order(drawn, start, last, frame_.counting);
         std::int64_t least = certain;
         std::int64_t most = certain;
-        for (const Crossing& crossing : uncertain) {
+        for (const auto& [crossing, nominally, certain_] : uncertain) {
             const int step = weight(frame_.counting, crossing) * crossing.change;
             (step < 0 ? least : most) += step;
         }
@@ -307,7 +320,8 @@ private:
     }
 
     /// Where every face's place in the order of drawing matters, their subsets are tried one by
-    /// one: of so many faces at most, the nearest to the eye.
+    /// one: of so many faces at most, the nearest to the eye; others are left as they come out
+    /// nominally.
     static constexpr std::size_t most_subsets = 8;
 };
 

@@ -37,6 +37,10 @@ struct Context {
     }
     std::int64_t predicted(PixelPlace p) const { return prediction.counts().at(p.x, p.y); }
     std::uint32_t read_back(PixelPlace p) const { return frame.counter.at(p.x, p.y); }
+    /// Shadow depths in the volumes that the shadows ask for.
+    const ShadowDepths& ideal() const {
+        return prediction.volumes().are_ideal() ? prediction.depths() : depths;
+    }
     bool surface_as_true(PixelPlace p) const {
         return frame.triangle.at(p.x, p.y) == truth.triangle.at(p.x, p.y);
     }
@@ -96,7 +100,8 @@ std::optional<Cause> algorithmic_cause(const Context& context, const Reading& re
 /// The reading at the pixel's centre, as traced.
 Reading centre_reading(const Context& context, PixelPlace p) {
     const Image<std::uint8_t>& in_cone = context.truth.in_cone;
-    return {context.predicted(p), context.depths.at_surface.at(p.x, p.y), context.depths.at_eye,
+    const ShadowDepths& ideal = context.ideal();
+    return {context.predicted(p), ideal.at_surface.at(p.x, p.y), ideal.at_eye,
             in_cone.pixels.empty() || in_cone.at(p.x, p.y) != 0, false};
 }
 
@@ -205,8 +210,6 @@ struct Region {
     std::span<Finding> findings;
 };
 
-constexpr int region_side = 16; ///< pixels
-
 std::vector<Neighbourhood> neighbourhoods(const Context& context, const Region& region,
                                           Scrutiny scrutiny) {
     const Camera& camera = context.tracer.scene().camera;
@@ -253,9 +256,9 @@ void look_around_region(const Context& context, const Region& region,
         const PixelVolumes here{counted_here,
                                 volumes.casters(),
                                 volumes.far_ends(),
-                                volumes.are_the_casters() ? nullptr : &ideal_here,
+                                volumes.are_ideal() ? nullptr : &ideal_here,
                                 context.prediction.depths().at_eye,
-                                context.depths.at_eye};
+                                context.ideal().at_eye};
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
         truths = truths.subspan(truth.size());
         const PixelBand band =

@@ -14,8 +14,6 @@ namespace shadowproof {
 
 namespace {
 
-/// Pixels along a region's side: measured, 8 and 32 take a third longer.
-constexpr int region_side = 16;
 /// Regions of a band, from top to bottom.
 constexpr int regions_high = 8;
 

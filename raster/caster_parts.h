@@ -11,12 +11,14 @@ namespace shadowproof {
 /// Casters that are all counted alike.
 struct CasterPart {
     Counting::Caster caster;
-    Scene
-        scene; ///< without what casts no shadow; its meshes no longer say whose triangles are whose
+    /// Without what casts no shadow; its meshes no longer say whose triangles are whose.
+    Scene scene;
+    /// What its triangles are in the scene of all: those past the end of that fill holes.
+    std::vector<std::uint32_t> triangles;
 };
 
 /// One part where all casters are counted alike, else one for each way; none for those left out.
-/// Holes are filled where the counting asks for it.
+/// The casters are those that the technique makes volumes of, see counted_casters.h.
 std::vector<CasterPart> caster_parts(const Scene& scene, const Counting& counting);
 
 } // namespace shadowproof

@@ -83,9 +83,7 @@ VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) 
 }
 
 /// Casters that are counted alike, ready to be drawn.
-struct Part {
-    Counting::Caster caster;
-    Scene casters;
+struct Part : CasterPart {
     VolumePass volumes{};
 };
 
@@ -114,12 +112,12 @@ struct Frames {
           surface(link_projection(gl, "surface.frag", transform, geometry, between(with))),
           light(link_light(gl, drawn, transform, geometry, between(with))) {
         add_sum(gl, target);
-        for (auto& [caster, casters] : caster_parts(drawn, with.counting)) {
-            parts.push_back(std::make_unique<Part>(Part{caster, std::move(casters)}));
+        for (CasterPart& part : caster_parts(drawn, with.counting)) {
+            parts.push_back(std::make_unique<Part>(Part{std::move(part)}));
             parts.back()->volumes = make_volumes(*parts.back());
         }
         if (with.near_plane == NearPlane::from_light)
-            occluders = make_occluder_pass(gl, parts.front()->casters, geometry);
+            occluders = make_occluder_pass(gl, parts.front()->scene, geometry);
         check(gl, "making the passes");
     }
     Frames(const Frames&) = delete;
@@ -132,10 +130,24 @@ struct Frames {
 
     VolumePass make_volumes(const Part& part) const {
         if (recipe.near_plane == NearPlane::capped)
-            return make_capped_pass(gl, part.casters, geometry, transform, recipe.depth_model);
+            return make_capped_pass(gl, part.scene, geometry, transform, recipe.depth_model);
         const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
-        return make_volume_pass(gl, part.casters, geometry, transform, caps, recipe.making,
-                                recipe.extruder(part.casters));
+        return make_volume_pass(gl, part.scene, geometry, transform, caps, recipe.making,
+                                extruder_of(part));
+    }
+
+    Extruder extruder_of(const Part& part) const {
+        const auto of_part = [&](const std::vector<std::uint8_t>& flags) {
+            std::vector<std::uint8_t> mine;
+            if (flags.empty()) return mine;
+            for (const std::uint32_t triangle : part.triangles)
+                mine.push_back(triangle < flags.size() ? flags[triangle] : 0); // or fills a hole
+            return mine;
+        };
+        SpecialCaps special{.hidden = {}, .turned = of_part(recipe.counting.turned)};
+        if (part.caster.test == Counting::Test::depth_pass)
+            special.hidden = of_part(recipe.hidden_caps);
+        return with_special_caps(recipe.extruder(part.scene), std::move(special));
     }
 
     void update() {
@@ -143,7 +155,7 @@ struct Frames {
         if (occluders) occluders->update();
         start = 0;
         if (recipe.counting.start == Counting::Start::eye)
-            start = static_cast<std::uint8_t>(volumes_around_eye(parts.front()->casters));
+            start = static_cast<std::uint8_t>(volumes_around_eye(parts.front()->scene));
     }
 
     void count_in_stencil() {
@@ -241,6 +253,9 @@ Clock::duration quickest_frame(Frames& frames) {
 } // namespace
 
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe) {
+    assert(recipe.counting.casters.empty() ||
+           (recipe.near_plane == NearPlane::lost &&
+            recipe.counting.start == Counting::Start::zero)); // which take all casters as one part
     assert(recipe.counter == Counter::stencil ||
            (recipe.counting.operation == Counting::Operation::wrap &&
             recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
@@ -265,8 +280,10 @@ StencilRecipe zpass_recipe(const Scene& scene) {
                             .far = finite_far(scene)}};
 }
 
-StencilRecipe zfail_reversed_recipe(const Scene& scene) {
-    return {.counting = {.test = Counting::Test::depth_fail},
+StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan) {
+    return {.counting = {.test = Counting::Test::depth_fail,
+                         .dark_cap = plan.dark_cap,
+                         .turned = plan.around_light},
             .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
                             .near = scene.camera.near,
                             .floating = true,

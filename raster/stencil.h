@@ -4,6 +4,7 @@
 #include "raster/context.h"
 #include "raster/volume_pass.h"
 #include "scenes/frame.h"
+#include "scenes/plan.h"
 #include "scenes/scene.h"
 
 namespace shadowproof {
@@ -21,6 +22,9 @@ struct StencilRecipe {
     DepthModel depth_model; ///< subpixel_bits is taken from the driver
     VolumeMaking making = VolumeMaking::on_cpu;
     std::function<Extruder(const Scene& casters)> extruder = by_silhouettes; ///< on the CPU
+    /// A flag a triangle of the scene: where faces in front of the surface are counted, its light
+    /// cap is not drawn, as it never is one. On the CPU only; empty: all are drawn.
+    std::vector<std::uint8_t> hidden_caps{};
     NearPlane near_plane = NearPlane::lost;
     Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping
 };
@@ -33,6 +37,6 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
 
 /// The recipes that the techniques begin with.
 StencilRecipe zpass_recipe(const Scene& scene);
-StencilRecipe zfail_reversed_recipe(const Scene& scene);
+StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan);
 
 } // namespace shadowproof

@@ -11,17 +11,14 @@ namespace shadowproof {
 
 namespace {
 
-bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
-}
-
-/// The caps of the volume over triangles that face the light.
-ShadowVolume capped(const Scene& scene, std::span<const std::uint32_t> facing) {
+/// The volume over the triangles that face the light, without its sides.
+ShadowVolume capped(const Scene& scene) {
     const auto far_end = static_cast<std::uint32_t>(scene.positions.size());
     ShadowVolume volume;
-    volume.light_cap.reserve(facing.size());
-    volume.dark_cap.reserve(facing.size());
-    for (const std::uint32_t triangle : facing) {
+    volume.facing = triangles_facing_light(scene);
+    volume.light_cap.reserve(volume.facing.size());
+    volume.dark_cap.reserve(volume.facing.size());
+    for (const std::uint32_t triangle : volume.facing) {
         const glm::uvec3 corners = scene.triangles[triangle];
         volume.light_cap.push_back(corners);
         volume.dark_cap.emplace_back(corners.z + far_end, corners.y + far_end, corners.x + far_end);
@@ -30,17 +27,6 @@ ShadowVolume capped(const Scene& scene, std::span<const std::uint32_t> facing) {
 }
 
 } // namespace
-
-double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point) {
-    glm::dvec3 a = corner(scene, triangle, 0);
-    glm::dvec3 b = corner(scene, triangle, 1);
-    glm::dvec3 c = corner(scene, triangle, 2);
-    for (int turn = 0; turn < 2 && (is_before(b, a) || is_before(c, a)); ++turn) {
-        std::swap(a, b);
-        std::swap(b, c);
-    }
-    return glm::dot(glm::cross(b - a, c - a), glm::dvec3(point) - point.w * a);
-}
 
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
@@ -62,9 +48,8 @@ void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,
 Extruder by_silhouettes(const Scene& scene) {
     return [&scene, welded = weld_by_position(scene.positions)] {
         const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
-        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
-        ShadowVolume volume = capped(scene, facing);
-        for (const auto& [a, b, surplus] : boundary(scene, welded, facing))
+        ShadowVolume volume = capped(scene);
+        for (const auto& [a, b, surplus] : boundary(scene, welded, volume.facing))
             for (int i = 0; i < surplus; ++i) append_side(a, b, position_count, volume);
         return volume;
     };
@@ -73,10 +58,9 @@ Extruder by_silhouettes(const Scene& scene) {
 Extruder by_half_edges(const Scene& scene) {
     return [&scene, mesh = connect_all(scene)] {
         const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
-        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
+        ShadowVolume volume = capped(scene);
         std::vector<std::uint8_t> faces(scene.triangles.size(), 0);
-        for (const std::uint32_t triangle : facing) faces[triangle] = 1;
-        ShadowVolume volume = capped(scene, facing);
+        for (const std::uint32_t triangle : volume.facing) faces[triangle] = 1;
         for (const HalfEdge& half_edge : mesh.half_edges) {
             if (faces[half_edge.triangle] == 0) continue;
             const bool inner = half_edge.twin != no_half_edge &&
@@ -92,14 +76,33 @@ Extruder by_half_edges(const Scene& scene) {
 Extruder by_triangles(const Scene& scene) {
     return [&scene, welded = weld_by_position(scene.positions)] {
         const auto position_count = static_cast<std::uint32_t>(scene.positions.size());
-        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
-        ShadowVolume volume = capped(scene, facing);
-        for (const std::uint32_t triangle : facing)
+        ShadowVolume volume = capped(scene);
+        for (const std::uint32_t triangle : volume.facing)
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t a = welded[scene.triangles[triangle][k]];
                 const std::uint32_t b = welded[scene.triangles[triangle][(k + 1) % 3]];
                 if (a != b) append_side(a, b, position_count, volume);
             }
+        return volume;
+    };
+}
+
+Extruder with_special_caps(Extruder extruder, SpecialCaps special) {
+    if (special.hidden.empty() && special.turned.empty()) return extruder;
+    return [extruder = std::move(extruder), special = std::move(special)] {
+        const auto is = [](const std::vector<std::uint8_t>& flags, std::uint32_t triangle) {
+            return triangle < flags.size() && flags[triangle] != 0;
+        };
+        ShadowVolume volume = extruder();
+        const std::vector<glm::uvec3> caps = std::exchange(volume.light_cap, {});
+        for (std::size_t i = 0; i < caps.size(); ++i) {
+            const std::uint32_t triangle = volume.facing[i];
+            if (is(special.hidden, triangle)) continue;
+            if (is(special.turned, triangle))
+                volume.turned_caps.emplace_back(caps[i].y, caps[i].x, caps[i].z);
+            else
+                volume.light_cap.push_back(caps[i]);
+        }
         return volume;
     };
 }

@@ -18,19 +18,16 @@ namespace shadowproof {
 /// far end. The light cap's corners are the very ones of the scene's triangles, so that its depth
 /// is bit for bit that of the surface.
 struct ShadowVolume {
-    std::vector<glm::uvec3> light_cap; ///< the triangles that face the light
+    std::vector<std::uint32_t> facing; ///< indices of the triangles that face the light, in order
+    std::vector<glm::uvec3> light_cap; ///< those triangles, but for special ones
     std::vector<glm::uvec3> sides;     ///< two for each silhouette edge and unit of its surplus
     /// Sides that run the other way, wound as if they did not: clockwise from outside. Sides that
     /// lie in one place are then the same triangles, and rasterize alike bit by bit, whichever
     /// triangle they stand on.
     std::vector<glm::uvec3> turned_sides;
-    std::vector<glm::uvec3> dark_cap; ///< the light cap at the far end, wound in reverse
+    std::vector<glm::uvec3> turned_caps; ///< light caps that are wound so, too
+    std::vector<glm::uvec3> dark_cap;    ///< the light cap at the far end, wound in reverse
 };
-
-/// Positive where a triangle is wound counter-clockwise as seen from a homogeneous point (l, w),
-/// negative where clockwise: (b - a) x (c - a) . (l - w a) in double, from the first of its corners
-/// (by x, y, z) on. Zero without area or in its plane.
-double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
 
 /// Indices of the triangles that face the chosen light, in order. Every material casts.
 std::vector<std::uint32_t> triangles_facing_light(const Scene& scene);
@@ -51,6 +48,15 @@ Extruder by_half_edges(const Scene& scene);
 /// A volume for each light-facing triangle by itself. Sides between two of them lie there twice, in
 /// opposite directions, and cancel in the counter.
 Extruder by_triangles(const Scene& scene);
+
+/// What is special of the light caps of a scene's triangles, a flag each; empty: of none.
+struct SpecialCaps {
+    std::vector<std::uint8_t> hidden; ///< not drawn
+    /// Of a triangle whose first two corners were exchanged: drawn as it was before, among the
+    /// turned ones, so that its depths are those of its surface also where it is clipped.
+    std::vector<std::uint8_t> turned;
+};
+Extruder with_special_caps(Extruder extruder, SpecialCaps special);
 
 /// Appends the two triangles of the side beside the edge from a to b of a triangle that faces the
 /// light: to `sides` where a < b, else to `turned_sides`.

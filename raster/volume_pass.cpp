@@ -42,8 +42,9 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
                 [made, making, extruder] {
                     const ShadowVolume volume = extruder();
                     made->faces = upload_triangles(making.gl, drawn_parts(volume, making.caps));
-                    made->turned = upload_triangles(
-                        making.gl, std::array{std::span<const glm::uvec3>(volume.turned_sides)});
+                    std::vector<std::span<const glm::uvec3>> turned{volume.turned_sides};
+                    if (making.caps.light) turned.emplace_back(volume.turned_caps);
+                    made->turned = upload_triangles(making.gl, turned);
                 },
             .draw =
                 [made, making] {

@@ -13,9 +13,6 @@ namespace shadowproof {
 
 namespace {
 
-/// Pixels along the side of the regions whose ledgers are found together.
-constexpr int region_side = 16;
-
 /// Whether the formulas of shadow depths hold: each face counts by one, whichever comes first, and
 /// all faces are drawn but the dark cap at infinity.
 bool follows_from_depths(const Counting& counting) {
@@ -98,6 +95,10 @@ std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
 
 std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
                               std::int64_t dark_caps, const Counting& counting) {
+    // Caps of turned triangles are drawn among the turned faces.
+    for (Crossing& face : faces)
+        if (face.part == Crossing::Part::light_cap && face.triangle < counting.turned.size())
+            face.turned = counting.turned[face.triangle] != 0;
     const auto key = [](const Crossing& crossing) {
         const auto kind = crossing.is_side() ? Crossing::Part::side_0 : crossing.part;
         return std::tuple(crossing.turned, kind,

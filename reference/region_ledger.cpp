@@ -104,12 +104,6 @@ Silhouette::Silhouette(const Tracer& tracer) {
         }
 }
 
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
-                                      double bottom) {
-    return {ray_direction(camera, left, top), ray_direction(camera, right, top),
-            ray_direction(camera, right, bottom), ray_direction(camera, left, bottom)};
-}
-
 RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                            const std::array<glm::dvec3, 4>& corners)
     : tracer_(tracer) {

@@ -44,15 +44,15 @@ private:
     std::vector<Side> sides_;
 };
 
-/// The corners of the pixels [left, right) x [top, bottom), with room to all sides of their
-/// centres.
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
-                                      double bottom);
+/// Pixels along the side of the regions into which a picture is divided: measured, 8 and 32 take a
+/// third longer.
+inline constexpr int region_side = 16;
 
 class RegionLedger {
 public:
     /// `corners`: directions of four rays of the picture whose rectangle holds all that are asked
-    /// for. Keeps a reference to the tracer.
+    /// for, as corner_rays gives them: the corners of pixels leave room on all sides of their
+    /// centres. Keeps a reference to the tracer.
     RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                  const std::array<glm::dvec3, 4>& corners);
     /// For a part of `outer`'s region: only what reaches that is looked at.

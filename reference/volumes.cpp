@@ -1,7 +1,7 @@
 #include "reference/volumes.h"
 
+#include "scenes/counted_casters.h"
 #include "scenes/extrusion.h"
-#include "scenes/holes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,19 +29,6 @@ Scene extruded_scene(const Scene& scene, double distance) {
     return extruded;
 }
 
-bool leaves_casters_out(const Counting& counting) {
-    return std::any_of(counting.casters.begin(), counting.casters.end(),
-                       [](const Counting::Caster& caster) { return caster.left_out; });
-}
-
-/// Meshes are left out as wholes.
-Scene with_casters_left_out(Scene scene, const Counting& counting) {
-    for (Mesh& mesh : scene.meshes)
-        if (mesh.triangle_count > 0 && counting.casters[mesh.first_triangle].left_out)
-            mesh.casts = false;
-    return scene;
-}
-
 Image<std::int32_t> difference(Image<std::int32_t> from, const Image<std::int32_t>& what) {
     std::transform(from.pixels.begin(), from.pixels.end(), what.pixels.begin(), from.pixels.begin(),
                    std::minus<>());
@@ -51,12 +38,12 @@ Image<std::int32_t> difference(Image<std::int32_t> from, const Image<std::int32_
 } // namespace
 
 Volumes::Volumes(const Tracer& tracer, const Silhouette& silhouette, const Counting& counting)
-    : tracer_(&tracer), silhouette_(&silhouette) {
-    if (counting.holes_filled)
-        others_ = std::make_unique<Variant>(with_holes_filled(tracer.scene()), tracer.threads());
-    else if (leaves_casters_out(counting))
-        others_ = std::make_unique<Variant>(with_casters_left_out(tracer.scene(), counting),
-                                            tracer.threads());
+    : tracer_(&tracer), silhouette_(&silhouette),
+      ideal_(!counting.holes_filled && !leaves_casters_out(counting) &&
+             !std::isfinite(counting.extrusion)) {
+    if (counting.holes_filled || !counting.turned.empty() || leaves_casters_out(counting))
+        others_ =
+            std::make_unique<Variant>(counted_casters(tracer.scene(), counting), tracer.threads());
     if (others_) {
         tracer_ = &others_->tracer;
         silhouette_ = &others_->silhouette;

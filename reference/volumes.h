@@ -35,13 +35,16 @@ public:
     const std::vector<glm::vec3>* far_ends() const;
     /// Whether they are those of the casters as given, out to infinity.
     bool are_the_casters() const { return !others_ && !ends_; }
+    /// Whether the shadows asked for are theirs: all casters', open where they are, to infinity.
+    bool are_ideal() const { return ideal_; }
 
 private:
     struct Variant; ///< another scene under the same light and camera
     const Tracer* tracer_;
     const Silhouette* silhouette_;
-    std::unique_ptr<Variant> others_; ///< filled up, or with casters left out
+    std::unique_ptr<Variant> others_; ///< see counted_casters.h
     std::unique_ptr<Variant> ends_;
+    bool ideal_;
 };
 
 } // namespace shadowproof

@@ -14,25 +14,22 @@ namespace {
 /// for the rounding of the matrix: 4 * 8 * 2 * 2^-24. Double rounding, 2^-53, vanishes beside it.
 constexpr double transform_error = 0x1p-18;
 
-/// The four rays through the picture's corners, at view depth 1, around the picture.
+/// Through the picture's own corners.
 std::array<glm::dvec3, 4> corner_rays(const Camera& camera) {
-    const double w = camera.width;
-    const double h = camera.height;
-    return {ray_direction(camera, 0, 0), ray_direction(camera, w, 0), ray_direction(camera, w, h),
-            ray_direction(camera, 0, h)};
+    return shadowproof::corner_rays(camera, 0, 0, camera.width, camera.height);
+}
+
+double size_of(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
 /// The largest coordinate of anything that is transformed, and of the picture at depth `depth`.
-double largest_coordinate(const Scene& scene, double depth) {
-    double largest = 0;
-    const auto include = [&](const glm::dvec3& v) {
-        largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    };
-    for (const glm::dvec3 position : scene.positions) include(position);
-    include(scene.camera.eye);
+double largest_coordinate(const Scene& scene, double largest, double depth) {
+    largest = std::max(largest, size_of(scene.camera.eye));
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    if (light.w != 0) include(light);
-    for (const glm::dvec3& ray : corner_rays(scene.camera)) include(scene.camera.eye + depth * ray);
+    if (light.w != 0) largest = std::max(largest, size_of(light));
+    for (const glm::dvec3& ray : corner_rays(scene.camera))
+        largest = std::max(largest, size_of(scene.camera.eye + depth * ray));
     return largest;
 }
 
@@ -74,9 +71,8 @@ struct BodyCorner {
 /// relative to the eye, and as long as any scene in it can be: two points are apart by no more than
 /// 2 sqrt(3) times the largest coordinate. The direction to it, of unit length, is rounded as
 /// points are, which weighs as much as the beam is long.
-Beam beam_to(const Scene& scene, std::span<const BodyCorner> corners, double depth) {
+Beam beam_to(const Scene& scene, std::span<const BodyCorner> corners, double largest) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const double largest = largest_coordinate(scene, depth);
     const bool directional = light.w == 0;
     const glm::dvec3 along = 4 * largest * glm::dvec3(light);
     Beam beam;
@@ -105,31 +101,40 @@ std::vector<BodyCorner> rectangle(const Camera& camera, double depth) {
 
 } // namespace
 
-Corners corners_of(const Scene& scene, std::uint32_t triangle) {
+TriangleCorners corners_of(const Scene& scene, std::uint32_t triangle) {
     return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
 }
 
-Beam beam_to_rectangle(const Scene& scene, double depth) {
-    return beam_to(scene, rectangle(scene.camera, depth), depth);
+double largest_position(const Scene& scene) {
+    double largest = 0;
+    for (const glm::dvec3 position : scene.positions)
+        largest = std::max(largest, size_of(position));
+    return largest;
 }
 
-Beam beam_to_pyramid(const Scene& scene, double depth) {
+Beam beam_to_rectangle(const Scene& scene, double largest, double depth) {
+    return beam_to(scene, rectangle(scene.camera, depth),
+                   largest_coordinate(scene, largest, depth));
+}
+
+Beam beam_to_pyramid(const Scene& scene, double largest, double depth) {
     std::vector<BodyCorner> corners = rectangle(scene.camera, depth);
     const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
     corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
-    Beam beam = beam_to(scene, corners, depth);
+    Beam beam = beam_to(scene, corners, largest_coordinate(scene, largest, depth));
     for (std::size_t i = 0; i < 4; ++i)
         beam.axes.push_back(extent(beam, glm::cross(rays[i], rays[(i + 1) % 4])));
     return beam;
 }
 
-Beam beam_to_box(const Scene& scene, const glm::dvec3& low, const glm::dvec3& high) {
+Beam beam_to_box(const Scene& scene, double largest, const glm::dvec3& low,
+                 const glm::dvec3& high) {
     std::vector<BodyCorner> corners;
     for (const double x : {low.x, high.x})
         for (const double y : {low.y, high.y})
             for (const double z : {low.z, high.z})
                 corners.push_back({{x, y, z}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
-    return beam_to(scene, corners, scene.camera.near);
+    return beam_to(scene, corners, largest_coordinate(scene, largest, scene.camera.near));
 }
 
 bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
@@ -141,7 +146,7 @@ bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
            });
 }
 
-bool may_meet(const Beam& beam, const Corners& corners) {
+bool may_meet(const Beam& beam, const TriangleCorners& corners) {
     const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
     return may_meet(beam, corners, std::span(&normal, 1));
 }
@@ -152,12 +157,14 @@ PictureCone picture_cone(const Scene& scene) {
     for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye
         cone.inward[i] = glm::normalize(glm::cross(rays[i], rays[(i + 1) % 4]));
     cone.inward[4] = scene.camera.forward;
-    cone.error = transform_error * largest_coordinate(scene, scene.camera.near);
+    cone.error =
+        transform_error * largest_coordinate(scene, largest_position(scene), scene.camera.near);
     return cone;
 }
 
 // The margin is an angle, plus the transform's error at the vertex.
-bool may_point_into(const PictureCone& cone, const Corners& corners, const glm::dvec3& from) {
+bool may_point_into(const PictureCone& cone, const TriangleCorners& corners,
+                    const glm::dvec3& from) {
     return std::none_of(cone.inward.begin(), cone.inward.end(), [&](const glm::dvec3& axis) {
         return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& point) {
             const glm::dvec3 direction = point - from;

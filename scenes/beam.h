@@ -11,9 +11,9 @@
 
 namespace shadowproof {
 
-using Corners = std::array<glm::dvec3, 3>;
+using TriangleCorners = std::array<glm::dvec3, 3>;
 
-Corners corners_of(const Scene& scene, std::uint32_t triangle);
+TriangleCorners corners_of(const Scene& scene, std::uint32_t triangle);
 
 /// All points between the light and some point of a part of the picture: a convex hull, relative to
 /// `origin`.
@@ -30,14 +30,18 @@ struct Beam {
     double margin = 0; ///< by which the rasterizer may miss the hull
 };
 
-/// From the light to the picture's rectangle at view depth `depth`.
-Beam beam_to_rectangle(const Scene& scene, double depth);
+/// Size of the largest coordinate of a position, which the margins of all beams grow with. Linear
+/// in the scene, and so made once for many beams.
+double largest_position(const Scene& scene);
+
+/// From the light to the picture's rectangle at view depth `depth`. `largest`: largest_position.
+Beam beam_to_rectangle(const Scene& scene, double largest, double depth);
 
 /// From the light to the pyramid between the eye and that rectangle.
-Beam beam_to_pyramid(const Scene& scene, double depth);
+Beam beam_to_pyramid(const Scene& scene, double largest, double depth);
 
 /// From the light to an axis-aligned box.
-Beam beam_to_box(const Scene& scene, const glm::dvec3& low, const glm::dvec3& high);
+Beam beam_to_box(const Scene& scene, double largest, const glm::dvec3& low, const glm::dvec3& high);
 
 /// Whether the convex hull of `points` and the beam may meet. Axes tried: the beam's own, and
 /// `own` of the points; where none separates them, the answer is "may".
@@ -45,7 +49,7 @@ bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
               std::span<const glm::dvec3> own);
 
 /// The same for a triangle, whose own axis is its normal.
-bool may_meet(const Beam& beam, const Corners& corners);
+bool may_meet(const Beam& beam, const TriangleCorners& corners);
 
 /// The directions in which the picture looks: those on the inner side of its four side planes and
 /// of the plane across `forward`.
@@ -58,6 +62,7 @@ PictureCone picture_cone(const Scene& scene);
 /// Whether some of the directions from `from` to a triangle's points may be the picture's. With the
 /// eye: whether it may be in the picture; with the light: whether its volume may be seen at
 /// infinity.
-bool may_point_into(const PictureCone& cone, const Corners& corners, const glm::dvec3& from);
+bool may_point_into(const PictureCone& cone, const TriangleCorners& corners,
+                    const glm::dvec3& from);
 
 } // namespace shadowproof

@@ -20,6 +20,12 @@ glm::dvec3 ray_direction(const Camera& camera, double x, double y) {
     return ray_column(camera, x) + ray_row(camera, y);
 }
 
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
+                                      double bottom) {
+    return {ray_direction(camera, left, top), ray_direction(camera, right, top),
+            ray_direction(camera, right, bottom), ray_direction(camera, left, bottom)};
+}
+
 double view_depth(const Camera& camera, const glm::dvec3& point) {
     return glm::dot(point - camera.eye, camera.forward);
 }

@@ -2,6 +2,7 @@
 // traces it, the rasterizer's matrices are made from it.
 #pragma once
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -33,6 +34,10 @@ glm::dvec3 ray_direction(const Camera& camera, double x, double y);
 /// Its two parts: ray_direction(x, y) is ray_column(x) + ray_row(y), bit for bit.
 glm::dvec3 ray_column(const Camera& camera, double x);
 glm::dvec3 ray_row(const Camera& camera, double y);
+
+/// Around a rectangle of the picture, from its top left corner clockwise.
+std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
+                                      double bottom);
 
 /// View depth of a world point: dot(point - eye, forward).
 double view_depth(const Camera& camera, const glm::dvec3& point);

@@ -16,8 +16,23 @@ namespace shadowproof {
 
 namespace {
 
-/// Triangles times corners that two meshes may have to be compared one by one.
+/// Of a triangle and a corner, in all: a tenth of a second.
 constexpr std::size_t most_comparisons = std::size_t{1} << 24U;
+constexpr std::size_t comparisons_of_boxes = 64; ///< what a pair of boxes costs of them
+
+/// How much may still be compared.
+class Effort {
+public:
+    /// Takes so much of it, if it is there.
+    bool spend(std::size_t comparisons) {
+        if (comparisons > left_) return false;
+        left_ -= comparisons;
+        return true;
+    }
+
+private:
+    std::size_t left_ = most_comparisons;
+};
 
 /// (b - a) x (c - a) . (l - w a), w being 0 or 1, where its sign is certain, which is that of the
 /// side on which a homogeneous point (l, w) lies; 0 where it is zero, and NaN where it is
@@ -25,7 +40,7 @@ constexpr std::size_t most_comparisons = std::size_t{1} << 24U;
 /// factors' own roundings, and two sums on top: each of the six products is off by less than 16 u
 /// of its size. Products of zeros are exact, and so is a point in the plane y = 0 beside a triangle
 /// in it.
-double certain_side(const Corners& t, const glm::dvec4& point) {
+double certain_side(const TriangleCorners& t, const glm::dvec4& point) {
     constexpr double rounding = 16 * 0x1p-53;
     const glm::dvec3 b = t[1] - t[0];
     const glm::dvec3 c = t[2] - t[0];
@@ -42,7 +57,7 @@ double certain_side(const Corners& t, const glm::dvec4& point) {
     return error == 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
-double certain_side(const Corners& t, const glm::dvec3& point) {
+double certain_side(const TriangleCorners& t, const glm::dvec3& point) {
     if (point == t[0] || point == t[1] || point == t[2]) return 0; // its own corner
     return certain_side(t, glm::dvec4(point, 1));
 }
@@ -76,7 +91,7 @@ Body body_of(const Scene& scene, std::vector<std::uint32_t> triangles) {
 /// Whether a triangle may be in the picture with the side towards it that is the light's.
 bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_sided,
                        const PictureCone& cone) {
-    const Corners corners = corners_of(scene, triangle);
+    const TriangleCorners corners = corners_of(scene, triangle);
     const double of_light = certain_side(corners, homogeneous(chosen_light(scene)));
     const double of_eye = certain_side(corners, scene.camera.eye);
     if (of_light == 0 || of_eye == 0 || of_light * of_eye < 0) return false;
@@ -85,14 +100,14 @@ bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_s
 }
 
 /// What of a mesh may be seen lit, if nothing shadows it. Nothing else asks for a shadow.
-Body lit_body(const Scene& scene, const Mesh& mesh, const PictureCone& cone) {
+Body lit_body(const Scene& scene, const Mesh& mesh, const PictureCone& cone, double largest) {
     std::vector<std::uint32_t> triangles;
     if (!mesh.receives) return {};
     const bool double_sided = scene.materials[mesh.material].double_sided;
     for (const std::uint32_t triangle : triangles_of(mesh))
         if (may_show_lit_side(scene, triangle, double_sided, cone)) triangles.push_back(triangle);
     Body body = body_of(scene, std::move(triangles));
-    if (!body.empty()) body.beam = beam_to_box(scene, body.low, body.high);
+    if (!body.empty()) body.beam = beam_to_box(scene, largest, body.low, body.high);
     return body;
 }
 
@@ -126,7 +141,7 @@ bool all_on_side(const Scene& scene, const Body& planes, const Body& others,
                  const glm::dvec4& light, bool on_light_side) {
     return std::all_of(
         planes.triangles.begin(), planes.triangles.end(), [&](std::uint32_t triangle) {
-            const Corners corners = corners_of(scene, triangle);
+            const TriangleCorners corners = corners_of(scene, triangle);
             const double of_light = certain_side(corners, light);
             if (of_light == 0) return true; // no segment to the light crosses it
             if (std::isnan(of_light)) return false;
@@ -142,21 +157,22 @@ bool all_on_side(const Scene& scene, const Body& planes, const Body& others,
 /// where it lies wholly behind each of those sides, as a convex body does behind its own; nor where
 /// the receiver and the light lie before each of the caster's planes, as in a room.
 bool may_shadow(const Scene& scene, const Body& caster, const Body& receiver,
-                const glm::dvec4& light) {
+                const glm::dvec4& light, Effort& effort) {
+    if (!effort.spend(comparisons_of_boxes)) return true;
     if (is_box_behind(caster, receiver, light) || is_box_beside(caster, receiver)) return false;
-    if (caster.triangles.size() * receiver.corners.size() <= most_comparisons &&
+    if (effort.spend(caster.triangles.size() * receiver.corners.size()) &&
         all_on_side(scene, caster, receiver, light, true))
         return false;
-    return receiver.triangles.size() * caster.corners.size() > most_comparisons ||
+    return !effort.spend(receiver.triangles.size() * caster.corners.size()) ||
            !all_on_side(scene, receiver, caster, light, false);
 }
 
 /// All that may be between the light and what is seen: the picture's pyramid, as deep as the scene.
-Beam beam_to_seen(const Scene& scene) {
+Beam beam_to_seen(const Scene& scene, double largest) {
     double deepest = scene.camera.near;
     for (const glm::dvec3 position : scene.positions)
         deepest = std::max(deepest, view_depth(scene.camera, position));
-    return beam_to_pyramid(scene, std::min(deepest, scene.camera.far));
+    return beam_to_pyramid(scene, largest, std::min(deepest, scene.camera.far));
 }
 
 bool body_may_meet(const Scene& scene, const Body& body, const Beam& beam) {
@@ -167,12 +183,13 @@ bool body_may_meet(const Scene& scene, const Body& body, const Beam& beam) {
 
 /// Why nothing seen can lie in a caster's shadow; empty where something may.
 std::string reason_to_leave_out(const Scene& scene, const Body& caster,
-                                const std::vector<Body>& receivers, const Beam& to_seen) {
+                                const std::vector<Body>& receivers, const Beam& to_seen,
+                                Effort& effort) {
     if (caster.empty()) return "it has no triangles";
     if (!body_may_meet(scene, caster, to_seen)) return "the shadow falls outside the picture";
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const bool shadows = std::any_of(receivers.begin(), receivers.end(), [&](const Body& receiver) {
-        return !receiver.empty() && may_shadow(scene, caster, receiver, light);
+        return !receiver.empty() && may_shadow(scene, caster, receiver, light, effort);
     });
     return shadows ? "" : "nothing seen lies behind, as the light looks";
 }
@@ -203,29 +220,30 @@ std::vector<std::uint32_t> first_of_body(const Scene& scene) {
     return parent;
 }
 
-/// Whether a closed body, wound outwards, lies beyond the near plane for certain: whatever of it is
-/// culled has something of it in front. Where nothing of it is culled, that is so anyhow.
-bool hides_its_caps(const Scene& scene, const CasterReport& report, const Beam& to_near) {
-    const Mesh& mesh = scene.meshes[report.mesh];
-    if (scene.materials[mesh.material].double_sided) return true;
-    if (!report.closed() || report.inverted || report.first_fault) return false;
-    const std::vector<std::uint32_t> triangles = triangles_of(mesh);
-    return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
-        const Corners corners = corners_of(scene, triangle);
-        return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& point) {
-            return view_depth(scene.camera, point) > scene.camera.near + to_near.margin;
-        });
-    });
+/// Whether the eye sees the front of a triangle wherever its corners are snapped to, a, b and c
+/// being relative to the eye and moved by up to `da`, `db` and `dc`: its determinant a . (b x c) is
+/// negative beyond what that changes.
+bool is_front_certain(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double da,
+                      double db, double dc) {
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    const double once = da * glm::length(glm::cross(b, c)) + db * glm::length(glm::cross(c, a)) +
+                        dc * glm::length(glm::cross(a, b));
+    const double twice = da * db * lc + db * dc * la + dc * da * lb;
+    return -glm::dot(a, glm::cross(b, c)) > once + twice + da * db * dc;
 }
 
 } // namespace
 
 std::vector<CasterPlan> plan_casters(const Scene& scene) {
     const PictureCone cone = picture_cone(scene);
-    const Beam to_seen = beam_to_seen(scene);
-    const Beam to_near = beam_to_pyramid(scene, scene.camera.near);
+    const double largest = largest_position(scene);
+    const Beam to_seen = beam_to_seen(scene, largest);
+    const Beam to_near = beam_to_pyramid(scene, largest, scene.camera.near);
     std::vector<Body> receivers;
-    for (const Mesh& mesh : scene.meshes) receivers.push_back(lit_body(scene, mesh, cone));
+    for (const Mesh& mesh : scene.meshes) receivers.push_back(lit_body(scene, mesh, cone, largest));
+    Effort effort;
 
     const Light& light = chosen_light(scene);
     const auto reaches_infinity = [&](std::uint32_t triangle) {
@@ -233,36 +251,63 @@ std::vector<CasterPlan> plan_casters(const Scene& scene) {
                may_point_into(cone, corners_of(scene, triangle), light.position);
     };
     std::vector<CasterPlan> plans;
-    for (const CasterReport& report : inspect_casters(scene)) {
-        const Body caster = body_of(scene, triangles_of(scene.meshes[report.mesh]));
+    for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
+        if (!scene.meshes[mesh].casts) continue;
+        const Body caster = body_of(scene, triangles_of(scene.meshes[mesh]));
         CasterPlan& plan = plans.emplace_back();
-        plan.mesh = report.mesh;
-        plan.left_out = reason_to_leave_out(scene, caster, receivers, to_seen);
+        plan.mesh = mesh;
+        plan.left_out = reason_to_leave_out(scene, caster, receivers, to_seen, effort);
         plan.meets_near = body_may_meet(scene, caster, to_near);
         plan.reaches_infinity =
             std::any_of(caster.triangles.begin(), caster.triangles.end(), reaches_infinity);
-        plan.cap_in_front = !hides_its_caps(scene, report, to_near);
     }
 
     const std::vector<std::uint32_t> body = first_of_body(scene);
     std::vector<CasterPlan> of_body(scene.meshes.size());
-    for (CasterPlan& all : of_body)
-        all.meets_near = all.reaches_infinity = all.cap_in_front = false;
+    for (CasterPlan& all : of_body) all.meets_near = all.reaches_infinity = false;
     for (const CasterPlan& plan : plans) {
         if (!plan.left_out.empty()) continue;
         CasterPlan& all = of_body[body[plan.mesh]];
         all.meets_near |= plan.meets_near;
         all.reaches_infinity |= plan.reaches_infinity;
-        all.cap_in_front |= plan.cap_in_front;
     }
     for (CasterPlan& plan : plans) {
         if (!plan.left_out.empty()) continue;
         const CasterPlan& all = of_body[body[plan.mesh]];
         plan.meets_near = all.meets_near;
         plan.reaches_infinity = all.reaches_infinity;
-        plan.cap_in_front = all.cap_in_front;
     }
     return plans;
+}
+
+// A corner is snapped to a grid of at least 4 bits a pixel (OpenGL's least GL_SUBPIXEL_BITS), by
+// half a step along both axes, and transformed in floats, as PictureCone's error has it.
+std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips) {
+    const Camera& camera = scene.camera;
+    const double error = picture_cone(scene).error;
+    const double half_step = std::sqrt(2.0) / 32;
+    const double snapping = half_step * 2 * camera.tan_half_height / camera.height;
+    std::vector<std::uint8_t> certain(scene.triangles.size(), 0);
+    for (const Mesh& mesh : scene.meshes) {
+        const bool double_sided = scene.materials[mesh.material].double_sided;
+        for (const std::uint32_t triangle : triangles_of(mesh)) {
+            const TriangleCorners corners = corners_of(scene, triangle);
+            glm::dvec3 depth{0, 0, 0};
+            for (int k = 0; k < 3; ++k)
+                depth[k] = view_depth(camera, corners[static_cast<std::size_t>(k)]);
+            const double nearest = std::min({depth.x, depth.y, depth.z});
+            const double deepest = std::max({depth.x, depth.y, depth.z});
+            if (!far_clips && deepest + error >= camera.far) continue;
+            if (!double_sided && nearest - error <= camera.near)
+                continue; // what is left is clipped
+            const glm::dvec3 moved = depth * snapping + error;
+            if (double_sided ||
+                is_front_certain(corners[0] - camera.eye, corners[1] - camera.eye,
+                                 corners[2] - camera.eye, moved.x, moved.y, moved.z))
+                certain[triangle] = 1;
+        }
+    }
+    return certain;
 }
 
 } // namespace shadowproof

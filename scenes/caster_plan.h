@@ -18,13 +18,18 @@ struct CasterPlan {
     /// between: faces in front of a surface do not tell how often the surface is in shadow.
     bool meets_near = true;
     bool reaches_infinity = true; ///< its volume may be seen at infinity
-    /// A triangle of it that faces the light may be culled and lie in front of what is seen.
-    bool cap_in_front = true;
 };
 
 /// Of the meshes that cast, in the order of scene.meshes. Meshes that share a corner are one body:
-/// what is not left out of it is alike in the last three. Linear in time but for pairs of small
-/// meshes, of which each triangle is held against each corner of the other.
+/// what is not left out of it is alike in the last two. Linear in time but for pairs of meshes, of
+/// which as many are compared, by their boxes and then corner by corner, as a fixed number of
+/// comparisons allows; what is not compared is not left out.
 std::vector<CasterPlan> plan_casters(const Scene& scene);
+
+/// A flag a triangle: wherever a rasterizer draws it, it does so as a surface, too: it is not
+/// culled for certain, and not past the camera's far plane unless that clips everything
+/// (`far_clips`). Its light cap has the same depths bit for bit, and so is never in front of what
+/// is seen.
+std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips);
 
 } // namespace shadowproof

@@ -41,6 +41,9 @@ struct Counting {
     bool dark_cap = true;      ///< so are they at infinity, where the projection keeps them
     int bits = 8;              ///< of the counter
     bool holes_filled = false; ///< open casters are closed before volumes are made of them
+    /// A flag a triangle of the scene: it is turned round before volumes are made, so that it casts
+    /// though it is averted from the light. Empty: none is.
+    std::vector<std::uint8_t> turned{};
     /// By how much the volumes' far ends lie further from the light than their casters, in world
     /// units; infinite: at infinity.
     double extrusion = std::numeric_limits<double>::infinity();
@@ -93,9 +96,10 @@ struct DepthModel {
 
 /// What a technique spared against drawing everything.
 struct Savings {
-    std::string against; ///< the technique that does
-    double milliseconds = 0;
+    std::string against;     ///< the technique that does
+    double milliseconds = 0; ///< a frame
     std::int64_t volume_fragments = 0;
+    double plan_milliseconds = 0; ///< spent once on finding out what to spare
 };
 
 struct Frame {

@@ -1,6 +1,7 @@
 #include "scenes/plan.h"
 
 #include "scenes/beam.h"
+#include "scenes/counted_casters.h"
 #include "scenes/topology.h"
 
 #include <fmt/format.h>
@@ -33,8 +34,9 @@ bool some_caster(const Scene& scene, const Holds& holds) {
 /// Whether some volume may contain a point of the picture at view depth `depth`. The volume of a
 /// triangle contains Q when the line from Q to the light meets the triangle.
 bool volume_meets(const Scene& scene, double depth) {
-    const Beam beam = beam_to_rectangle(scene, depth);
-    return some_caster(scene, [&](const Corners& corners) { return may_meet(beam, corners); });
+    const Beam beam = beam_to_rectangle(scene, largest_position(scene), depth);
+    return some_caster(scene,
+                       [&](const TriangleCorners& corners) { return may_meet(beam, corners); });
 }
 
 /// Whether some volume may be seen at infinity. All volumes of a directional light run into one
@@ -43,7 +45,7 @@ bool volume_reaches_infinity(const Scene& scene) {
     const Light& light = chosen_light(scene);
     if (light.kind == Light::Kind::directional) return false;
     const PictureCone cone = picture_cone(scene);
-    return some_caster(scene, [&](const Corners& corners) {
+    return some_caster(scene, [&](const TriangleCorners& corners) {
         return may_point_into(cone, corners, light.position);
     });
 }
@@ -74,6 +76,9 @@ Plan make_plan(const Scene& scene) {
     plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
                                      [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
+    plan.around_light = triangles_around_light(scene, casters);
+    if (plan.around_light.empty())
+        plan.left_out.push_back("turning casters round: none has the light inside");
     plan.volume_meets_near = volume_meets(scene, scene.camera.near);
     if (!plan.volume_meets_near)
         plan.left_out.push_back("near cap: no volume meets the near plane, z-pass is enough");

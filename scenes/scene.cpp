@@ -1,12 +1,33 @@
 #include "scenes/scene.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
 glm::dvec4 homogeneous(const Light& light) {
     return light.kind == Light::Kind::directional ? glm::dvec4(-light.direction, 0)
                                                   : glm::dvec4(light.position, 1);
+}
+
+namespace {
+
+bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
+}
+
+} // namespace
+
+double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point) {
+    glm::dvec3 a = corner(scene, triangle, 0);
+    glm::dvec3 b = corner(scene, triangle, 1);
+    glm::dvec3 c = corner(scene, triangle, 2);
+    for (int turn = 0; turn < 2 && (is_before(b, a) || is_before(c, a)); ++turn) {
+        std::swap(a, b);
+        std::swap(b, c);
+    }
+    return glm::dot(glm::cross(b - a, c - a), glm::dvec3(point) - point.w * a);
 }
 
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle) {

@@ -69,6 +69,11 @@ inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
     return scene.positions[scene.triangles[triangle][k]];
 }
 
+/// Positive where a triangle is wound counter-clockwise as seen from a homogeneous point (l, w),
+/// negative where clockwise: (b - a) x (c - a) . (l - w a) in double, from the first of its corners
+/// (by x, y, z) on. Zero without area or in its plane.
+double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
+
 inline const Light& chosen_light(const Scene& scene) {
     return scene.lights[scene.light];
 }

@@ -99,25 +99,6 @@ std::size_t count_boundary_edges(const HalfEdgeMesh& mesh) {
     return count;
 }
 
-/// Whether the volume that triangles enclose is negative beyond doubt. Each triangle spans a
-/// tetrahedron with the first corner; six times their volumes are added. A term is off by at most
-/// 16 2^-53 of `size`, the product of the lengths of its edges, as the sum is by n 2^-53 times the
-/// sum of the sizes.
-bool encloses_negative_volume(const Scene& scene, std::span<const std::uint32_t> triangles) {
-    if (triangles.empty()) return false;
-    const glm::dvec3 origin = corner(scene, triangles.front(), 0);
-    double volume = 0;
-    double size = 0;
-    for (const std::uint32_t triangle : triangles) {
-        const glm::dvec3 a = corner(scene, triangle, 0) - origin;
-        const glm::dvec3 b = corner(scene, triangle, 1) - origin;
-        const glm::dvec3 c = corner(scene, triangle, 2) - origin;
-        volume += glm::dot(a, glm::cross(b, c));
-        size += glm::length(a) * glm::length(b) * glm::length(c);
-    }
-    return volume < -(16 + static_cast<double>(triangles.size())) * 0x1p-53 * size;
-}
-
 CasterReport inspect(const Scene& scene, std::span<const std::uint32_t> welded,
                      std::uint32_t mesh) {
     const std::vector<std::uint32_t> triangles = triangles_of(scene.meshes[mesh]);
@@ -175,6 +156,24 @@ std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint3
         return std::tie(left.a, left.b) < std::tie(right.a, right.b);
     });
     return result;
+}
+
+// Each triangle spans a tetrahedron with the first corner; six times their volumes are added. A
+// term is off by at most 16 2^-53 of `size`, the product of the lengths of its edges, as the sum is
+// by n 2^-53 times the sum of the sizes.
+bool encloses_negative_volume(const Scene& scene, std::span<const std::uint32_t> triangles) {
+    if (triangles.empty()) return false;
+    const glm::dvec3 origin = corner(scene, triangles.front(), 0);
+    double volume = 0;
+    double size = 0;
+    for (const std::uint32_t triangle : triangles) {
+        const glm::dvec3 a = corner(scene, triangle, 0) - origin;
+        const glm::dvec3 b = corner(scene, triangle, 1) - origin;
+        const glm::dvec3 c = corner(scene, triangle, 2) - origin;
+        volume += glm::dot(a, glm::cross(b, c));
+        size += glm::length(a) * glm::length(b) * glm::length(c);
+    }
+    return volume < -(16 + static_cast<double>(triangles.size())) * 0x1p-53 * size;
 }
 
 std::vector<CasterReport> inspect_casters(const Scene& scene) {

@@ -34,6 +34,9 @@ struct SurplusEdge {
 std::vector<SurplusEdge> boundary(const Scene& scene, std::span<const std::uint32_t> welded,
                                   std::span<const std::uint32_t> triangles);
 
+/// Whether the volume that triangles enclose is negative beyond doubt: they are wound inwards.
+bool encloses_negative_volume(const Scene& scene, std::span<const std::uint32_t> triangles);
+
 /// One mesh's state as a caster.
 struct CasterReport {
     std::uint32_t mesh = 0;

@@ -1,6 +1,7 @@
 #include "raster/stencil.h"
 #include "raster/technique.h"
 #include "scenes/caster_plan.h"
+#include "scenes/topology.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,18 +9,18 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <chrono>
 
 namespace shadowproof {
 
 namespace {
 
-/// What the plan leaves of one caster's volume. Counting in front of the surface needs no dark cap,
-/// and no light cap where none is seen before what is nearer; counting behind it needs the light
-/// cap always.
+/// What the plan leaves of one caster's volume. Counting in front of the surface needs no dark cap;
+/// counting behind it needs the light cap always.
 Counting::Caster counted_as(const CasterPlan& plan) {
     if (!plan.left_out.empty()) return {.left_out = true};
     if (plan.meets_near) return {.dark_cap = plan.reaches_infinity};
-    return {.test = Counting::Test::depth_pass, .light_cap = plan.cap_in_front, .dark_cap = false};
+    return {.test = Counting::Test::depth_pass, .dark_cap = false};
 }
 
 std::vector<Counting::Caster> counted_as(const Scene& scene, const std::vector<CasterPlan>& plans) {
@@ -48,8 +49,18 @@ std::string caster_words(const Scene& scene, const std::vector<const CasterPlan*
     return words;
 }
 
+/// Whether a caster that is counted in front of the surface does without some of its light cap.
+bool hides_caps(const Scene& scene, const CasterPlan& plan,
+                const std::vector<std::uint8_t>& hidden_caps) {
+    const std::vector<std::uint32_t> triangles = triangles_of(scene.meshes[plan.mesh]);
+    return plan.left_out.empty() && !plan.meets_near &&
+           std::any_of(triangles.begin(), triangles.end(),
+                       [&](std::uint32_t triangle) { return hidden_caps[triangle] != 0; });
+}
+
 /// What the scene does not need, a clause a reason: the casters of which it holds.
-std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPlan>& plans) {
+std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPlan>& plans,
+                                  const std::vector<std::uint8_t>& hidden_caps) {
     std::vector<std::string> reasons;
     for (const CasterPlan& plan : plans)
         if (!plan.left_out.empty() &&
@@ -67,12 +78,13 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
         add("volumes of ", reason, [&](const CasterPlan& plan) { return plan.left_out == reason; });
     add("dark caps and counting behind the surface for ", "no volume meets the near plane",
         [](const CasterPlan& plan) { return plan.left_out.empty() && !plan.meets_near; });
-    add("light caps of ", "none is seen before what is nearer", [](const CasterPlan& plan) {
-        return plan.left_out.empty() && !plan.meets_near && !plan.cap_in_front;
-    });
+    add("light caps of ", "those that are drawn as surfaces hide none nearer than themselves",
+        [&](const CasterPlan& plan) { return hides_caps(scene, plan, hidden_caps); });
     add("dark caps of ", "the volume is not seen to infinity", [](const CasterPlan& plan) {
         return plan.left_out.empty() && plan.meets_near && !plan.reaches_infinity;
     });
+    clauses.emplace_back("finding the edges that triangles share, frame by frame: a half-edge mesh "
+                         "is made once");
     clauses.push_back(std::any_of(plans.begin(), plans.end(), is_counted_behind)
                           ? "depth clamp: the projection has no far plane"
                           : "depth clamp: nothing behind the surface is counted");
@@ -82,9 +94,12 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
 /// zfail_reversed without what this scene does not need of it: caster by caster, its volume, a cap,
 /// or the search behind the surface.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
     const std::vector<CasterPlan> plans = plan_casters(scene);
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_half_edges;
+    recipe.counting.dark_cap = true;
     recipe.counting.casters = counted_as(scene, plans);
     if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
         // What lies past the far plane is not asked for.
@@ -92,8 +107,10 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
         recipe.depth_model.projection = DepthModel::Projection::finite_reversed;
         recipe.depth_model.far = finite_far(scene);
     }
+    recipe.hidden_caps = certain_surfaces(scene, recipe.depth_model.finite());
+    const Clock::duration planning = Clock::now() - start;
     Frame frame = draw_stencil_shadows(gpu, scene, recipe);
-    frame.left_out = left_out(scene, plans);
+    frame.left_out = left_out(scene, plans, recipe.hidden_caps);
 
     const Technique* whole = find_technique("zfail_reversed");
     assert(whole != nullptr);
@@ -101,7 +118,9 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     frame.saved = {.against = std::string(whole->name),
                    .milliseconds = spent.milliseconds - frame.milliseconds,
                    .volume_fragments = static_cast<std::int64_t>(spent.volume_fragments) -
-                                       static_cast<std::int64_t>(frame.volume_fragments)};
+                                       static_cast<std::int64_t>(frame.volume_fragments),
+                   .plan_milliseconds =
+                       std::chrono::duration<double, std::milli>(planning).count()};
     return frame;
 }
 

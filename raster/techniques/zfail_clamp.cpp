@@ -12,7 +12,8 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
         gpu, scene,
         {.counting = {.test = Counting::Test::depth_fail,
                       .depth_clamp = plan.volume_meets_far,
-                      .dark_cap = plan.dark_cap},
+                      .dark_cap = plan.dark_cap,
+                      .turned = plan.around_light},
          .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
 }
 

@@ -8,9 +8,8 @@ namespace {
 /// zfail_reversed with volumes that lie ready for any light: a quad over every edge, which the
 /// vertex shader stretches out where the light passes between the edge's triangles.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.making = VolumeMaking::degenerate_quads;
-    recipe.counting.dark_cap = plan.dark_cap;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -9,10 +9,9 @@ namespace {
 /// floating point, which holds all whole numbers of 24 bits. Blending takes what passes a depth
 /// test, so the test asks for what lies behind the surface.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counter = Counter::sum;
     recipe.counting.bits = 24;
-    recipe.counting.dark_cap = plan.dark_cap;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -7,9 +7,8 @@ namespace {
 
 /// zfail_reversed with volumes made by a geometry shader, which knows a triangle's neighbours.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.making = VolumeMaking::geometry_shader;
-    recipe.counting.dark_cap = plan.dark_cap;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -8,7 +8,7 @@ namespace {
 /// zfail_reversed with volumes from a half-edge mesh: each edge once, with both its triangles. Open
 /// casters are closed first, as the source asks for, by triangles that only cast.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_half_edges;
     recipe.counting.dark_cap = plan.dark_cap || plan.hole_filling;
     recipe.counting.holes_filled = plan.hole_filling;

@@ -8,11 +8,12 @@ namespace {
 /// Counts volume faces behind the visible surface; the far plane lies at infinity, where the dark
 /// cap is just not clipped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(
-        gpu, scene,
-        {.counting = {.test = Counting::Test::depth_fail, .dark_cap = plan.dark_cap},
-         .depth_model = {.projection = DepthModel::Projection::infinite,
-                         .near = scene.camera.near}});
+    return draw_stencil_shadows(gpu, scene,
+                                {.counting = {.test = Counting::Test::depth_fail,
+                                              .dark_cap = plan.dark_cap,
+                                              .turned = plan.around_light},
+                                 .depth_model = {.projection = DepthModel::Projection::infinite,
+                                                 .near = scene.camera.near}});
 }
 
 } // namespace

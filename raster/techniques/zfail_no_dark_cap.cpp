@@ -6,8 +6,8 @@ namespace shadowproof {
 namespace {
 
 /// zfail_reversed without dark caps: volumes are open at infinity.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.dark_cap = false;
     return draw_stencil_shadows(gpu, scene, recipe);
 }

@@ -7,9 +7,8 @@ namespace {
 
 /// zfail_reversed without light caps: volumes are open towards the light.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.light_cap = false;
-    recipe.counting.dark_cap = plan.dark_cap;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

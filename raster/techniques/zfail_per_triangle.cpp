@@ -1,16 +1,18 @@
 #include "raster/stencil.h"
 #include "raster/technique.h"
+#include "scenes/counted_casters.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed with a volume for each light-facing triangle by itself: nothing has to be known
-/// of neighbours, and the most is drawn.
+/// zfail_reversed with a volume for each triangle by itself: nothing has to be known of neighbours,
+/// and the most is drawn. Those averted from the light are turned round where the light-facing ones
+/// alone would not throw all shadows, so that any polygon soup throws its own.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_triangles;
-    recipe.counting.dark_cap = plan.dark_cap;
+    recipe.counting.turned = triangles_averted_from_light(scene, plan.around_light);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 
@@ -18,10 +20,10 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
 
 Technique zfail_per_triangle_technique() {
     return {.name = "zfail_per_triangle",
-            .summary = "zfail_reversed with one volume for each light-facing triangle",
+            .summary = "zfail_reversed with one volume for each triangle",
             .source = "techniques without adjacency; VGP353 week 5",
             .needs = "nothing of the mesh",
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter},
             .run = run};
 }
 

@@ -8,8 +8,7 @@ namespace {
 /// zfail_infinite where numbers are dense: depth n/t in floating point, far things near zero, and
 /// vertices made relative to the eye before the matrix rounds them.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
-    recipe.counting.dark_cap = plan.dark_cap;
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -8,9 +8,8 @@ namespace {
 /// zfail_reversed where the counter stops at 0 and 255 instead of wrapping: a step down before the
 /// step up that belongs to it is lost.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.operation = Counting::Operation::saturate;
-    recipe.counting.dark_cap = plan.dark_cap;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -8,8 +8,9 @@ namespace {
 
 /// zfail_reversed with volumes that end: extruded by half the diagonal of the scene's bounding box,
 /// and capped there.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.counting.dark_cap = true; // which is not at infinity
     recipe.counting.extrusion = finite_extrusion(scene);
     return draw_stencil_shadows(gpu, scene, recipe);
 }

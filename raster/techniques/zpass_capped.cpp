@@ -7,9 +7,10 @@ namespace {
 
 /// zpass with volumes closed on the near plane, drawn on a ledge of depths in front of the scene:
 /// what lies between eye and near plane is missed, and the caps count it.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zpass_recipe(scene);
     recipe.counting.start = Counting::Start::near_plane;
+    recipe.counting.turned = plan.around_light;
     recipe.near_plane = NearPlane::capped;
     return draw_stencil_shadows(gpu, scene, recipe);
 }

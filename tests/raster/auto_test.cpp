@@ -33,6 +33,21 @@ std::size_t differing_claims(const Frame& frame, const Frame& other) {
     return differing;
 }
 
+/// Pixels that face the light of which one counter says lit and the other shadowed.
+std::size_t differing_shadows(const Scene& scene, const Frame& frame, const Frame& other) {
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < frame.counter.pixels.size(); ++i) {
+        const std::uint32_t seen = frame.triangle.pixels[i];
+        if (seen == no_triangle || seen != other.triangle.pixels[i]) continue;
+        const glm::dvec4 light = homogeneous(chosen_light(scene));
+        const double facing =
+            side(scene, seen, light) * side(scene, seen, glm::dvec4(scene.camera.eye, 1));
+        if (facing <= 0) continue;
+        differing += (frame.counter.pixels[i] == 0) != (other.counter.pixels[i] == 0) ? 1U : 0U;
+    }
+    return differing;
+}
+
 // Sides that are left out, or of which other depths are asked, no longer round a pixel.
 constexpr std::size_t few = 4;
 
@@ -67,6 +82,8 @@ TEST_P(AutoClaims, are_those_of_zfail_reversed_but_for_depths_that_tie) {
     const Frame whole = draw(gpu, scene, "zfail_reversed");
     const Frame frame = draw(gpu, scene, "auto");
     EXPECT_LE(differing_claims(frame, whole), few);
+    // Whether a counter is zero is what must be kept: a volume that is left out changes others.
+    EXPECT_LE(differing_shadows(scene, frame, whole), few);
     EXPECT_LE(frame.volume_fragments, whole.volume_fragments);
     ASSERT_TRUE(frame.saved.has_value());
     EXPECT_EQ(frame.saved->against, "zfail_reversed");
@@ -91,6 +108,52 @@ TEST(Auto, draws_no_volume_where_no_caster_can_shadow_anything) {
     EXPECT_EQ(frame.volume_fragments, 0U);
     EXPECT_TRUE(std::ranges::all_of(frame.counter.pixels, [](auto count) { return count == 0; }));
     EXPECT_GT(draw(gpu, scene, "zfail_reversed").volume_fragments, 0U);
+}
+
+// Past the far plane, casters are no surfaces, and under a projection without one their light caps
+// are in front of the background: they must be drawn wherever faces in front are counted.
+TEST(Auto, draws_the_light_caps_of_casters_past_the_far_plane_in_a_picture_without_one) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, {-20, 0, 20}, {20, 0, 20}, {20, 0, -20}, {-20, 0, -20});
+    add_box(scene, {-1, 1.5, -13}, {1, 3.5, -11});
+    add_box(scene, {-1.5, 2.45F, -6}, {3, 2.6F, 1.5}); // its volume meets the near plane
+    scene.lights[0].position = {0, 6, -19};
+    look_at(scene.camera, {0, 1.5, 6}, {0, 0, 0});
+    scene.camera.far = 14;
+    scene.camera.width = scene.camera.height = 128;
+    for (const bool double_sided : {false, true}) {
+        scene.materials[0].double_sided = double_sided;
+        Gpu gpu(GlPlatform::osmesa);
+        const Frame frame = draw(gpu, scene, "auto");
+        EXPECT_FALSE(frame.depth_model.finite());
+        EXPECT_EQ(counted_as(scene, frame, "mesh 1").test, Counting::Test::depth_pass);
+        const Frame whole = draw(gpu, scene, "zfail_reversed");
+        EXPECT_LE(differing_claims(frame, whole), few);
+        EXPECT_LE(differing_shadows(scene, frame, whole), few);
+    }
+}
+
+// A shell that is wound inwards within a mesh that is wound outwards as a whole: nothing of the
+// mesh lies in front of what is culled of it.
+TEST(Auto, draws_the_light_caps_of_a_shell_wound_inwards) {
+    Scene scene = empty_scene();
+    add_rectangle(scene, {-20, 0, 20}, {20, 0, 20}, {20, 0, -20}, {-20, 0, -20});
+    add_box(scene, {3.1F, 1.1F, -3.9F}, {4.9F, 2.9F, -2.1F});
+    add_box(scene, {-0.5, 1.5, -0.5}, {0.5, 2.5, 0.5});
+    for (std::size_t i = scene.triangles.size() - 12; i < scene.triangles.size(); ++i)
+        std::swap(scene.triangles[i].y, scene.triangles[i].z);
+    scene.meshes.pop_back();
+    scene.meshes.back().triangle_count = 24;
+    scene.lights[0].position = {0, 6, 4};
+    look_at(scene.camera, {0, 0.5, 6}, {0, 1.5, 0});
+    scene.camera.width = scene.camera.height = 128;
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = draw(gpu, scene, "auto");
+    const Frame whole = draw(gpu, scene, "zfail_reversed");
+    EXPECT_LE(differing_claims(frame, whole), few);
+    EXPECT_LE(differing_shadows(scene, frame, whole), few);
+    // Its caps are in front of what is seen: without them, the claim is another.
+    EXPECT_GT(differing_claims(draw(gpu, scene, "zfail_no_light_cap"), whole), 100U);
 }
 
 TEST(Volumes, a_box_over_a_floor_shows_the_faces_that_nothing_hides) {

@@ -45,8 +45,9 @@ std::ptrdiff_t longest_side(const Scene& scene, const std::vector<glm::uvec3>& s
 
 } // namespace
 
-Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene);
+Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.counting.dark_cap = true;
     recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) { volume.dark_cap.clear(); });
     return draw_stencil_shadows(gpu, scene, recipe);
 }
@@ -94,7 +95,8 @@ Frame with_mirrored_light(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     }
     double& x = mirrored.lights[mirrored.light].position.x;
     x = double{low} + double{high} - x;
-    return draw_stencil_shadows(gpu, mirrored, zfail_reversed_recipe(mirrored));
+    return draw_stencil_shadows(gpu, mirrored,
+                                zfail_reversed_recipe(mirrored, make_plan(mirrored)));
 }
 
 std::span<const Technique> faulty_techniques() {

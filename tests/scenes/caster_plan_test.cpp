@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <utility>
@@ -125,17 +126,37 @@ TEST(caster_plan, meshes_that_share_a_corner_are_counted_alike) {
     EXPECT_FALSE(plan_casters(scene)[2].meets_near);
 }
 
-TEST(caster_plan, caps_of_open_or_inverted_bodies_may_be_seen_before_what_is_nearer) {
-    Scene scene = floor_alone();
-    EXPECT_FALSE(plan_casters(scene)[0].cap_in_front);
-    Scene open = scene;
-    open.triangles.pop_back();
-    --open.meshes[0].triangle_count;
-    EXPECT_TRUE(plan_casters(open)[0].cap_in_front);
-    open.materials[0].double_sided = true; // nothing of it is culled
-    EXPECT_FALSE(plan_casters(open)[0].cap_in_front);
+std::size_t surfaces_among(const Scene& scene, std::size_t mesh, bool far_clips) {
+    const std::vector<std::uint8_t> certain = certain_surfaces(scene, far_clips);
+    const auto first = certain.begin() + scene.meshes[mesh].first_triangle;
+    return static_cast<std::size_t>(
+        std::count(first, first + scene.meshes[mesh].triangle_count, std::uint8_t{1}));
+}
+
+TEST(certain_surfaces, are_the_fronts_that_the_eye_sees_and_all_that_is_double_sided) {
+    Scene scene = empty_stage();
+    add_box(scene, "box", {-1, -4, -1}, {1, 0, 1}); // the eye sees its top and its front
+    EXPECT_EQ(surfaces_among(scene, 0, true), 4U);
+    scene.camera.eye.y = -2; // its front alone
+    EXPECT_EQ(surfaces_among(scene, 0, true), 2U);
+    scene.materials[0].double_sided = true;
+    EXPECT_EQ(surfaces_among(scene, 0, true), 12U);
+    scene.materials[0].double_sided = false;
     for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.y, triangle.z);
-    EXPECT_TRUE(plan_casters(scene)[0].cap_in_front);
+    EXPECT_EQ(surfaces_among(scene, 0, true), 10U); // all but its front, from within
+}
+
+TEST(certain_surfaces, are_none_that_snapping_may_turn_over_or_that_a_plane_may_cut) {
+    Scene scene = empty_stage();
+    add_box(scene, "box", {-1, -4, -1}, {1, 0, 1});
+    scene.camera.eye.y = 1e-3; // its top is seen at a fraction of a pixel
+    EXPECT_EQ(surfaces_among(scene, 0, true), 2U);
+    scene.camera.eye = {0, 1, 1.5}; // its front is nearer than the near plane
+    EXPECT_EQ(surfaces_among(scene, 0, true), 0U);
+    scene.camera.eye = {0, 1, 10};
+    scene.camera.far = 10; // cuts the top
+    EXPECT_EQ(surfaces_among(scene, 0, true), 4U);
+    EXPECT_EQ(surfaces_among(scene, 0, false), 2U);
 }
 
 TEST(caster_plan, only_a_volume_thrown_ahead_of_the_eye_may_be_seen_at_infinity) {

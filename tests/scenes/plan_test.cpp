@@ -195,7 +195,7 @@ TEST(plan, bundled_scenes_need_what_they_provoke_and_no_more) {
     const Plan ordinary = plan_of("ordinary");
     EXPECT_FALSE(ordinary.hole_filling || ordinary.dark_cap || ordinary.volume_meets_near ||
                  ordinary.volume_meets_far);
-    EXPECT_EQ(ordinary.left_out.size(), 5U);
+    EXPECT_EQ(ordinary.left_out.size(), 6U);
     EXPECT_TRUE(plan_of("near_plane").volume_meets_near);
     EXPECT_FALSE(plan_of("near_plane").volume_meets_far);
     EXPECT_TRUE(plan_of("far_plane").volume_meets_far);

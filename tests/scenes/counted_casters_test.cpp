@@ -1,0 +1,107 @@
+#include "scenes/counted_casters.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace shadowproof {
+namespace {
+
+/// A closed box around the origin, wound outwards, the light above it.
+Scene box(float half) {
+    Scene scene;
+    scene.materials = {{"plain", false}};
+    scene.lights.emplace_back();
+    scene.lights[0].position = {0.1, 9, 0.2};
+    for (unsigned i = 0; i < 8; ++i)
+        scene.positions.emplace_back((i & 1U) != 0 ? half : -half, (i & 2U) != 0 ? half : -half,
+                                     (i & 4U) != 0 ? half : -half);
+    scene.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                       {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    scene.meshes = {{"box", 0, 12, 0}};
+    return scene;
+}
+
+void turn_inside_out(Scene& scene) {
+    for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
+}
+
+std::size_t around_light(const Scene& scene) {
+    const std::vector<std::uint8_t> flags = triangles_around_light(scene, inspect_casters(scene));
+    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+}
+
+std::size_t averted(const Scene& scene) {
+    const std::vector<std::uint8_t> flags =
+        triangles_averted_from_light(scene, triangles_around_light(scene, inspect_casters(scene)));
+    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+}
+
+TEST(triangles_around_light, are_those_of_a_closed_caster_wound_outwards_that_holds_the_light) {
+    Scene scene = box(1);
+    EXPECT_EQ(around_light(scene), 0U);
+    scene.lights[0].position = {0.3, -0.2, 0.9};
+    EXPECT_EQ(around_light(scene), 12U);
+    scene.lights[0].kind = Light::Kind::directional;
+    EXPECT_EQ(around_light(scene), 0U);
+    scene.lights[0].kind = Light::Kind::spot;
+    EXPECT_EQ(around_light(scene), 12U);
+    Scene room = scene;
+    turn_inside_out(room); // its triangles face the light as they are
+    EXPECT_EQ(around_light(room), 0U);
+    scene.triangles.pop_back(); // open
+    --scene.meshes[0].triangle_count;
+    EXPECT_EQ(around_light(scene), 0U);
+}
+
+TEST(triangles_around_light, belong_to_a_body_in_several_meshes_too) {
+    Scene scene = box(1);
+    scene.lights[0].position = {0.3, -0.2, 0.9};
+    scene.meshes = {{"half", 0, 5, 0}, {"other half", 5, 7, 0}};
+    EXPECT_EQ(around_light(scene), 12U);
+}
+
+TEST(triangles_averted_from_light, count_only_where_the_others_do_not_throw_every_shadow) {
+    Scene scene = box(1);
+    EXPECT_EQ(averted(scene), 0U); // closed, outwards, the light outside
+    Scene inside_out = scene;
+    turn_inside_out(inside_out);
+    EXPECT_EQ(averted(inside_out), 2U); // the top
+    Scene open = scene;
+    open.triangles.pop_back();
+    --open.meshes[0].triangle_count;
+    EXPECT_EQ(averted(open), 9U);
+    open.meshes[0].casts = false;
+    EXPECT_EQ(averted(open), 0U);
+    scene.lights[0].position = {0.3, -0.2, 0.9};
+    EXPECT_EQ(averted(scene), 12U); // the light inside: those around it are enough
+}
+
+TEST(triangles_averted_from_light, of_one_shell_among_several_of_a_mesh) {
+    Scene scene = box(1);
+    const Scene other = box(0.25F);
+    for (const glm::vec3& position : other.positions)
+        scene.positions.push_back(position + glm::vec3(3, 0, 0));
+    for (const glm::uvec3& triangle : other.triangles)
+        scene.triangles.push_back(glm::uvec3(triangle.y, triangle.x, triangle.z) + 8U);
+    scene.meshes[0].triangle_count = 24;
+    EXPECT_GT(averted(scene), 0U); // as a whole it is closed, and its volume positive
+}
+
+TEST(counted_casters, turns_flagged_triangles_by_their_first_two_corners) {
+    const Scene scene = box(1);
+    Counting counting;
+    counting.turned.assign(12, 0);
+    counting.turned[3] = 1;
+    const Scene casters = counted_casters(scene, counting);
+    for (std::size_t i = 0; i < 12; ++i) {
+        const glm::uvec3 as_given = scene.triangles[i];
+        EXPECT_EQ(casters.triangles[i],
+                  i == 3 ? glm::uvec3(as_given.y, as_given.x, as_given.z) : as_given);
+    }
+}
+
+} // namespace
+} // namespace shadowproof
