@@ -141,8 +141,6 @@ void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
     const Gate& gate = run.report.gate;
     if (cell.error.empty()) cell.first_failing = first_that_fails(cell, gate);
     run.console.cell(scene, cell, widths, fails(cell, gate));
-    for (const std::string& clause : cell.left_out) run.console.line("  left out: " + clause);
-    if (cell.saved) run.console.line("  " + words_of(*cell.saved, cell.volume_fragments));
     if (cell.since) run.console.line("  since the baseline: " + words_of(*cell.since));
     const std::string allowed = cause_counts(pixels_allowed(cell, gate));
     if (cell.error.empty() && !allowed.empty()) run.console.line("  allowed: " + allowed);

@@ -17,6 +17,19 @@ test('list names every scene, technique and cause, alike as text and as JSON', (
     assert.ok(text.includes(`  ${name} `), name);
 });
 
+test('verify prints one line a cell, and what auto leaves out only into the results', () => {
+  const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
+  const run = shadowproof(['verify', 'near_plane', '--size', '64x64', '--json', 'lines.json']);
+  const lines = run.out.split('\n');
+  const cells = lines.slice(lines.findIndex((line) => line.startsWith('zpass '))).slice(0, -2);
+  assert.deepEqual(cells.map((line) => line.match(/^(\S+) +near_plane  /)?.[1]),
+                   techniques.map(({ name }) => name));
+  assert.match(cells.at(-1), /^auto .* ms  saved -?[\d.]+ ms and [\d,]+ of [\d,]+ volume fragments/);
+  const auto = JSON.parse(readFileSync(join(scratch, 'lines.json'), 'utf8'))
+    .scenes[0].techniques.at(-1);
+  assert.ok(auto.left_out.length > 1, auto.left_out.join());
+});
+
 test('the class map is an 8-bit gray PNG, the same at each run and for any number of threads', () => {
   assert.equal(shadowproof(['render', 'ordinary', '--size', '64x48', '-o', 'a.png']).code, 0);
   assert.equal(shadowproof(['render', 'ordinary', '--size', '64x48', '-o', 'b.png',

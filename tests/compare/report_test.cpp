@@ -59,6 +59,17 @@ TEST(ReportText, a_cells_line_reads_as_the_contract_has_it) {
               "(2,1) near_plane  3.1 ms");
 }
 
+TEST(ReportText, a_cells_line_ends_with_what_was_saved) {
+    SceneResult scene = handmade_scene("near_plane", Cause::edge, Verdict::agrees);
+    Cell& cell = scene.cells[0];
+    const std::string before = cell_line(scene, cell);
+    cell.volume_fragments = 38796;
+    cell.saved = {.against = "zfail_reversed", .milliseconds = 1.52, .volume_fragments = 48645};
+    EXPECT_EQ(cell_line(scene, cell),
+              before + "  saved 1.5 ms and 48,645 of 87,441 volume fragments against "
+                       "zfail_reversed");
+}
+
 TEST(ReportText, a_cell_that_could_not_run_says_why_and_nothing_else) {
     SceneResult scene = handmade_scene("near_plane", Cause::edge, Verdict::agrees);
     scene.cells[0].error = "zpass: blank render; see the driver";
