@@ -128,6 +128,17 @@ test('a baseline that is damaged or missing is refused by name before any work',
   }
 });
 
+test('a baseline of another format is refused by file, format and remedy', () => {
+  const results = resultsOf('base.json');
+  writeFileSync(join(scratch, 'old.json'), JSON.stringify({ ...results, format: results.format - 1 }));
+  const run = shadowproof([...zpass, '--baseline', 'old.json']);
+  assert.equal(run.code, 3);
+  assert.equal(run.err, `shadowproof: old.json: /format must be ${results.format}, but is ` +
+    `${results.format - 1}; write the results again with shadowproof verify, or use the ` +
+    'shadowproof that wrote them\n');
+  assert.equal(run.out, '');
+});
+
 test('under GitHub Actions each failing cell is an ::error line, and the summary is a table', () => {
   writeFileSync(join(scratch, 'summary.md'), '');
   const env = { GITHUB_ACTIONS: 'true', GITHUB_STEP_SUMMARY: join(scratch, 'summary.md') };
