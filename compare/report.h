@@ -81,7 +81,7 @@ struct Report {
 };
 
 /// One line a cell, as the console prints it, without colour: "zpass  near_plane  agrees  ...",
-/// its first three columns padded to the widths given, and what was saved at its end.
+/// its first three columns padded to the widths given.
 struct ColumnWidths {
     int technique = 0;
     int scene = 0;

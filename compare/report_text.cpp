@@ -49,8 +49,8 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
         line += fmt::format("  counter unexplained at {}, first ({},{})",
                             grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
                             comparison.ledger.first_y);
-    line += fmt::format("  {:.1f} ms", cell.milliseconds);
-    return cell.saved ? line + "  " + words_of(*cell.saved, cell.volume_fragments) : line;
+    if (cell.saved) line += "  " + words_of(*cell.saved, cell.volume_fragments);
+    return line + fmt::format("  {:.1f} ms", cell.milliseconds);
 }
 
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments) {
