@@ -205,16 +205,16 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result) {
 
 /// Judges the chosen techniques in turn, each into the report as soon as it is judged.
 void judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
-    const auto& [options, baseline, gpu, console, report, folder] = run;
+    const VerifyOptions& options = run.options;
     const ColumnWidths widths = widths_of(options, result.name);
     for (const Technique* technique : options.technique.chosen()) {
-        console.progress(fmt::format("{}: {}", result.name, technique->name));
+        run.console.progress(fmt::format("{}: {}", result.name, technique->name));
         Cell& cell = result.cells.emplace_back(try_technique(run, trial, *technique));
         conclude_cell(run, result, cell, widths);
-        add_timed(report, [&] { run.folder.add_cell(result, cell, options.scene.threads); });
+        add_timed(run.report, [&] { run.folder.add_cell(result, cell, options.scene.threads); });
         drop_pictures(cell);
     }
-    add_timed(report, [&] { run.folder.add_scene(result); });
+    add_timed(run.report, [&] { run.folder.add_scene(result); });
     drop_truth(result);
 }
 
@@ -236,7 +236,7 @@ void attempt(const Run& run, SceneResult& result, const Work& work) {
 
 /// A scene of several lights is judged under each of them, unless one was chosen: a result each.
 void verify_scene(const Run& run, const std::string& argument) {
-    const auto& [options, baseline, gpu, console, report, folder] = run;
+    Report& report = run.report;
     const std::size_t first = report.scenes.size();
     std::optional<Scene> scene;
     std::size_t lights = 1;
@@ -248,8 +248,8 @@ void verify_scene(const Run& run, const std::string& argument) {
         std::optional<Trial> trial;
         attempt(run, result, [&] {
             if (!scene) {
-                console.progress(fmt::format("{}: reading", result.name));
-                SceneRequest request = options.scene.request();
+                run.console.progress(fmt::format("{}: reading", result.name));
+                SceneRequest request = run.options.scene.request();
                 request.every_light = !request.light;
                 scene = load_scene(argument, request);
                 if (request.every_light) lights = scene->lights.size();
@@ -263,7 +263,7 @@ void verify_scene(const Run& run, const std::string& argument) {
     SceneResult& last = report.scenes.back();
     last.no_longer_provoked = stopped_provoking(report, std::span(report.scenes).subspan(first));
     if (!last.no_longer_provoked.empty())
-        console.always(last.name + ": " + no_longer_provoked_words(last));
+        run.console.always(last.name + ": " + no_longer_provoked_words(last));
 }
 
 /// What stands in results.json before the first scene is tried.
