@@ -147,8 +147,6 @@ public:
     /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
     /// threads 0: one per core.
     void add_cell(const SceneResult& scene, Cell& cell, int threads = 0);
-    /// Removes what was added of a scene that came to nothing.
-    void remove_scene(const SceneResult& scene);
     /// Where files are written until finish() renames them into place.
     const std::filesystem::path& unfinished() const { return beside_.path(); }
     /// Writes index.html, results.json and results.js, and replaces an older report.

@@ -76,12 +76,6 @@ void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) {
     }
 }
 
-void ReportFolder::remove_scene(const SceneResult& scene) {
-    const auto lock = hold_unfinished();
-    std::error_code ignored;
-    fs::remove_all(beside_.path() / folder_of(scene), ignored);
-}
-
 void ReportFolder::finish(const Report& report) {
     finish(to_json(report));
 }

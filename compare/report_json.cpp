@@ -46,7 +46,8 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     if (cell.saved)
         json["saved"] = {{"against", cell.saved->against},
                          {"ms", cell.saved->milliseconds},
-                         {"volume_fragments", cell.saved->volume_fragments}};
+                         {"volume_fragments", cell.saved->volume_fragments},
+                         {"plan_ms", cell.saved->plan_milliseconds}};
     json["verdict"] = name_of(cell.verdict);
     json["pixels"] =
         static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);

@@ -49,6 +49,7 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
         line += fmt::format("  counter unexplained at {}, first ({},{})",
                             grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
                             comparison.ledger.first_y);
+    if (cell.saved) line += "  " + words_of(*cell.saved, cell.volume_fragments);
     return line + fmt::format("  {:.1f} ms", cell.milliseconds);
 }
 

@@ -96,7 +96,8 @@ void schema(const Place& place) {
 void format(const Place& place) {
     if (place.value != results_format)
         refuse(place, fmt::format("must be {}, but is {}", results_format, shown(place.value)),
-               "use the shadowproof that wrote it");
+               "write the results again with shadowproof verify, or use the shadowproof that wrote "
+               "them");
 }
 
 template <Rule rule>
@@ -204,7 +205,10 @@ void cell_images(const Place& place) {
 }
 
 void saved(const Place& place) {
-    object(place, {{"against", text}, {"ms", number}, {"volume_fragments", whole_number}});
+    object(place, {{"against", text},
+                   {"ms", number},
+                   {"volume_fragments", whole_number},
+                   {"plan_ms", number}});
 }
 
 void failed_cell(const Place& place) {

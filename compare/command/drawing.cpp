@@ -28,7 +28,8 @@ std::string draw_cutaway(const std::string& record, std::size_t technique) {
     const std::unique_ptr<duk_context, DestroyHeap> heap(duk_create_heap_default());
     if (!heap) throw std::bad_alloc();
     duk_context* context = heap.get();
-    for (const char* name : {"cutaway_geometry.js", "cutaway_words.js", "cutaway.js"}) {
+    for (const char* name : {"cutaway_geometry.js", "cutaway_words.js", "cutaway_svg.js",
+                             "cutaway_side.js", "cutaway_strip.js", "cutaway.js"}) {
         const std::string_view script = viewer_file(name);
         check(context, duk_peval_lstring(context, script.data(), script.size()));
         duk_pop(context);

@@ -29,11 +29,16 @@ std::string as_text() {
     for (const BundledScene& scene : bundled_scenes())
         text += fmt::format("  {:<{}}{}\n", scene.name, width, scene.summary);
     text += "\nTechniques\n";
-    for (const Technique& technique : all_techniques())
-        text += fmt::format("  {:<{}}{}\n{:{}}fails at: {}\n{:{}}needs: {}\n{:{}}source: {}\n",
-                            technique.name, width, technique.summary, "", width + 2,
-                            fails_at(technique), "", width + 2, technique.needs, "", width + 2,
-                            technique.source);
+    for (const Technique& technique : all_techniques()) {
+        text += fmt::format("  {:<{}}{}\n", technique.name, width, technique.summary);
+        const auto add = [&](std::string_view what, std::string_view words) {
+            text += fmt::format("{:{}}{}: {}\n", "", width + 2, what, words);
+        };
+        add("fails at", fails_at(technique));
+        add("needs", technique.needs);
+        add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
+        add("source", technique.source);
+    }
     text += "\nCauses\n";
     for (const CauseWords& words : all_causes)
         text += fmt::format("  {:<{}}{}\n", words.name, width, words.meaning);
@@ -53,6 +58,7 @@ Json as_json() {
                                       {"summary", technique.summary},
                                       {"source", technique.source},
                                       {"needs", technique.needs},
+                                      {"cost", technique.cost},
                                       {"fails_at", causes},
                                       {"by_nature", by_nature}});
     }

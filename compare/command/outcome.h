@@ -18,8 +18,8 @@ std::string timestamp_now();
 void check_outputs(const OutputOptions& options);
 
 /// Causes that a bundled scene declares and no technique shows any more, under any of its lights:
-/// `lights` are its results. Only the scene's default picture, and all techniques, can tell: else
-/// none.
+/// `lights` are its results. Only the scene's default picture, and all techniques under all its
+/// lights, can tell: none where anything else was tried, or one of them could not run.
 std::vector<std::string> stopped_provoking(const Report& report,
                                            std::span<const SceneResult> lights);
 

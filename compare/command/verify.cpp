@@ -19,6 +19,7 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace shadowproof {
 
@@ -46,23 +47,32 @@ std::vector<std::string> cause_names(const Names& causes) {
     return names;
 }
 
-/// One scene while its techniques are tried in turn.
-struct Trial {
-    const Scene& scene;
-    const Plan& plan;
-    const Tracer& tracer;
-    const GroundTruth& truth;
-    const ShadowDepths& depths;
-    const Silhouette& silhouette;
-    double& report_milliseconds; ///< grows by what the report takes
+/// What all scenes of a run share.
+struct Run {
+    const VerifyOptions& options;
+    const std::optional<ResultsFile>& baseline;
+    Gpu& gpu;
+    Console& console;
+    Report& report;
+    ReportFolder& folder;
 };
 
-Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
+/// A scene under one of its lights, traced: what its techniques are judged against.
+struct Trial {
+    const Scene& scene;
+    const GroundTruth& truth;
+    Plan plan;
+    Tracer tracer;
+    ShadowDepths depths;
+    Silhouette silhouette;
+};
+
+Cell try_technique(const Run& run, const Trial& trial, const Technique& technique) {
     Cell cell;
     cell.technique = technique.name;
     cell.summary = technique.summary;
     try {
-        cell.frame = render(technique, trial.scene, trial.plan, gpu);
+        cell.frame = render(technique, trial.scene, trial.plan, run.gpu);
         cell.milliseconds = cell.frame.milliseconds;
         refuse_blank(technique.name, trial.truth, cell.frame);
         cell.volume_fragments = cell.frame.volume_fragments;
@@ -78,7 +88,7 @@ Cell try_technique(const Trial& trial, const Technique& technique, Gpu& gpu) {
         const Stopwatch stopwatch;
         cell.ledgers =
             list_ledgers(trial.tracer, trial.truth, cell.frame, prediction, cell.comparison.cause);
-        trial.report_milliseconds += stopwatch.milliseconds();
+        run.report.report_milliseconds += stopwatch.milliseconds();
     } catch (const std::bad_alloc&) {
         cell.frame = {};
         cell.comparison = {};
@@ -124,16 +134,6 @@ std::string unique_name(const Report& report, const SceneResult& result) {
     return name;
 }
 
-/// What all scenes of a run share.
-struct Run {
-    const VerifyOptions& options;
-    const std::optional<ResultsFile>& baseline;
-    Gpu& gpu;
-    Console& console;
-    Report& report;
-    ReportFolder& folder;
-};
-
 /// Judges the cell by the gate, and says how it went.
 void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
                    const ColumnWidths& widths) {
@@ -141,8 +141,6 @@ void conclude_cell(const Run& run, const SceneResult& scene, Cell& cell,
     const Gate& gate = run.report.gate;
     if (cell.error.empty()) cell.first_failing = first_that_fails(cell, gate);
     run.console.cell(scene, cell, widths, fails(cell, gate));
-    for (const std::string& clause : cell.left_out) run.console.line("  left out: " + clause);
-    if (cell.saved) run.console.line("  " + words_of(*cell.saved, cell.volume_fragments));
     if (cell.since) run.console.line("  since the baseline: " + words_of(*cell.since));
     const std::string allowed = cause_counts(pixels_allowed(cell, gate));
     if (cell.error.empty() && !allowed.empty()) run.console.line("  allowed: " + allowed);
@@ -170,13 +168,12 @@ void add_timed(Report& report, const Work& work) {
     report.report_milliseconds += writing.milliseconds();
 }
 
-/// Judges the chosen light of a scene.
-void verify_light(const Run& run, const Scene& scene, SceneResult& result) {
-    const auto& [options, baseline, gpu, console, report, folder] = run;
+/// Plans and traces the chosen light of a scene; the truth lies in the result.
+Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result) {
     result.light = chosen_light(scene);
     result.name = scene.name;
     if (result.one_of_many) result.name += "-" + result.light.choice;
-    result.name = unique_name(report, result);
+    result.name = unique_name(run.report, result);
     // A bundled scene is the same wherever it is installed, and so is its report.
     result.file = (is_bundled(result.argument) ? scene.file.filename() : scene.file).string();
     result.width = scene.camera.width;
@@ -188,31 +185,41 @@ void verify_light(const Run& run, const Scene& scene, SceneResult& result) {
     result.meshes = scene.meshes;
     result.provokes = cause_names(scene.provokes);
     result.notes = scene.notes;
-    const Plan plan = make_plan(scene);
+    Plan plan = make_plan(scene);
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
-    describe(console, result);
+    describe(run.console, result);
 
-    console.progress(fmt::format("{}: tracing", result.name));
-    const Tracer tracer(scene, options.scene.threads);
+    run.console.progress(fmt::format("{}: tracing", result.name));
+    Tracer tracer(scene, run.options.scene.threads);
     result.truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
-    const Silhouette silhouette(tracer);
-    const Trial trial{
-        scene, plan, tracer, result.truth, depths, silhouette, report.report_milliseconds};
+    ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
+    Silhouette silhouette(tracer);
+    return {scene,
+            result.truth,
+            std::move(plan),
+            std::move(tracer),
+            std::move(depths),
+            std::move(silhouette)};
+}
+
+/// Judges the chosen techniques in turn, each into the report as soon as it is judged.
+void judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
+    const VerifyOptions& options = run.options;
     const ColumnWidths widths = widths_of(options, result.name);
     for (const Technique* technique : options.technique.chosen()) {
-        console.progress(fmt::format("{}: {}", result.name, technique->name));
-        Cell& cell = result.cells.emplace_back(try_technique(trial, *technique, gpu));
+        run.console.progress(fmt::format("{}: {}", result.name, technique->name));
+        Cell& cell = result.cells.emplace_back(try_technique(run, trial, *technique));
         conclude_cell(run, result, cell, widths);
-        add_timed(report, [&] { run.folder.add_cell(result, cell, options.scene.threads); });
+        add_timed(run.report, [&] { run.folder.add_cell(result, cell, options.scene.threads); });
         drop_pictures(cell);
     }
-    add_timed(report, [&] { run.folder.add_scene(result); });
+    add_timed(run.report, [&] { run.folder.add_scene(result); });
     drop_truth(result);
 }
 
-/// What goes wrong in `work` becomes the result.
+/// What goes wrong in `work` is the scene's own, becomes its result, and ends no run. Around what
+/// reads and traces it alone: a report that cannot be written ends the run.
 template <class Work>
 void attempt(const Run& run, SceneResult& result, const Work& work) {
     try {
@@ -223,15 +230,13 @@ void attempt(const Run& run, SceneResult& result, const Work& work) {
         result.error = error.what();
     }
     if (result.error.empty()) return;
-    if (!result.cells.empty()) run.folder.remove_scene(result);
     result.name = unique_name(run.report, result);
-    result.cells.clear();
     complain(result.error);
 }
 
 /// A scene of several lights is judged under each of them, unless one was chosen: a result each.
 void verify_scene(const Run& run, const std::string& argument) {
-    const auto& [options, baseline, gpu, console, report, folder] = run;
+    Report& report = run.report;
     const std::size_t first = report.scenes.size();
     std::optional<Scene> scene;
     std::size_t lights = 1;
@@ -240,25 +245,25 @@ void verify_scene(const Run& run, const std::string& argument) {
         result.argument = argument;
         result.name = std::filesystem::path(argument).stem().string();
         result.file = argument;
+        std::optional<Trial> trial;
         attempt(run, result, [&] {
             if (!scene) {
-                console.progress(fmt::format("{}: reading", result.name));
-                SceneRequest request = options.scene.request();
+                run.console.progress(fmt::format("{}: reading", result.name));
+                SceneRequest request = run.options.scene.request();
                 request.every_light = !request.light;
                 scene = load_scene(argument, request);
                 if (request.every_light) lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
             if (result.one_of_many) scene->light = i;
-            verify_light(run, *scene, result);
+            trial.emplace(begin_trial(run, *scene, result));
         });
-        if (i + 1 == lights && result.error.empty()) {
-            result.no_longer_provoked =
-                stopped_provoking(report, std::span(report.scenes).subspan(first));
-            if (!result.no_longer_provoked.empty())
-                console.always(result.name + ": " + no_longer_provoked_words(result));
-        }
+        if (trial) judge_techniques(run, *trial, result);
     }
+    SceneResult& last = report.scenes.back();
+    last.no_longer_provoked = stopped_provoking(report, std::span(report.scenes).subspan(first));
+    if (!last.no_longer_provoked.empty())
+        run.console.always(last.name + ": " + no_longer_provoked_words(last));
 }
 
 /// What stands in results.json before the first scene is tried.

@@ -209,9 +209,10 @@ function remarks(title, items) {
 }
 
 /** "3.1 ms and 271,004 volume fragments against zfail_reversed" */
-const savingWords = ({ against, ms, volume_fragments: fragments }) =>
+const savingWords = ({ against, ms, volume_fragments: fragments, plan_ms: planning }) =>
   `${ms < 0 ? '−' : ''}${milliseconds(Math.abs(ms))} and ` +
-  `${fragments < 0 ? '−' : ''}${grouped(Math.abs(fragments))} volume fragments against ${against}`;
+  `${fragments < 0 ? '−' : ''}${grouped(Math.abs(fragments))} volume fragments a frame against ` +
+  `${against}, after ${milliseconds(planning)} of planning`;
 
 /** Plan, times, versions and the command that makes this cell again. */
 function howMade(results, { scene, cell }) {

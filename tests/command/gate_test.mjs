@@ -11,6 +11,25 @@ const zpass = ['verify', 'near_plane', '--technique', 'zpass', ...size];
 const resultsOf = (file) => JSON.parse(readFileSync(join(scratch, file), 'utf8'));
 let differing; // near_plane pixels of zpass
 
+/** `verify ARGS` that has begun its report: the process, and the report's folder while unfinished. */
+async function startedInto(out, args) {
+  const child = spawn(process.env.SHADOWPROOF, ['verify', ...args, '--out', out], { cwd: scratch });
+  const unfinished = () => readdirSync(scratch).find((name) => name.startsWith(`${out}.writing-`));
+  while (!unfinished() && child.exitCode === null)
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  return [child, unfinished()];
+}
+
+/** How it ended, as shadowproof() has it. */
+async function ended(child) {
+  const text = { out: '', err: '' };
+  child.stdout.on('data', (chunk) => { text.out += chunk; });
+  child.stderr.on('data', (chunk) => { text.err += chunk; });
+  const [code, signal] = await new Promise((resolve) =>
+    child.on('close', (...outcome) => resolve(outcome)));
+  return { code, signal, ...text };
+}
+
 before(() => {
   const run = shadowproof([...zpass, '--json', 'base.json']);
   assert.equal(run.code, 0, run.err);
@@ -109,6 +128,17 @@ test('a baseline that is damaged or missing is refused by name before any work',
   }
 });
 
+test('a baseline of another format is refused by file, format and remedy', () => {
+  const results = resultsOf('base.json');
+  writeFileSync(join(scratch, 'old.json'), JSON.stringify({ ...results, format: results.format - 1 }));
+  const run = shadowproof([...zpass, '--baseline', 'old.json']);
+  assert.equal(run.code, 3);
+  assert.equal(run.err, `shadowproof: old.json: /format must be ${results.format}, but is ` +
+    `${results.format - 1}; write the results again with shadowproof verify, or use the ` +
+    'shadowproof that wrote them\n');
+  assert.equal(run.out, '');
+});
+
 test('under GitHub Actions each failing cell is an ::error line, and the summary is a table', () => {
   writeFileSync(join(scratch, 'summary.md'), '');
   const env = { GITHUB_ACTIONS: 'true', GITHUB_STEP_SUMMARY: join(scratch, 'summary.md') };
@@ -151,16 +181,21 @@ test('outputs that cannot be written are refused before any work', () => {
   }
 });
 
+test('a report that cannot be written any more ends the run, and is no fault of a scene', async () => {
+  const [child, unfinished] = await startedInto('blocked', ['ordinary', 'near_plane', 'far_plane']);
+  writeFileSync(join(scratch, unfinished, 'near_plane'), 'in the way of a folder');
+  const { code, out, err } = await ended(child);
+  assert.equal(code, 3, out + err);
+  assert.match(err, /^shadowproof: \S+blocked: the report cannot be written \([^\n]+--out\n$/);
+  assert.match(out, /^zpass +near_plane /m);
+  assert.doesNotMatch(out, /zfail +near_plane |far_plane\n/);
+  assert.deepEqual(readdirSync(scratch).filter((name) => name.startsWith('blocked')), []);
+});
+
 test('an interrupted run leaves nothing unfinished behind', async () => {
-  const child = spawn(process.env.SHADOWPROOF, ['verify', '--size', '2048x2048', '--out', 'cut'],
-                      { cwd: scratch, stdio: 'ignore' });
-  const unfinished = () => readdirSync(scratch).filter((name) => name.includes('.writing-'));
-  while (unfinished().length === 0 && child.exitCode === null)
-    await new Promise((resolve) => setTimeout(resolve, 20));
+  const [child] = await startedInto('cut', ['--size', '2048x2048']);
   child.kill('SIGINT');
-  const [code, signal] = await new Promise((resolve) =>
-    child.on('exit', (...outcome) => resolve(outcome)));
+  const { code, signal } = await ended(child);
   assert.ok(signal === 'SIGINT' || code === 130, `${code} ${signal}`);
-  assert.deepEqual(unfinished(), []);
-  assert.ok(!readdirSync(scratch).includes('cut'));
+  assert.deepEqual(readdirSync(scratch).filter((name) => name.startsWith('cut')), []);
 });

@@ -59,6 +59,20 @@ TEST(ReportText, a_cells_line_reads_as_the_contract_has_it) {
               "(2,1) near_plane  3.1 ms");
 }
 
+TEST(ReportText, a_cells_line_says_what_was_saved_before_what_was_spent) {
+    SceneResult scene = handmade_scene("near_plane", Cause::edge, Verdict::agrees);
+    Cell& cell = scene.cells[0];
+    std::string line = cell_line(scene, cell);
+    cell.volume_fragments = 38796;
+    cell.saved = {.against = "zfail_reversed",
+                  .milliseconds = 1.52,
+                  .volume_fragments = 48645,
+                  .plan_milliseconds = 0.25};
+    line.insert(line.rfind("  "), "  saved 1.5 ms and 48,645 of 87,441 volume fragments against "
+                                  "zfail_reversed");
+    EXPECT_EQ(cell_line(scene, cell), line);
+}
+
 TEST(ReportText, a_cell_that_could_not_run_says_why_and_nothing_else) {
     SceneResult scene = handmade_scene("near_plane", Cause::edge, Verdict::agrees);
     scene.cells[0].error = "zpass: blank render; see the driver";

@@ -16,7 +16,9 @@ TEST(Technique, each_is_found_by_its_name_and_says_what_it_is) {
         EXPECT_FALSE(technique.summary.empty()) << technique.name;
         EXPECT_FALSE(technique.source.empty()) << technique.name;
         EXPECT_FALSE(technique.needs.empty()) << technique.name;
+        EXPECT_GT(technique.cost, 0) << technique.name;
     }
+    EXPECT_EQ(find_technique("zfail_reversed")->cost, 1);
     EXPECT_EQ(find_technique("no such technique"), nullptr);
     EXPECT_EQ(find_technique(""), nullptr);
 }
