@@ -1,6 +1,7 @@
 #include "compare/band.h"
 
 #include "compare/freedom.h"
+#include "compare/setup_freedom.h"
 #include "reference/tally.h"
 
 #include <algorithm>
@@ -86,7 +87,8 @@ private:
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
     bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
     std::vector<Crossing> crossings_;  ///< of the sample at hand
-    mutable std::unordered_map<std::uint32_t, double> thinness_; ///< by Crossing::edge
+    mutable std::unordered_map<std::uint32_t, double> setup_of_side_; ///< by Crossing::edge
+    mutable std::unordered_map<std::uint32_t, double> setup_of_triangle_;
 
     bool certainly_in_front(std::uint32_t triangle) const {
         return surface_range(triangle).upper < shown_range_.lower;
@@ -95,20 +97,27 @@ private:
     /// A triangle's plane over the neighbourhood, with the depth format's freedom.
     DepthRange surface_range(std::uint32_t triangle) const {
         DepthRange range{0, infinity, 0};
+        const double setup = setup_error(triangle);
         for (const glm::dvec3& direction : around_.corners) {
             const double t = plane_depth(scene_, triangle, direction);
             const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
-            range.include(t, depth_freedom(scene_, frame_.depth_model, point));
+            range.include(t, depth_freedom(scene_, frame_.depth_model, point) + setup * t * t);
         }
         return range;
     }
 
-    /// As thinness_freedom has it, once for each edge at this pixel.
-    double thinness_error(const Crossing& side) const {
-        const auto [known, is_new] = thinness_.try_emplace(side.edge, 0.0);
+    /// As setup_freedom has it, once for each edge and triangle at this pixel.
+    double setup_error(const Crossing& side) const {
+        const auto [known, is_new] = setup_of_side_.try_emplace(side.edge, 0.0);
         if (is_new)
-            known->second =
-                thinness_freedom(volumes_.casters, volumes_.far_ends, side, around_.rays.front());
+            known->second = setup_freedom(volumes_.casters, volumes_.far_ends, side,
+                                          {around_.rays.front(), around_.reach});
+        return known->second;
+    }
+    double setup_error(std::uint32_t triangle) const {
+        const auto [known, is_new] = setup_of_triangle_.try_emplace(triangle, 0.0);
+        if (is_new)
+            known->second = setup_freedom(scene_, triangle, {around_.rays.front(), around_.reach});
         return known->second;
     }
 
@@ -116,9 +125,12 @@ private:
     /// inverse to D . plane; not at all where that changes its sign.
     DepthRange face_range(const Crossing& crossing, const glm::dvec3& direction) const {
         DepthRange range{crossing.depth, crossing.depth, crossing.depth};
+        // Light caps that may be in front are culled surfaces, or fill holes.
         if (crossing.is_side())
+            range.include(crossing.depth, setup_error(crossing) * crossing.depth * crossing.depth);
+        else if (crossing.triangle < scene_.triangles.size())
             range.include(crossing.depth,
-                          thinness_error(crossing) * crossing.depth * crossing.depth);
+                          setup_error(crossing.triangle) * crossing.depth * crossing.depth);
         const double here = glm::dot(direction, crossing.plane);
         for (const glm::dvec3& other : around_.corners) {
             const double ratio = here / glm::dot(other, crossing.plane);

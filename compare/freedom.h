@@ -3,12 +3,10 @@
 // depth format and the roundings of floats, term by term; never tuned.
 #pragma once
 
-#include "reference/ledger.h"
 #include "scenes/frame.h"
 #include "scenes/scene.h"
 
 #include <glm/vec3.hpp>
-#include <vector>
 
 namespace shadowproof {
 
@@ -22,11 +20,5 @@ double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const 
 /// How far, in view depth, two faces at a world point may be apart and yet be stored in either
 /// order: the quantum of the depth format and the float transform's error.
 double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
-
-/// How far off the inverse of a side's view depth may come out at a pixel because the side is thin
-/// in the picture: `direction` is the pixel's ray, and `far_ends` where the casters' positions lie
-/// once extruded, null where that is at infinity. Infinite where the side is seen edge-on.
-double thinness_freedom(const Scene& casters, const std::vector<glm::vec3>* far_ends,
-                        const Crossing& side, const glm::dvec3& direction);
 
 } // namespace shadowproof

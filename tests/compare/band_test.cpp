@@ -22,7 +22,7 @@ class BandOfScene : public testing::TestWithParam<std::string> {};
 /// do not tell which comes first.
 bool lies_in_surface(const std::vector<Crossing>& crossings, double surface) {
     return std::ranges::any_of(crossings, [&](const Crossing& crossing) {
-        return std::abs(crossing.depth - surface) <= 0x1p-40 * surface;
+        return std::abs(crossing.depth - surface) <= 0x1p-40 * crossing.depth;
     });
 }
 
@@ -81,7 +81,7 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
                 ++asked;
                 EXPECT_EQ(*count, prediction.counts().at(x, y)) << x << "," << y;
             }
-        EXPECT_GT(asked, 300);
+        EXPECT_GT(asked, 100);
     }
 }
 

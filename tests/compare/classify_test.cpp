@@ -183,7 +183,8 @@ INSTANTIATE_TEST_SUITE_P(Injected, ClassifyFault,
                                          Injection{"without_one_side", "ordinary"},
                                          Injection{"with_wrong_near_plane", "near_plane"},
                                          Injection{"with_wrong_near_plane", "eye_inside"},
-                                         Injection{"with_mirrored_light", "ordinary"}),
+                                         Injection{"with_mirrored_light", "ordinary"},
+                                         Injection{"with_all_caps_hidden", "inverted"}),
                          [](const testing::TestParamInfo<Injection>& injection) {
                              return injection.param.fault + "_on_" + injection.param.scene;
                          });

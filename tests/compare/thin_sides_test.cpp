@@ -1,7 +1,7 @@
 // Sides of a fine mesh's volumes are long and thin in the picture, and the set-up of their depths
 // rounds: first seen with a million triangles, where pixels had no explanation before.
 #include "compare/classify.h"
-#include "compare/freedom.h"
+#include "compare/setup_freedom.h"
 #include "raster/render.h"
 #include "scenes/plan.h"
 
@@ -78,12 +78,12 @@ double freedom_of_side(double edge_length) {
     scene.triangles = {{0, 1, 2}};
     scene.lights[0].position = {4, 1, 1};
     const Crossing side{.depth = 5, .change = 1, .part = Crossing::Part::side_0, .triangle = 0};
-    return thinness_freedom(scene, nullptr, side, {0, 0, -1});
+    return setup_freedom(scene, nullptr, side, {.direction = {0, 0, -1}, .reach = 1});
 }
 
 TEST(ThinSides, half_the_width_doubles_what_rounding_may_do) {
-    const double wide = freedom_of_side(0.02);
-    const double thin = freedom_of_side(0.01);
+    const double wide = freedom_of_side(0.002);
+    const double thin = freedom_of_side(0.001);
     EXPECT_GT(wide, 0);
     EXPECT_NEAR(thin / wide, 2, 0.05);
     EXPECT_TRUE(std::isinf(freedom_of_side(0)));

@@ -99,6 +99,12 @@ Frame with_mirrored_light(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
                                 zfail_reversed_recipe(mirrored, make_plan(mirrored)));
 }
 
+Frame with_all_caps_hidden(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe recipe = zpass_recipe(scene);
+    recipe.hidden_caps.assign(scene.triangles.size(), 1);
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
 std::span<const Technique> faulty_techniques() {
     static const auto like = [](const char* twin, const char* name,
                                 Frame (*run)(Gpu&, const Scene&, const Plan&)) {
@@ -113,6 +119,7 @@ std::span<const Technique> faulty_techniques() {
         like("zfail_clamp", "without_one_side", without_one_side),
         like("zpass", "with_wrong_near_plane", with_wrong_near_plane),
         like("zfail_reversed", "with_mirrored_light", with_mirrored_light),
+        like("zpass", "with_all_caps_hidden", with_all_caps_hidden),
     };
     return techniques;
 }

@@ -26,7 +26,11 @@ Frame with_wrong_near_plane(Gpu& gpu, const Scene& scene, const Plan& plan);
 /// zfail_reversed with the light mirrored in x about the middle of the scene.
 Frame with_mirrored_light(Gpu& gpu, const Scene& scene, const Plan& plan);
 
-/// The five, named as the functions, each known for what its right twin is known for.
+/// zpass that takes every light cap for hidden by its own surface. Shows where one of which the
+/// surface is culled lies in front of what is seen.
+Frame with_all_caps_hidden(Gpu& gpu, const Scene& scene, const Plan& plan);
+
+/// The six, named as the functions, each known for what its right twin is known for.
 std::span<const Technique> faulty_techniques();
 
 } // namespace shadowproof::tests

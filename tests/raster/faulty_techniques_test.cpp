@@ -39,6 +39,12 @@ TEST(FaultyTechniques, each_changes_the_counters_of_its_right_twin) {
     EXPECT_GT(differing(without_one_side(gpu, scene, {}).counter, clamp.counter), 100U);
     EXPECT_GT(differing(with_wrong_near_plane(gpu, scene, {}).counter, zpass.counter), 100U);
     EXPECT_GT(differing(with_mirrored_light(gpu, scene, {}).claim, reversed.claim), 100U);
+    Scene inside_out = scene;
+    for (std::size_t i = 0; i < 12; ++i) // the box
+        std::swap(inside_out.triangles[i].y, inside_out.triangles[i].z);
+    look_at(inside_out.camera, {-5, 3, 0}, {3, 0.2, 0});
+    const Frame culled = render(*find_technique("zpass"), inside_out, Plan{}, gpu);
+    EXPECT_GT(differing(with_all_caps_hidden(gpu, inside_out, {}).counter, culled.counter), 100U);
 }
 
 TEST(FaultyTechniques, swapped_steps_negate_the_counter_and_keep_the_claim) {
@@ -52,7 +58,7 @@ TEST(FaultyTechniques, swapped_steps_negate_the_counter_and_keep_the_claim) {
 }
 
 TEST(FaultyTechniques, are_named_as_their_functions_and_known_for_what_their_twins_are) {
-    ASSERT_EQ(faulty_techniques().size(), 5U);
+    ASSERT_EQ(faulty_techniques().size(), 6U);
     EXPECT_EQ(faulty_techniques()[3].name, "with_wrong_near_plane");
     EXPECT_EQ(faulty_techniques()[3].fails_at, find_technique("zpass")->fails_at);
     EXPECT_EQ(faulty_techniques()[3].run, with_wrong_near_plane);

@@ -1,0 +1,165 @@
+#include "compare/setup_freedom.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = 0x1p-24; ///< rounding unit of float
+
+using Polygon = std::vector<glm::dvec4>; ///< relative to the eye along right, up, forward, and w
+
+/// A homogeneous world point (p, w).
+glm::dvec4 viewed(const Camera& camera, const glm::dvec4& point) {
+    const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
+    return {glm::dot(camera.right, relative), glm::dot(camera.up, relative),
+            glm::dot(camera.forward, relative), point.w};
+}
+
+/// What of a convex polygon lies where `plane` is not negative (Sutherland & Hodgman 1974).
+Polygon clipped(const Polygon& polygon, const glm::dvec4& plane) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec4& from = polygon[i];
+        const glm::dvec4& to = polygon[(i + 1) % polygon.size()];
+        const double one = glm::dot(plane, from);
+        const double other = glm::dot(plane, to);
+        if (one >= 0) kept.push_back(from);
+        if ((one < 0) != (other < 0)) kept.push_back(from + one / (one - other) * (to - from));
+    }
+    return kept;
+}
+
+/// A point of the picture, in pixels, and the inverse of its view depth, which is linear there as
+/// window depth is.
+struct PicturePoint {
+    glm::dvec2 place{0, 0};
+    double inverse_depth = 0;
+};
+
+PicturePoint pictured(const Camera& camera, const glm::dvec4& view) {
+    const glm::dvec2 half = half_extent(camera);
+    return {{(view.x / view.z / half.x + 1) * 0.5 * camera.width,
+             (1 - view.y / view.z / half.y) * 0.5 * camera.height},
+            view.w / view.z};
+}
+
+using PictureTriangle = std::array<PicturePoint, 3>;
+
+/// The triangles that are set up: clipped by the near plane, and, as llvmpipe does, by a guard band
+/// twice the picture's size; what is left is a fan.
+std::vector<PictureTriangle> set_up(const Camera& camera,
+                                    const std::array<glm::dvec4, 3>& corners) {
+    const glm::dvec2 guard = 2.0 * half_extent(camera);
+    Polygon polygon;
+    for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner));
+    for (const glm::dvec4& plane : {glm::dvec4(0, 0, 1, -camera.near), glm::dvec4(1, 0, guard.x, 0),
+                                    glm::dvec4(-1, 0, guard.x, 0), glm::dvec4(0, 1, guard.y, 0),
+                                    glm::dvec4(0, -1, guard.y, 0)})
+        polygon = clipped(polygon, plane);
+    std::vector<PictureTriangle> fan;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        fan.push_back({pictured(camera, polygon[0]), pictured(camera, polygon[i - 1]),
+                       pictured(camera, polygon[i])});
+    return fan;
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+bool may_cover(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+    const double area =
+        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2 from = triangle[i].place;
+        const glm::dvec2 along = triangle[(i + 1) % 3].place - from;
+        const double inside = cross(along, pixel - from) * (area < 0 ? -1 : 1);
+        if (inside < -reach * glm::length(along)) return false;
+    }
+    return true;
+}
+
+// llvmpipe makes a triangle's depth a plane over the picture: with differences x01, y01, z01 of its
+// first two corners and x20, y20, z20 of the third and first, A = x01 y20 - x20 y01, and
+//   dz/dx = z01 (y20 / A) - z20 (y01 / A),   dz/dy = z20 (x01 / A) - z01 (x20 / A),
+// z at the picture's corner is z0 - (dz/dx x0 + dz/dy y0), and from there on at the pixel. Rounded
+// are, by v of its size each: in the slopes' terms both differences, quotient, product and
+// difference of the two (5 v), 1 / A alike in all terms; in A two differences and a product (3 v of
+// each of its terms), and their difference (v). An error that is alike in all terms turns the plane
+// about the first corner by so much of what it climbs to the pixel. The sums at the picture's
+// corner and at the pixel round products of slopes and places: three times each.
+double freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
+    const glm::dvec2 d01 = triangle[0].place - triangle[1].place;
+    const glm::dvec2 d20 = triangle[2].place - triangle[0].place;
+    const double z01 = triangle[0].inverse_depth - triangle[1].inverse_depth;
+    const double z20 = triangle[2].inverse_depth - triangle[0].inverse_depth;
+    const double area = std::abs(cross(d01, d20));
+    if (area == 0) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 terms(std::abs(z01 * d20.y) + std::abs(z20 * d01.y),
+                           std::abs(z20 * d01.x) + std::abs(z01 * d20.x));
+    const glm::dvec2 slope(std::abs(z01 * d20.y - z20 * d01.y) / area,
+                           std::abs(z20 * d01.x - z01 * d20.x) / area);
+    const glm::dvec2 way = glm::abs(pixel - triangle[0].place);
+    const double climb = std::max(std::abs(z01), std::abs(z20));
+    const double terms_of_area = std::abs(d01.x * d20.y) + std::abs(d20.x * d01.y);
+    return 5 * v * glm::dot(terms / area, way) + v * (3 * terms_of_area / area + 2) * climb +
+           3 * v * glm::dot(slope, glm::abs(triangle[0].place) + glm::abs(pixel));
+}
+
+/// The largest over the triangles that may cover the pixel, or over all if none does.
+double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>& triangles,
+                       const CoveredPixel& pixel) {
+    const glm::dvec2 place = project(camera, camera.eye + pixel.direction);
+    double covering = -1;
+    double any = 0;
+    for (const PictureTriangle& triangle : triangles) {
+        const double freedom = freedom_of(triangle, place);
+        any = std::max(any, freedom);
+        if (may_cover(triangle, place, pixel.reach)) covering = std::max(covering, freedom);
+    }
+    return covering < 0 ? any : covering;
+}
+
+} // namespace
+
+double setup_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}), pixel);
+}
+
+// A side is two triangles. Which diagonal parts them hangs on the order of positions: both are
+// tried.
+double setup_freedom(const Scene& casters, const std::vector<glm::vec3>* far_ends,
+                     const Crossing& side, const CoveredPixel& pixel) {
+    const glm::dvec4 light = homogeneous(chosen_light(casters));
+    const glm::uvec3 corners = casters.triangles[side.triangle];
+    const int first = static_cast<int>(side.part);
+    const std::uint32_t a = corners[first];
+    const std::uint32_t b = corners[(first + 1) % 3];
+    const auto start = [&](std::uint32_t i) {
+        return glm::dvec4(glm::dvec3(casters.positions[i]), 1);
+    };
+    const auto end = [&](std::uint32_t i) {
+        return far_ends != nullptr ? glm::dvec4(glm::dvec3((*far_ends)[i]), 1)
+                                   : light.w * start(i) - light;
+    };
+    std::vector<PictureTriangle> triangles;
+    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+        for (const std::array<glm::dvec4, 3>& half :
+             {std::array{start(one), start(other), end(other)},
+              std::array{start(one), end(other), end(one)}})
+            for (const PictureTriangle& triangle : set_up(casters.camera, half))
+                triangles.push_back(triangle);
+    return largest_freedom(casters.camera, triangles, pixel);
+}
+
+} // namespace shadowproof
