@@ -57,7 +57,8 @@ double lateral_freedom(const Scene& scene, const DepthModel& depth_model, const 
 // terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
 // more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
 // are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
-// lateral_freedom), which 8 covers too. How far off the plane itself is set up, setup_freedom tells.
+// lateral_freedom), which 8 covers too. How far off the plane itself is set up, setup_freedom
+// tells.
 double depth_freedom(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
     const double t = depth_of(scene.camera, point);
     const double near = depth_model.near;

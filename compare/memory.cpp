@@ -32,6 +32,13 @@ std::size_t technique_bytes() {
            bytes_of(comparison.cause, comparison.ledger_miss, comparison.predicted);
 }
 
+/// Counters and shadow depths: volumes may be others than the casters'.
+std::size_t prediction_bytes() {
+    const ShadowDepths depths;
+    return sizeof(std::int32_t) +
+           bytes_of(depths.at_surface, depths.at_near, depths.at_far, depths.at_infinity);
+}
+
 double gigabytes(std::uint64_t bytes) {
     return static_cast<double>(bytes) / 1e9;
 }
@@ -47,7 +54,7 @@ std::size_t comparison_bytes() {
     const ShadowDepths depths;
     return truth_bytes() +
            bytes_of(depths.at_surface, depths.at_near, depths.at_far, depths.at_infinity) +
-           technique_bytes() + target_bytes;
+           prediction_bytes() + technique_bytes() + target_bytes;
 }
 
 std::uint64_t memory_there_is() {

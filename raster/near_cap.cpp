@@ -107,7 +107,8 @@ private:
             point /= point.w;
             point.z = -scene_.camera.near;
         } else {
-            point /= std::max({std::abs(point.x), std::abs(point.y), 1e-300});
+            const double size = std::max(std::abs(point.x), std::abs(point.y));
+            if (size > 0) point /= size;
             point.z = 0;
         }
         return point;
@@ -119,7 +120,8 @@ void append_fan(const std::vector<std::uint32_t>& points, std::vector<glm::uvec3
         triangles.emplace_back(points[0], points[i - 1], points[i]);
 }
 
-/// The loop that directed segments form: at most one begins at each point.
+/// The loop that directed segments form: at most one begins at each point. As each node lies on one
+/// side of the plane for all faces, they close; if they did not, there would be no cap.
 std::vector<std::uint32_t>
 loop_of(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& segments) {
     std::vector<std::uint32_t> loop;

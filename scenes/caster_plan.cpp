@@ -34,33 +34,44 @@ private:
     std::size_t left_ = most_comparisons;
 };
 
-/// (b - a) x (c - a) . (l - w a), w being 0 or 1, where its sign is certain, which is that of the
-/// side on which a homogeneous point (l, w) lies; 0 where it is zero, and NaN where it is
-/// uncertain. With u = 2^-53, a difference is rounded once, a product of three four times with its
-/// factors' own roundings, and two sums on top: each of the six products is off by less than 16 u
-/// of its size. Products of zeros are exact, and so is a point in the plane y = 0 beside a triangle
-/// in it.
-double certain_side(const TriangleCorners& t, const glm::dvec4& point) {
-    constexpr double rounding = 16 * 0x1p-53;
-    const glm::dvec3 b = t[1] - t[0];
-    const glm::dvec3 c = t[2] - t[0];
-    const glm::dvec3 p = glm::dvec3(point) - point.w * t[0];
-    const glm::dvec3 size_b = glm::abs(b);
-    const glm::dvec3 size_c = glm::abs(c);
-    const glm::dvec3 products(size_b.y * size_c.z + size_b.z * size_c.y,
-                              size_b.z * size_c.x + size_b.x * size_c.z,
-                              size_b.x * size_c.y + size_b.y * size_c.x);
-    const glm::dvec3 size_p = glm::abs(p);
-    const double value = glm::dot(glm::cross(b, c), p);
-    const double error = rounding * glm::dot(products, size_p);
-    if (std::abs(value) > error) return value;
-    return error == 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
-}
+/// A triangle's plane, and on which side of it points lie for certain: that is the sign of
+/// (b - a) x (c - a) . (l - w a) for a homogeneous point (l, w), w being 0 or 1. With u = 2^-53, a
+/// difference is rounded once, a product of three four times with its factors' own roundings, and
+/// two sums on top: each of the six products is off by less than 16 u of its size. Products of
+/// zeros are exact, and so is a point in the plane y = 0 beside a triangle in it.
+class CertainPlane {
+public:
+    explicit CertainPlane(const TriangleCorners& t) : corners_(t) {
+        constexpr double rounding = 16 * 0x1p-53;
+        const glm::dvec3 b = t[1] - t[0];
+        const glm::dvec3 c = t[2] - t[0];
+        const glm::dvec3 size_b = glm::abs(b);
+        const glm::dvec3 size_c = glm::abs(c);
+        normal_ = glm::cross(b, c);
+        error_ = rounding * glm::dvec3(size_b.y * size_c.z + size_b.z * size_c.y,
+                                       size_b.z * size_c.x + size_b.x * size_c.z,
+                                       size_b.x * size_c.y + size_b.y * size_c.x);
+    }
 
-double certain_side(const TriangleCorners& t, const glm::dvec3& point) {
-    if (point == t[0] || point == t[1] || point == t[2]) return 0; // its own corner
-    return certain_side(t, glm::dvec4(point, 1));
-}
+    /// 0 where it is zero, and NaN where it is uncertain.
+    double side(const glm::dvec4& point) const {
+        const glm::dvec3 p = glm::dvec3(point) - point.w * corners_[0];
+        const double value = glm::dot(normal_, p);
+        const double error = glm::dot(error_, glm::abs(p));
+        if (std::abs(value) > error) return value;
+        return error == 0 ? 0 : std::numeric_limits<double>::quiet_NaN();
+    }
+    double side(const glm::dvec3& point) const {
+        for (const glm::dvec3& own : corners_)
+            if (point == own) return 0;
+        return side(glm::dvec4(point, 1));
+    }
+
+private:
+    TriangleCorners corners_;
+    glm::dvec3 normal_{0, 0, 0};
+    glm::dvec3 error_{0, 0, 0}; ///< of a product with the normal, component by component
+};
 
 /// A set of triangles, their corners each once, and the box around them.
 struct Body {
@@ -92,8 +103,9 @@ Body body_of(const Scene& scene, std::vector<std::uint32_t> triangles) {
 bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_sided,
                        const PictureCone& cone) {
     const TriangleCorners corners = corners_of(scene, triangle);
-    const double of_light = certain_side(corners, homogeneous(chosen_light(scene)));
-    const double of_eye = certain_side(corners, scene.camera.eye);
+    const CertainPlane plane(corners);
+    const double of_light = plane.side(homogeneous(chosen_light(scene)));
+    const double of_eye = plane.side(scene.camera.eye);
     if (of_light == 0 || of_eye == 0 || of_light * of_eye < 0) return false;
     if (!double_sided && of_eye < 0) return false;
     return may_point_into(cone, corners, scene.camera.eye);
@@ -141,14 +153,14 @@ bool all_on_side(const Scene& scene, const Body& planes, const Body& others,
                  const glm::dvec4& light, bool on_light_side) {
     return std::all_of(
         planes.triangles.begin(), planes.triangles.end(), [&](std::uint32_t triangle) {
-            const TriangleCorners corners = corners_of(scene, triangle);
-            const double of_light = certain_side(corners, light);
+            const CertainPlane plane(corners_of(scene, triangle));
+            const double of_light = plane.side(light);
             if (of_light == 0) return true; // no segment to the light crosses it
             if (std::isnan(of_light)) return false;
             const double sign = (of_light > 0) == on_light_side ? 1 : -1;
             return std::all_of(
                 others.corners.begin(), others.corners.end(), [&](std::uint32_t corner) {
-                    return sign * certain_side(corners, glm::dvec3(scene.positions[corner])) >= 0;
+                    return sign * plane.side(glm::dvec3(scene.positions[corner])) >= 0;
                 });
         });
 }

@@ -47,7 +47,7 @@ FloatTracer::~FloatTracer() {
 namespace {
 
 constexpr int packet = 16;
-constexpr int side = 4;
+constexpr int tile_side = 4;
 
 void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Visibility>& picture) {
     const Camera& camera = scene.camera;
@@ -56,8 +56,8 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
     alignas(64) std::array<int, packet> valid{};
     RTCRayHit16 rays;
     for (int i = 0; i < packet; ++i) {
-        const int x = left + i % side;
-        const int y = top + i / side;
+        const int x = left + i % tile_side;
+        const int y = top + i / tile_side;
         valid[static_cast<std::size_t>(i)] = x < camera.width && y < camera.height ? -1 : 0;
         const glm::vec3 d(ray_direction(camera, x + 0.5, y + 0.5));
         rays.ray.org_x[i] = eye.x;
@@ -86,7 +86,7 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
         const glm::vec3 n(rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]);
         const glm::vec3 point = eye + rays.ray.tfar[i] * d;
         const glm::vec3 to_light = light - point;
-        picture.at(left + i % side, top + i / side) = Visibility::shadowed;
+        picture.at(left + i % tile_side, top + i / tile_side) = Visibility::shadowed;
         if (!(glm::dot(n, to_light) * glm::dot(n, d) < 0)) continue;
         shadowed[k] = -1;
         shadow.org_x[i] = point.x;
@@ -103,7 +103,7 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
     rtcOccluded16(shadowed.data(), world, &context, &shadow);
     for (int i = 0; i < packet; ++i)
         if (shadowed[static_cast<std::size_t>(i)] != 0 && shadow.tfar[i] >= 0)
-            picture.at(left + i % side, top + i / side) = Visibility::lit;
+            picture.at(left + i % tile_side, top + i / tile_side) = Visibility::lit;
 }
 
 } // namespace
@@ -111,9 +111,9 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
 Image<Visibility> FloatTracer::trace() const {
     const Camera& camera = state_->scene->camera;
     Image<Visibility> picture(camera.width, camera.height);
-    parallel_for((camera.height + side - 1) / side, state_->threads, [&](int row, int) {
-        for (int left = 0; left < camera.width; left += side)
-            trace_tile(*state_->scene, state_->world, left, row * side, picture);
+    parallel_for((camera.height + tile_side - 1) / tile_side, state_->threads, [&](int row, int) {
+        for (int left = 0; left < camera.width; left += tile_side)
+            trace_tile(*state_->scene, state_->world, left, row * tile_side, picture);
     });
     return picture;
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -25,9 +26,17 @@ struct TracedScene {
     GroundTruth truth;
     ShadowDepths depths;
 
+    /// A bundled name, or that and a light's: "many_lights-fill".
     explicit TracedScene(const std::string& name)
-        : scene(load_scene(name, {})), plan(make_plan(scene)), tracer(scene), silhouette(tracer),
+        : scene(load(name)), plan(make_plan(scene)), tracer(scene), silhouette(tracer),
           truth(trace(tracer)), depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
+
+    static Scene load(const std::string& name) {
+        const std::size_t dash = name.find('-');
+        SceneRequest request;
+        if (dash != std::string::npos) request.light = name.substr(dash + 1);
+        return load_scene(name.substr(0, dash), request);
+    }
 };
 
 class Classify : public testing::Test {
@@ -114,14 +123,26 @@ TEST_P(ClassifyScene,
     }
 }
 
+/// Bundled scenes, those of several lights with each of them.
 std::vector<std::string> scene_names() {
     std::vector<std::string> names;
-    for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);
+    for (const BundledScene& each : bundled_scenes()) {
+        const std::string name(each.name);
+        SceneRequest request;
+        request.every_light = true;
+        const Scene scene = load_scene(name, request);
+        for (const Light& light : scene.lights)
+            names.push_back(scene.lights.size() > 1 ? name + "-" + light.choice : name);
+    }
     return names;
 }
 
 INSTANTIATE_TEST_SUITE_P(Bundled, ClassifyScene, testing::ValuesIn(scene_names()),
-                         [](const auto& scene) { return scene.param; });
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
 
 TEST_F(Classify, zpass_miscounts_where_the_near_plane_is_inside_a_volume_and_zfail_does_not) {
     EXPECT_GT(pixels_of(compare("near_plane", "zpass"), Cause::near_plane), 1000U);
