@@ -101,23 +101,29 @@ private:
         for (const glm::dvec3& direction : around_.corners) {
             const double t = plane_depth(scene_, triangle, direction);
             const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
-            range.include(t, depth_freedom(scene_, frame_.depth_model, point) + setup * t * t);
+            const double slope_error = std::isfinite(t) ? setup * t * t : 0;
+            range.include(t, depth_freedom(scene_, frame_.depth_model, point) + slope_error);
         }
         return range;
+    }
+
+    CoveredPixel covered_pixel() const { return {around_.rays.front(), around_.reach, clip_far()}; }
+    /// The far plane's depth where it clips.
+    double clip_far() const {
+        return frame_.depth_model.finite() && !frame_.counting.depth_clamp ? far_ : infinity;
     }
 
     /// As setup_freedom has it, once for each edge and triangle at this pixel.
     double setup_error(const Crossing& side) const {
         const auto [known, is_new] = setup_of_side_.try_emplace(side.edge, 0.0);
         if (is_new)
-            known->second = setup_freedom(volumes_.casters, volumes_.far_ends, side,
-                                          {around_.rays.front(), around_.reach});
+            known->second =
+                setup_freedom(volumes_.casters, volumes_.far_ends, side, covered_pixel());
         return known->second;
     }
     double setup_error(std::uint32_t triangle) const {
         const auto [known, is_new] = setup_of_triangle_.try_emplace(triangle, 0.0);
-        if (is_new)
-            known->second = setup_freedom(scene_, triangle, {around_.rays.front(), around_.reach});
+        if (is_new) known->second = setup_freedom(scene_, triangle, covered_pixel());
         return known->second;
     }
 
@@ -170,19 +176,14 @@ private:
     /// A light cap covers what its own surface covers, at the same depth bit for bit: it is in
     /// front of the visible surface only where that surface is culled, or past the far plane.
     bool is_never_in_front(const Crossing& crossing) const {
-        if (crossing.part != Crossing::Part::light_cap || is_turned(crossing)) return false;
+        if (crossing.part != Crossing::Part::light_cap) return false;
         if (crossing.triangle == shown_) return true;
         if (crossing.depth >= clip_depth(far_, -1)) return false;
+        if (frame_.counting.depth_clamp && crossing.depth <= clip_depth(scene_.camera.near, 1))
+            return false; // which is no surface either
         // What fills a hole is no surface.
         return crossing.triangle < scene_.triangles.size() &&
                sides_of(tracer_, crossing.triangle).visible;
-    }
-
-    /// With its first two corners exchanged, a shader may make it so that it is clipped otherwise
-    /// than its surface, and its depth rounds otherwise.
-    bool is_turned(const Crossing& crossing) const {
-        const std::vector<std::uint8_t>& turned = frame_.counting.turned;
-        return crossing.triangle < turned.size() && turned[crossing.triangle] != 0;
     }
 
     /// Shadow depth at the shown surface, as the casters have it.
@@ -239,9 +240,8 @@ private:
     /// Faces that are drawn, neither clipped nor on the wrong side of the surface for certain.
     std::vector<Candidate> candidates(const glm::dvec3& direction, int move) const {
         const Counting& counting = frame_.counting;
-        const bool clips_far = frame_.depth_model.finite() && !counting.depth_clamp;
         const double near = clip_depth(scene_.camera.near, move);
-        const double far = clips_far ? clip_depth(far_, move) : infinity;
+        const double far = std::isfinite(clip_far()) ? clip_depth(far_, move) : infinity;
         std::vector<Candidate> found;
         for (const Crossing& crossing : crossings_) {
             const Counting::Caster caster = counting.caster(crossing.triangle);
@@ -255,9 +255,7 @@ private:
             const bool maybe_front = !behind && range.lower <= shown_range_.upper;
             const bool maybe_behind = behind || range.upper >= shown_range_.lower;
             if (!(pass ? maybe_front : maybe_behind)) continue;
-            const bool own =
-                crossing.triangle == shown_ && crossing.part == Crossing::Part::light_cap;
-            const bool in_front = !behind && !own && crossing.depth < shown_range_.nominal;
+            const bool in_front = !behind && crossing.depth < shown_range_.nominal;
             found.push_back({crossing, in_front == pass, !(maybe_front && maybe_behind)});
         }
         return found;

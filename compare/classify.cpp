@@ -105,7 +105,7 @@ void look_around_region(const JudgedFrame& judged, const Region& region,
         corners_around(judged.tracer.scene().camera, region, around);
     const Volumes& volumes = judged.prediction.volumes();
     const RegionLedger counted = volumes.ledger(corners);
-    const RegionLedger ideal(judged.tracer, judged.silhouette, corners);
+    const RegionLedger ideal = volumes.ideal_ledger(corners);
     for (std::size_t i = 0; i < region.places.size(); ++i) {
         const PixelPlace p = region.places[i];
         RegionLedger counted_here(counted, around[i].corners);
@@ -115,7 +115,7 @@ void look_around_region(const JudgedFrame& judged, const Region& region,
                                 volumes.far_ends(),
                                 volumes.are_ideal() ? nullptr : &ideal_here,
                                 judged.prediction.depths().at_eye,
-                                judged.ideal().at_eye};
+                                judged.prediction.ideal_depths().at_eye};
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
         truths = truths.subspan(truth.size());
         const PixelBand band =

@@ -58,7 +58,7 @@ std::optional<Cause> algorithmic_cause(const JudgedFrame& judged, const Reading&
 /// The reading at the pixel's centre, as traced.
 Reading centre_reading(const JudgedFrame& judged, PixelPlace p) {
     const Image<std::uint8_t>& in_cone = judged.truth.in_cone;
-    const ShadowDepths& ideal = judged.ideal();
+    const ShadowDepths& ideal = judged.prediction.ideal_depths();
     return {judged.predicted(p), ideal.at_surface.at(p.x, p.y), ideal.at_eye,
             in_cone.pixels.empty() || in_cone.at(p.x, p.y) != 0, false};
 }

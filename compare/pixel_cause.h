@@ -34,10 +34,6 @@ struct JudgedFrame {
     }
     std::int64_t predicted(PixelPlace p) const { return prediction.counts().at(p.x, p.y); }
     std::uint32_t read_back(PixelPlace p) const { return frame.counter.at(p.x, p.y); }
-    /// Shadow depths in the volumes that the shadows ask for.
-    const ShadowDepths& ideal() const {
-        return prediction.volumes().are_ideal() ? prediction.depths() : depths;
-    }
     bool surface_as_true(PixelPlace p) const {
         return frame.triangle.at(p.x, p.y) == truth.triangle.at(p.x, p.y);
     }

@@ -208,7 +208,7 @@ void saved(const Place& place) {
     object(place, {{"against", text},
                    {"ms", number},
                    {"volume_fragments", whole_number},
-                   {"plan_ms", number}});
+                   {"plan_ms", number, Need::optional}});
 }
 
 void failed_cell(const Place& place) {

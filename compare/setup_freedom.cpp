@@ -54,10 +54,11 @@ PicturePoint pictured(const Camera& camera, const glm::dvec4& view) {
 
 using PictureTriangle = std::array<PicturePoint, 3>;
 
-/// The triangles that are set up: clipped by the near plane, and, as llvmpipe does, by a guard band
-/// twice the picture's size; what is left is a fan.
-std::vector<PictureTriangle> set_up(const Camera& camera,
-                                    const std::array<glm::dvec4, 3>& corners) {
+/// The triangles that are set up: clipped by the planes in depth, and by a guard band twice the
+/// picture's size, as Mesa's draw module has it (draw_pt_post_vs: x and y to twice w); what is left
+/// is a fan.
+std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
+                                    double far) {
     const glm::dvec2 guard = 2.0 * half_extent(camera);
     Polygon polygon;
     for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner));
@@ -65,6 +66,7 @@ std::vector<PictureTriangle> set_up(const Camera& camera,
                                     glm::dvec4(-1, 0, guard.x, 0), glm::dvec4(0, 1, guard.y, 0),
                                     glm::dvec4(0, -1, guard.y, 0)})
         polygon = clipped(polygon, plane);
+    if (std::isfinite(far)) polygon = clipped(polygon, glm::dvec4(0, 0, -1, far));
     std::vector<PictureTriangle> fan;
     for (std::size_t i = 2; i < polygon.size(); ++i)
         fan.push_back({pictured(camera, polygon[0]), pictured(camera, polygon[i - 1]),
@@ -76,7 +78,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-bool may_cover(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+/// Whether it comes within `reach` of the pixel.
+bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
     const double area =
         cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -103,7 +106,8 @@ double freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
     const double z01 = triangle[0].inverse_depth - triangle[1].inverse_depth;
     const double z20 = triangle[2].inverse_depth - triangle[0].inverse_depth;
     const double area = std::abs(cross(d01, d20));
-    if (area == 0) return std::numeric_limits<double>::infinity();
+    // Seen edge-on; or an end at infinity in no direction at all, so that the area is not a number.
+    if (!(area > 0)) return std::numeric_limits<double>::infinity();
     const glm::dvec2 terms(std::abs(z01 * d20.y) + std::abs(z20 * d01.y),
                            std::abs(z20 * d01.x) + std::abs(z01 * d20.x));
     const glm::dvec2 slope(std::abs(z01 * d20.y - z20 * d01.y) / area,
@@ -124,7 +128,7 @@ double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>&
     for (const PictureTriangle& triangle : triangles) {
         const double freedom = freedom_of(triangle, place);
         any = std::max(any, freedom);
-        if (may_cover(triangle, place, pixel.reach)) covering = std::max(covering, freedom);
+        if (may_reach(triangle, place, pixel.reach)) covering = std::max(covering, freedom);
     }
     return covering < 0 ? any : covering;
 }
@@ -133,7 +137,8 @@ double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>&
 
 double setup_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}), pixel);
+    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}, pixel.far),
+                           pixel);
 }
 
 // A side is two triangles. Which diagonal parts them hangs on the order of positions: both are
@@ -157,7 +162,7 @@ double setup_freedom(const Scene& casters, const std::vector<glm::vec3>* far_end
         for (const std::array<glm::dvec4, 3>& half :
              {std::array{start(one), start(other), end(other)},
               std::array{start(one), end(other), end(one)}})
-            for (const PictureTriangle& triangle : set_up(casters.camera, half))
+            for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel.far))
                 triangles.push_back(triangle);
     return largest_freedom(casters.camera, triangles, pixel);
 }

@@ -7,6 +7,7 @@
 #include "scenes/scene.h"
 
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 namespace shadowproof {
@@ -15,6 +16,7 @@ namespace shadowproof {
 struct CoveredPixel {
     glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
     double reach = 0;              ///< pixels by which a face may be drawn aside
+    double far = std::numeric_limits<double>::infinity(); ///< depth of a far plane that clips
 };
 
 /// Error of the inverse of a triangle's view depth at a pixel. Infinite where the triangle is seen

@@ -15,10 +15,13 @@ struct CasterPart {
     Scene scene;
     /// What its triangles are in the scene of all: those past the end of that fill holes.
     std::vector<std::uint32_t> triangles;
+    bool turned = false; ///< all of them, in the way of Counting::turned; known where asked for
 };
 
 /// One part where all casters are counted alike, else one for each way; none for those left out.
 /// The casters are those that the technique makes volumes of, see counted_casters.h.
-std::vector<CasterPart> caster_parts(const Scene& scene, const Counting& counting);
+/// `turned_apart`: turned triangles make parts of their own.
+std::vector<CasterPart> caster_parts(const Scene& scene, const Counting& counting,
+                                     bool turned_apart);
 
 } // namespace shadowproof

@@ -30,12 +30,14 @@ struct Capped {
     Buffer point_buffer;
     Triangles cut;
     Triangles light_caps;
+    Triangles turned_caps;
 };
 
 } // namespace
 
 VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                            const ClipTransform& transform, const DepthModel& depth_model) {
+                            const ClipTransform& transform, const DepthModel& depth_model,
+                            const SpecialCaps& special) {
     const auto made = std::make_shared<Capped>();
     made->welded = weld_by_position(scene.positions);
     made->cut_program = link_files(gl, {"view_space.vert", "volume.frag"});
@@ -48,18 +50,24 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
     gl.VertexArrayAttribBinding(made->points.name(), 0, 0);
     gl.EnableVertexArrayAttrib(made->points.name(), 0);
 
-    const auto update = [&gl, &scene, made] {
-        const std::vector<std::uint32_t> facing = triangles_facing_light(scene);
-        const NearCut cut = cut_at_near_plane(scene, made->welded, facing);
+    const auto update = [&gl, &scene, made, special] {
+        ShadowVolume volume;
+        volume.facing = triangles_facing_light(scene);
+        const NearCut cut = cut_at_near_plane(scene, made->welded, volume.facing);
         made->point_buffer =
             make_filled_buffer(gl, std::array{std::as_bytes(std::span(cut.points))});
         gl.VertexArrayVertexBuffer(made->points.name(), 0, made->point_buffer.name(), 0,
                                    sizeof(glm::vec4));
         made->cut = upload_triangles(gl, std::array{std::span<const glm::uvec3>(cut.sides),
                                                     std::span<const glm::uvec3>(cut.caps)});
-        std::vector<glm::uvec3> caps;
-        for (const std::uint32_t triangle : facing) caps.push_back(scene.triangles[triangle]);
-        made->light_caps = upload_triangles(gl, std::array{std::span<const glm::uvec3>(caps)});
+        for (const std::uint32_t triangle : volume.facing)
+            volume.light_cap.push_back(scene.triangles[triangle]);
+        set_special_caps(special, volume);
+        const auto upload = [&](const std::vector<glm::uvec3>& caps) {
+            return upload_triangles(gl, std::array{std::span<const glm::uvec3>(caps)});
+        };
+        made->light_caps = upload(volume.light_cap);
+        made->turned_caps = upload(volume.turned_caps);
     };
     const auto draw = [&gl, &geometry, made] {
         gl.DepthRange(0, 1);
@@ -73,9 +81,13 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
         gl.UseProgram(made->cap_program.name());
         draw_triangles(gl, geometry, made->light_caps, 0, made->light_caps.count);
     };
+    const auto draw_turned = [&gl, &geometry, made] {
+        gl.UseProgram(made->cap_program.name());
+        draw_triangles(gl, geometry, made->turned_caps, 0, made->turned_caps.count);
+    };
     return {.update = update,
             .draw = draw,
-            .draw_turned = [] {},
+            .draw_turned = draw_turned,
             .programs = {made->cut_program.name(), made->cap_program.name()}};
 }
 

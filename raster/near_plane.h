@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/passes.h"
+#include "raster/volume.h"
 #include "raster/volume_pass.h"
 
 namespace shadowproof {
@@ -11,7 +12,8 @@ namespace shadowproof {
 /// scene's depths; then the light caps among the scene's. The scene must be drawn into
 /// [ledge, 1] (near_cap.h). Finite projections only. Kilgard 2001.
 VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                            const ClipTransform& transform, const DepthModel& depth_model);
+                            const ClipTransform& transform, const DepthModel& depth_model,
+                            const SpecialCaps& special);
 
 /// Draws the casters between light and near plane as the light sees them through it: one layer at
 /// a pixel for each volume that holds its point of the near plane. Draws nothing where the light

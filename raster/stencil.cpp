@@ -112,7 +112,8 @@ struct Frames {
           surface(link_projection(gl, "surface.frag", transform, geometry, between(with))),
           light(link_light(gl, drawn, transform, geometry, between(with))) {
         add_sum(gl, target);
-        for (CasterPart& part : caster_parts(drawn, with.counting)) {
+        for (CasterPart& part :
+             caster_parts(drawn, with.counting, with.making != VolumeMaking::on_cpu)) {
             parts.push_back(std::make_unique<Part>(Part{std::move(part)}));
             parts.back()->volumes = make_volumes(*parts.back());
         }
@@ -129,14 +130,6 @@ struct Frames {
     }
 
     VolumePass make_volumes(const Part& part) const {
-        if (recipe.near_plane == NearPlane::capped)
-            return make_capped_pass(gl, part.scene, geometry, transform, recipe.depth_model);
-        const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
-        return make_volume_pass(gl, part.scene, geometry, transform, caps, recipe.making,
-                                extruder_of(part));
-    }
-
-    Extruder extruder_of(const Part& part) const {
         const auto of_part = [&](const std::vector<std::uint8_t>& flags) {
             std::vector<std::uint8_t> mine;
             if (flags.empty()) return mine;
@@ -147,7 +140,14 @@ struct Frames {
         SpecialCaps special{.hidden = {}, .turned = of_part(recipe.counting.turned)};
         if (part.caster.test == Counting::Test::depth_pass)
             special.hidden = of_part(recipe.hidden_caps);
-        return with_special_caps(recipe.extruder(part.scene), std::move(special));
+        if (recipe.near_plane == NearPlane::capped)
+            return make_capped_pass(gl, part.scene, geometry, transform, recipe.depth_model,
+                                    special);
+        const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
+        // Shaders take triangles as they are wound; these few are made on the CPU.
+        const VolumeMaking making = part.turned ? VolumeMaking::on_cpu : recipe.making;
+        return make_volume_pass(gl, part.scene, geometry, transform, caps, making,
+                                with_special_caps(recipe.extruder(part.scene), special));
     }
 
     void update() {

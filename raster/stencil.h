@@ -23,7 +23,7 @@ struct StencilRecipe {
     VolumeMaking making = VolumeMaking::on_cpu;
     std::function<Extruder(const Scene& casters)> extruder = by_silhouettes; ///< on the CPU
     /// A flag a triangle of the scene: where faces in front of the surface are counted, its light
-    /// cap is not drawn, as it never is one. On the CPU only; empty: all are drawn.
+    /// cap is not drawn, as it is never in front of what is seen. On the CPU only; empty: all are.
     std::vector<std::uint8_t> hidden_caps{};
     NearPlane near_plane = NearPlane::lost;
     Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping

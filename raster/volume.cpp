@@ -87,22 +87,26 @@ Extruder by_triangles(const Scene& scene) {
     };
 }
 
+void set_special_caps(const SpecialCaps& special, ShadowVolume& volume) {
+    const auto is = [](const std::vector<std::uint8_t>& flags, std::uint32_t triangle) {
+        return triangle < flags.size() && flags[triangle] != 0;
+    };
+    const std::vector<glm::uvec3> caps = std::exchange(volume.light_cap, {});
+    for (std::size_t i = 0; i < caps.size(); ++i) {
+        const std::uint32_t triangle = volume.facing[i];
+        if (is(special.hidden, triangle)) continue;
+        if (is(special.turned, triangle))
+            volume.turned_caps.emplace_back(caps[i].y, caps[i].x, caps[i].z);
+        else
+            volume.light_cap.push_back(caps[i]);
+    }
+}
+
 Extruder with_special_caps(Extruder extruder, SpecialCaps special) {
     if (special.hidden.empty() && special.turned.empty()) return extruder;
     return [extruder = std::move(extruder), special = std::move(special)] {
-        const auto is = [](const std::vector<std::uint8_t>& flags, std::uint32_t triangle) {
-            return triangle < flags.size() && flags[triangle] != 0;
-        };
         ShadowVolume volume = extruder();
-        const std::vector<glm::uvec3> caps = std::exchange(volume.light_cap, {});
-        for (std::size_t i = 0; i < caps.size(); ++i) {
-            const std::uint32_t triangle = volume.facing[i];
-            if (is(special.hidden, triangle)) continue;
-            if (is(special.turned, triangle))
-                volume.turned_caps.emplace_back(caps[i].y, caps[i].x, caps[i].z);
-            else
-                volume.light_cap.push_back(caps[i]);
-        }
+        set_special_caps(special, volume);
         return volume;
     };
 }

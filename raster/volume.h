@@ -58,6 +58,9 @@ struct SpecialCaps {
 };
 Extruder with_special_caps(Extruder extruder, SpecialCaps special);
 
+/// Sorts the light caps of a volume, those of all `facing` triangles, into those that are drawn.
+void set_special_caps(const SpecialCaps& special, ShadowVolume& volume);
+
 /// Appends the two triangles of the side beside the edge from a to b of a triangle that faces the
 /// light: to `sides` where a < b, else to `turned_sides`.
 void append_side(std::uint32_t a, std::uint32_t b, std::uint32_t position_count,

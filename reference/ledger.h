@@ -38,7 +38,9 @@ struct Crossing {
     std::uint32_t triangle = no_triangle; ///< whose volume (one of them, where sides cancel)
     glm::dvec3 plane{0, 0, 0};            ///< normal of the face that is crossed, of any length
     std::uint32_t edge = 0; ///< of a side: which silhouette edge, in the order of Silhouette
-    bool turned = false;    ///< of a side: its edge runs from a later position to an earlier one
+    /// Of a side: its edge runs from a later position to an earlier one. Of a light cap, once it is
+    /// counted: its triangle was turned round.
+    bool turned = false;
 
     bool is_side() const { return part < Part::light_cap; }
 };

@@ -139,6 +139,7 @@ Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const
                        const ShadowDepths& depths, const Counting& counting,
                        const DepthModel& depth_model)
     : volumes_(tracer, silhouette, counting), depths_(volumes_.shadow_depths(truth, depths)) {
+    if (!volumes_.are_ideal()) ideal_depths_ = volumes_.ideal_depths(truth, depths);
     const Camera& camera = tracer.scene().camera;
     counts_ = Image<std::int32_t>(camera.width, camera.height);
     const bool simple = follows_from_depths(counting);

@@ -7,6 +7,7 @@
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -50,10 +51,13 @@ public:
     const Volumes& volumes() const { return volumes_; }
     /// Of the volumes that are counted, which may be cut off.
     const ShadowDepths& depths() const { return depths_; }
+    /// Of those that the shadows ask for.
+    const ShadowDepths& ideal_depths() const { return ideal_depths_ ? *ideal_depths_ : depths_; }
 
 private:
     Volumes volumes_;
     ShadowDepths depths_;
+    std::optional<ShadowDepths> ideal_depths_; ///< where they are not the same
     Image<std::int32_t> counts_;
 };
 

@@ -38,9 +38,18 @@ Image<std::int32_t> difference(Image<std::int32_t> from, const Image<std::int32_
 } // namespace
 
 Volumes::Volumes(const Tracer& tracer, const Silhouette& silhouette, const Counting& counting)
-    : tracer_(&tracer), silhouette_(&silhouette),
-      ideal_(!counting.holes_filled && !leaves_casters_out(counting) &&
-             !std::isfinite(counting.extrusion)) {
+    : tracer_(&tracer), silhouette_(&silhouette), ideal_tracer_(&tracer),
+      ideal_silhouette_(&silhouette),
+      are_ideal_(!counting.holes_filled && !leaves_casters_out(counting) &&
+                 !std::isfinite(counting.extrusion)) {
+    if (!are_ideal_ && !counting.turned.empty()) {
+        Counting as_asked;
+        as_asked.turned = counting.turned;
+        ideal_ =
+            std::make_unique<Variant>(counted_casters(tracer.scene(), as_asked), tracer.threads());
+        ideal_tracer_ = &ideal_->tracer;
+        ideal_silhouette_ = &ideal_->silhouette;
+    }
     if (counting.holes_filled || !counting.turned.empty() || leaves_casters_out(counting))
         others_ =
             std::make_unique<Variant>(counted_casters(tracer.scene(), counting), tracer.threads());
@@ -76,6 +85,16 @@ ShadowDepths Volumes::shadow_depths(const GroundTruth& truth, const ShadowDepths
 
 const std::vector<glm::vec3>* Volumes::far_ends() const {
     return ends_ ? &ends_->scene.positions : nullptr;
+}
+
+RegionLedger Volumes::ideal_ledger(const std::array<glm::dvec3, 4>& corners) const {
+    if (are_ideal_) return ledger(corners);
+    return {*ideal_tracer_, *ideal_silhouette_, corners};
+}
+
+ShadowDepths Volumes::ideal_depths(const GroundTruth& truth, const ShadowDepths& depths) const {
+    if (are_ideal_) return shadow_depths(truth, depths);
+    return ideal_ ? count_shadow_depths(*ideal_tracer_, truth, depths.far) : depths;
 }
 
 RegionLedger Volumes::ledger(const std::array<glm::dvec3, 4>& corners) const {

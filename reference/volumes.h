@@ -35,16 +35,22 @@ public:
     const std::vector<glm::vec3>* far_ends() const;
     /// Whether they are those of the casters as given, out to infinity.
     bool are_the_casters() const { return !others_ && !ends_; }
-    /// Whether the shadows asked for are theirs: all casters', open where they are, to infinity.
-    bool are_ideal() const { return ideal_; }
+    /// Whether the shadows asked for are theirs: all casters', open where they are, to infinity,
+    /// turned round where that is asked for. Otherwise, the ledger and depths of those.
+    bool are_ideal() const { return are_ideal_; }
+    RegionLedger ideal_ledger(const std::array<glm::dvec3, 4>& corners) const;
+    ShadowDepths ideal_depths(const GroundTruth& truth, const ShadowDepths& depths) const;
 
 private:
     struct Variant; ///< another scene under the same light and camera
     const Tracer* tracer_;
     const Silhouette* silhouette_;
+    const Tracer* ideal_tracer_;
+    const Silhouette* ideal_silhouette_;
     std::unique_ptr<Variant> others_; ///< see counted_casters.h
     std::unique_ptr<Variant> ends_;
-    bool ideal_;
+    std::unique_ptr<Variant> ideal_; ///< where neither given nor counted ones are
+    bool are_ideal_;
 };
 
 } // namespace shadowproof

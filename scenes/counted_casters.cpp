@@ -2,6 +2,7 @@
 
 #include "scenes/half_edge.h"
 #include "scenes/holes.h"
+#include "scenes/topology.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,51 +14,19 @@ namespace shadowproof {
 
 namespace {
 
-/// How often triangles wind around a point: the solid angles that they fill as seen from it, over
-/// the whole sphere's (van Oosterom & Strackee 1983). Positive inside what is wound outwards.
-double winding_number(const Scene& scene, std::span<const std::uint32_t> triangles,
-                      const glm::dvec3& point) {
-    double halves = 0;
-    for (const std::uint32_t triangle : triangles) {
-        const glm::dvec3 a = corner(scene, triangle, 0) - point;
-        const glm::dvec3 b = corner(scene, triangle, 1) - point;
-        const glm::dvec3 c = corner(scene, triangle, 2) - point;
-        const double la = glm::length(a);
-        const double lb = glm::length(b);
-        const double lc = glm::length(c);
-        halves += std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
-                                                                glm::dot(b, c) * la +
-                                                                glm::dot(c, a) * lb);
-    }
-    constexpr double whole_sphere = 6.283185307179586; // as halves of 4 pi
-    return halves / whole_sphere;
-}
+/// Triangles of casters that hang together by edges.
+struct Shell {
+    std::vector<std::uint32_t> triangles;
+    bool closed = true;
+};
 
-/// The bodies that casters make up: each closed mesh by itself, and the meshes that only together
-/// are closed.
-std::vector<std::vector<std::uint32_t>> closed_bodies(const Scene& scene,
-                                                      std::span<const CasterReport> casters) {
-    std::vector<std::vector<std::uint32_t>> bodies;
-    std::vector<std::uint32_t> in_parts;
-    for (const CasterReport& report : casters) {
-        std::vector<std::uint32_t> triangles = triangles_of(scene.meshes[report.mesh]);
-        if (report.closed())
-            bodies.push_back(std::move(triangles));
-        else if (report.closed_by_others)
-            in_parts.insert(in_parts.end(), triangles.begin(), triangles.end());
-    }
-    bodies.push_back(std::move(in_parts));
-    return bodies;
-}
-
-bool is_inside(const Scene& scene, std::span<const std::uint32_t> body, const Light& light) {
-    return light.kind != Light::Kind::directional && // which shines from outside of all
-           winding_number(scene, body, light.position) > 0.5;
-}
-
-/// Triangles that hang together by edges, shell by shell.
-std::vector<std::vector<std::uint32_t>> shells_of(const HalfEdgeMesh& mesh, std::size_t triangles) {
-    std::vector<std::uint32_t> parent(triangles);
+std::vector<Shell> shells_of(const Scene& scene) {
+    std::vector<std::uint32_t> casters;
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::uint32_t triangle = 0; triangle < casts.size(); ++triangle)
+        if (casts[triangle] != 0) casters.push_back(triangle);
+    const HalfEdgeMesh mesh = connect(scene, weld_by_position(scene.positions), casters);
+    std::vector<std::uint32_t> parent(scene.triangles.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t triangle) {
         while (parent[triangle] != triangle) triangle = parent[triangle] = parent[parent[triangle]];
@@ -66,33 +35,38 @@ std::vector<std::vector<std::uint32_t>> shells_of(const HalfEdgeMesh& mesh, std:
     for (const HalfEdge& half_edge : mesh.half_edges)
         if (half_edge.twin != no_half_edge)
             parent[root(half_edge.triangle)] = root(mesh.half_edges[half_edge.twin].triangle);
-    std::vector<std::vector<std::uint32_t>> of_root(triangles);
-    for (std::size_t i = 0; i < mesh.half_edges.size(); i += 3)
-        of_root[root(mesh.half_edges[i].triangle)].push_back(mesh.half_edges[i].triangle);
-    std::erase_if(of_root, [](const auto& shell) { return shell.empty(); });
+    std::vector<Shell> of_root(scene.triangles.size());
+    for (std::size_t i = 0; i < mesh.half_edges.size(); ++i) {
+        const HalfEdge& half_edge = mesh.half_edges[i];
+        Shell& shell = of_root[root(half_edge.triangle)];
+        if (i % 3 == 0) shell.triangles.push_back(half_edge.triangle);
+        shell.closed = shell.closed && half_edge.twin != no_half_edge;
+    }
+    std::erase_if(of_root, [](const Shell& shell) { return shell.triangles.empty(); });
     return of_root;
 }
 
-/// Whether, with the flagged triangles turned round, every way out of the light meets a triangle
-/// that faces it before one that does not.
-bool facing_ones_throw_all_shadows(const Scene& scene,
-                                   const std::vector<std::uint8_t>& around_light) {
-    std::vector<std::uint32_t> casters;
-    const std::vector<std::uint8_t> casts = casting_triangles(scene);
-    for (std::uint32_t triangle = 0; triangle < casts.size(); ++triangle)
-        if (casts[triangle] != 0) casters.push_back(triangle);
-    const HalfEdgeMesh mesh = connect(scene, weld_by_position(scene.positions), casters);
-    const auto is_boundary = [](const Edge& edge) { return edge.twin == no_half_edge; };
-    if (std::any_of(mesh.edges.begin(), mesh.edges.end(), is_boundary)) return false;
-    const auto is_turned = [&](std::uint32_t triangle) {
-        return !around_light.empty() && around_light[triangle] != 0;
-    };
-    const std::vector<std::vector<std::uint32_t>> shells = shells_of(mesh, scene.triangles.size());
-    return std::all_of(shells.begin(), shells.end(), [&](const auto& shell) {
-        const bool turned = std::all_of(shell.begin(), shell.end(), is_turned);
-        return !encloses_negative_volume(scene, shell) &&
-               turned == is_inside(scene, shell, chosen_light(scene));
-    });
+/// Whether a shell winds around the light: the solid angles that its triangles fill as seen from
+/// there (van Oosterom & Strackee 1983) add up to more than nothing. From inside they are the whole
+/// sphere, from a point on the shell a part of it, from outside what rounding leaves: a few 2^-53 a
+/// triangle, of which millions are far less than the limit.
+bool holds_light(const Scene& scene, const Shell& shell) {
+    const Light& light = chosen_light(scene);
+    if (light.kind == Light::Kind::directional) return false; // it shines from outside of all
+    constexpr double limit = 0x1p-20;
+    double half_of_solid_angle = 0;
+    for (const std::uint32_t triangle : shell.triangles) {
+        const glm::dvec3 a = corner(scene, triangle, 0) - light.position;
+        const glm::dvec3 b = corner(scene, triangle, 1) - light.position;
+        const glm::dvec3 c = corner(scene, triangle, 2) - light.position;
+        const double la = glm::length(a);
+        const double lb = glm::length(b);
+        const double lc = glm::length(c);
+        half_of_solid_angle += std::atan2(glm::dot(a, glm::cross(b, c)),
+                                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
+                                              glm::dot(c, a) * lb);
+    }
+    return half_of_solid_angle > limit;
 }
 
 /// Meshes are left out as wholes.
@@ -104,24 +78,27 @@ void leave_out(Scene& scene, const Counting& counting) {
 
 } // namespace
 
-std::vector<std::uint8_t> triangles_around_light(const Scene& scene,
-                                                 std::span<const CasterReport> casters) {
+std::vector<std::uint8_t> triangles_around_light(const Scene& scene) {
     std::vector<std::uint8_t> flags;
-    for (const std::vector<std::uint32_t>& body : closed_bodies(scene, casters)) {
-        if (!is_inside(scene, body, chosen_light(scene))) continue;
+    for (const Shell& shell : shells_of(scene)) {
+        if (!shell.closed || !holds_light(scene, shell)) continue;
         flags.resize(scene.triangles.size(), 0);
-        for (const std::uint32_t triangle : body) flags[triangle] = 1;
+        for (const std::uint32_t triangle : shell.triangles) flags[triangle] = 1;
     }
     return flags;
 }
 
-std::vector<std::uint8_t>
-triangles_averted_from_light(const Scene& scene, const std::vector<std::uint8_t>& around_light) {
-    if (facing_ones_throw_all_shadows(scene, around_light)) return around_light;
+std::vector<std::uint8_t> triangles_to_turn(const Scene& scene) {
+    std::vector<std::uint8_t> flags;
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    std::vector<std::uint8_t> flags = casting_triangles(scene);
-    for (std::uint32_t triangle = 0; triangle < flags.size(); ++triangle)
-        if (side(scene, triangle, light) >= 0) flags[triangle] = 0;
+    for (const Shell& shell : shells_of(scene)) {
+        const bool outward = shell.closed && !encloses_negative_volume(scene, shell.triangles);
+        const bool around_light = outward && holds_light(scene, shell);
+        if (outward && !around_light) continue;
+        flags.resize(scene.triangles.size(), 0);
+        for (const std::uint32_t triangle : shell.triangles)
+            flags[triangle] = around_light || side(scene, triangle, light) < 0 ? 1 : 0;
+    }
     return flags;
 }
 

@@ -3,26 +3,22 @@
 
 #include "scenes/frame.h"
 #include "scenes/scene.h"
-#include "scenes/topology.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace shadowproof {
 
-/// A flag a triangle: of a closed caster, wound outwards, that has the chosen light inside. None of
-/// its triangles need face the light, and yet it darkens all the world around: turned round, its
-/// volumes say so. Empty where there are none. `casters`: inspect_casters.
-std::vector<std::uint8_t> triangles_around_light(const Scene& scene,
-                                                 std::span<const CasterReport> casters);
+/// A flag a triangle: of a closed shell of casters, wound outwards, that has the chosen light
+/// inside. None of its triangles need face the light, and yet it darkens all the world around:
+/// turned round, its volumes say so. Empty where there are none. A shell is what hangs together by
+/// edges.
+std::vector<std::uint8_t> triangles_around_light(const Scene& scene);
 
-/// A flag a triangle: it casts, and is averted from the chosen light. With all these turned round,
-/// every triangle throws a shadow by itself, as the truth has it: right on any polygon soup. Where
-/// `around_light` are enough, it is those: every connected shell is closed and wound outwards, and
-/// the light is in none of which they are not all.
-std::vector<std::uint8_t>
-triangles_averted_from_light(const Scene& scene, const std::vector<std::uint8_t>& around_light);
+/// The same, and of all other shells but those that are closed and wound outwards the triangles
+/// averted from the light: each of their triangles then throws a shadow by itself, as the truth has
+/// it. So every shadow is thrown, of any polygon soup, but where a closed shell crosses itself.
+std::vector<std::uint8_t> triangles_to_turn(const Scene& scene);
 
 /// The scene with open casters closed, flagged triangles turned round, and casters that are left
 /// out no longer casting. A turned triangle has its first two corners exchanged, which leaves its

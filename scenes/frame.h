@@ -41,8 +41,8 @@ struct Counting {
     bool dark_cap = true;      ///< so are they at infinity, where the projection keeps them
     int bits = 8;              ///< of the counter
     bool holes_filled = false; ///< open casters are closed before volumes are made of them
-    /// A flag a triangle of the scene: it is turned round before volumes are made, so that it casts
-    /// though it is averted from the light. Empty: none is.
+    /// A flag a triangle of the scene: its corners run the other way round where volumes are made
+    /// of it (see counted_casters.h). Empty: nowhere.
     std::vector<std::uint8_t> turned{};
     /// By how much the volumes' far ends lie further from the light than their casters, in world
     /// units; infinite: at infinity.

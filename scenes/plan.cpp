@@ -76,7 +76,7 @@ Plan make_plan(const Scene& scene) {
     plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
                                      [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
-    plan.around_light = triangles_around_light(scene, casters);
+    plan.around_light = triangles_around_light(scene);
     if (plan.around_light.empty())
         plan.left_out.push_back("turning casters round: none has the light inside");
     plan.volume_meets_near = volume_meets(scene, scene.camera.near);

@@ -15,7 +15,7 @@ struct Plan {
     bool dark_cap = true;          ///< some volume may be seen all the way to infinity
     bool volume_meets_near = true; ///< some volume may contain a point of the near rectangle
     bool volume_meets_far = true;  ///< some volume may contain a point of the far rectangle
-    /// A flag a triangle of the closed casters that have the light inside; empty where none has.
+    /// triangles_around_light: the one thing here that, where it is said, has to be done.
     std::vector<std::uint8_t> around_light{};
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
     std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line a faulty caster

@@ -130,6 +130,23 @@ std::string lost_words(const PixelRecord& record, const TechniqueAtPixel& techni
     return lost;
 }
 
+bool meets_other_volumes(const PixelRecord& record, const TechniqueAtPixel& technique) {
+    const auto same = [](const Crossing& a, const Crossing& b) {
+        return a.depth == b.depth && a.change == b.change;
+    };
+    return technique.crossings &&
+           !std::ranges::equal(*technique.crossings, record.ledger.crossings, same);
+}
+
+/// "zfail_reversed makes its volumes otherwise, and meets +1 at 3.2, -1 at 5"
+std::string other_volumes_words(const TechniqueAtPixel& technique) {
+    std::string words = "  " + technique.name + " makes its volumes otherwise, and meets";
+    for (const Crossing& crossing : *technique.crossings)
+        words += fmt::format("{} {:+} at {:.9g}", words.ends_with("meets") ? "" : ",",
+                             crossing.change, crossing.depth);
+    return words + (technique.crossings->empty() ? " none\n" : "\n");
+}
+
 std::string ray_text(const Scene& scene, const PixelRecord& record) {
     const glm::dvec3& eye = scene.camera.eye;
     std::string text = fmt::format("  ray       from {} along {}\n", vector_words(eye),
@@ -201,6 +218,8 @@ std::string techniques_text(const PixelRecord& record) {
                 : fmt::format("  {:<{}}{}", technique.name, width, printable(technique.error));
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
+    for (const TechniqueAtPixel& technique : record.techniques)
+        if (meets_other_volumes(record, technique)) text += other_volumes_words(technique);
     return text;
 }
 

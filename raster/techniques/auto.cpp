@@ -78,7 +78,7 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
         add("volumes of ", reason, [&](const CasterPlan& plan) { return plan.left_out == reason; });
     add("dark caps and counting behind the surface for ", "no volume meets the near plane",
         [](const CasterPlan& plan) { return plan.left_out.empty() && !plan.meets_near; });
-    add("light caps of ", "those that are drawn as surfaces hide none nearer than themselves",
+    add("light caps of ", "each lies in its own surface, and is never in front of what is seen",
         [&](const CasterPlan& plan) { return hides_caps(scene, plan, hidden_caps); });
     add("dark caps of ", "the volume is not seen to infinity", [](const CasterPlan& plan) {
         return plan.left_out.empty() && plan.meets_near && !plan.reaches_infinity;

@@ -8,11 +8,12 @@ namespace {
 
 /// zfail_reversed with a volume for each triangle by itself: nothing has to be known of neighbours,
 /// and the most is drawn. Those averted from the light are turned round where the light-facing ones
-/// alone would not throw all shadows, so that any polygon soup throws its own.
+/// alone would not throw all shadows: any polygon soup throws its own, but for a closed shell that
+/// crosses itself.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_triangles;
-    recipe.counting.turned = triangles_averted_from_light(scene, plan.around_light);
+    recipe.counting.turned = triangles_to_turn(scene);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 
@@ -24,7 +25,7 @@ Technique zfail_per_triangle_technique() {
             .source = "techniques without adjacency; VGP353 week 5",
             .needs = "nothing of the mesh",
             .cost = 7.09,
-            .fails_at = {Cause::precision, Cause::counter},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }
 

@@ -26,6 +26,7 @@ function timeless(results) {
     for (const cell of scene.techniques) {
       delete cell.ms;
       delete cell.saved?.ms;
+      delete cell.saved?.plan_ms;
     }
   }
   return copy;

@@ -1,7 +1,8 @@
 // Five ways to make the same volumes.
 #include "raster/render.h"
 #include "scenes/catalog.h"
-#include "scenes/topology.h"
+#include "scenes/plan.h"
+#include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,35 @@ TEST_P(Ways, all_give_the_same_stencil_bit_for_bit_where_every_caster_is_closed)
         for (std::size_t i = 0; i < frame.counter.pixels.size(); ++i)
             differing += frame.counter.pixels[i] != expected.counter.pixels[i] ? 1U : 0U;
         EXPECT_EQ(differing, 0U);
+    }
+}
+
+// A box of two-sided glass around light and eye, and so near that the near plane and the guard band
+// cut it: where its light caps were clipped otherwise than its surfaces, they would show as acne.
+TEST(TurnedCasters, have_light_caps_at_the_depths_of_their_surfaces_also_where_they_are_clipped) {
+    Scene scene = empty_scene();
+    scene.materials[0].double_sided = true;
+    add_box(scene, {-1, -0.5, -9}, {1, 0.7F, 6});
+    scene.lights[0].position = {0.13, 0.41, 4.83};
+    look_at(scene.camera, {0.31, 0.2, 5.7}, {-0.2, -0.1, 0});
+    scene.camera.near = 0.6;
+    scene.camera.width = scene.camera.height = 256;
+    const Plan plan = make_plan(scene);
+    ASSERT_FALSE(plan.around_light.empty());
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* technique :
+         {"zfail_clamp", "zfail_infinite", "zfail_reversed", "zfail_half_edge",
+          "zfail_degenerate_quads", "zfail_geometry_shader", "zfail_per_triangle", "zpass_capped",
+          "auto"}) {
+        SCOPED_TRACE(technique);
+        const Frame frame = render(*find_technique(technique), scene, plan, gpu);
+        int seen = 0;
+        for (std::size_t i = 0; i < frame.counter.pixels.size(); ++i) {
+            if (frame.triangle.pixels[i] == no_triangle) continue; // past what the near plane cuts
+            ++seen;
+            ASSERT_EQ(frame.counter.pixels[i], 0U) << i;
+        }
+        EXPECT_GT(seen, 50'000);
     }
 }
 

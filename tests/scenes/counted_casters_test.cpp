@@ -28,66 +28,86 @@ void turn_inside_out(Scene& scene) {
     for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
 }
 
-std::size_t around_light(const Scene& scene) {
-    const std::vector<std::uint8_t> flags = triangles_around_light(scene, inspect_casters(scene));
+std::size_t count(const std::vector<std::uint8_t>& flags) {
     return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
 }
 
-std::size_t averted(const Scene& scene) {
-    const std::vector<std::uint8_t> flags =
-        triangles_averted_from_light(scene, triangles_around_light(scene, inspect_casters(scene)));
-    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+/// Appends a box to the last mesh, `aside` to the right.
+void add_shell(Scene& scene, const Scene& other, float aside) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (const glm::vec3& position : other.positions)
+        scene.positions.push_back(position + glm::vec3(aside, 0, 0));
+    for (const glm::uvec3& triangle : other.triangles) scene.triangles.push_back(triangle + first);
+    scene.meshes.back().triangle_count += 12;
 }
 
-TEST(triangles_around_light, are_those_of_a_closed_caster_wound_outwards_that_holds_the_light) {
+TEST(triangles_around_light, are_those_of_a_closed_shell_wound_outwards_that_holds_the_light) {
     Scene scene = box(1);
-    EXPECT_EQ(around_light(scene), 0U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 0U);
     scene.lights[0].position = {0.3, -0.2, 0.9};
-    EXPECT_EQ(around_light(scene), 12U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 12U);
     scene.lights[0].kind = Light::Kind::directional;
-    EXPECT_EQ(around_light(scene), 0U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 0U);
     scene.lights[0].kind = Light::Kind::spot;
-    EXPECT_EQ(around_light(scene), 12U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 12U);
     Scene room = scene;
     turn_inside_out(room); // its triangles face the light as they are
-    EXPECT_EQ(around_light(room), 0U);
+    EXPECT_EQ(count(triangles_around_light(room)), 0U);
     scene.triangles.pop_back(); // open
     --scene.meshes[0].triangle_count;
-    EXPECT_EQ(around_light(scene), 0U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 0U);
 }
 
-TEST(triangles_around_light, belong_to_a_body_in_several_meshes_too) {
+TEST(triangles_around_light, are_all_of_a_body_in_several_meshes_and_none_of_another_shell) {
     Scene scene = box(1);
     scene.lights[0].position = {0.3, -0.2, 0.9};
     scene.meshes = {{"half", 0, 5, 0}, {"other half", 5, 7, 0}};
-    EXPECT_EQ(around_light(scene), 12U);
+    EXPECT_EQ(count(triangles_around_light(scene)), 12U);
+    add_shell(scene, box(0.25F), 3); // a crate elsewhere, of the same mesh
+    const std::vector<std::uint8_t> flags = triangles_around_light(scene);
+    EXPECT_EQ(count(flags), 12U);
+    EXPECT_EQ(std::count(flags.begin(), flags.begin() + 12, std::uint8_t{1}), 12);
+    Scene room = box(9);
+    turn_inside_out(room);
+    add_shell(scene, room, 0); // around all of it: the windings are +1 and -1
+    EXPECT_EQ(count(triangles_around_light(scene)), 12U);
 }
 
-TEST(triangles_averted_from_light, count_only_where_the_others_do_not_throw_every_shadow) {
+TEST(triangles_around_light, may_have_it_on_a_face_an_edge_or_a_corner) {
     Scene scene = box(1);
-    EXPECT_EQ(averted(scene), 0U); // closed, outwards, the light outside
+    for (const glm::dvec3& place :
+         {glm::dvec3(0.3, 1, 0.2), glm::dvec3(0.3, 1, 1), glm::dvec3(1, 1, 1)}) {
+        scene.lights[0].position = place;
+        EXPECT_EQ(count(triangles_around_light(scene)), 12U) << place.x << " " << place.z;
+        scene.lights[0].position = place * 1.001;
+        EXPECT_EQ(count(triangles_around_light(scene)), 0U) << place.x << " " << place.z;
+    }
+}
+
+TEST(triangles_to_turn, are_those_averted_where_the_others_do_not_throw_every_shadow) {
+    Scene scene = box(1);
+    EXPECT_EQ(count(triangles_to_turn(scene)), 0U); // closed, outwards, the light outside
     Scene inside_out = scene;
     turn_inside_out(inside_out);
-    EXPECT_EQ(averted(inside_out), 2U); // the top
+    EXPECT_EQ(count(triangles_to_turn(inside_out)), 2U); // the top
     Scene open = scene;
     open.triangles.pop_back();
     --open.meshes[0].triangle_count;
-    EXPECT_EQ(averted(open), 9U);
+    EXPECT_EQ(count(triangles_to_turn(open)), 9U);
     open.meshes[0].casts = false;
-    EXPECT_EQ(averted(open), 0U);
+    EXPECT_EQ(count(triangles_to_turn(open)), 0U);
     scene.lights[0].position = {0.3, -0.2, 0.9};
-    EXPECT_EQ(averted(scene), 12U); // the light inside: those around it are enough
+    EXPECT_EQ(count(triangles_to_turn(scene)), 12U); // the light inside
 }
 
-TEST(triangles_averted_from_light, of_one_shell_among_several_of_a_mesh) {
+TEST(triangles_to_turn, are_told_shell_by_shell) {
     Scene scene = box(1);
-    const Scene other = box(0.25F);
-    for (const glm::vec3& position : other.positions)
-        scene.positions.push_back(position + glm::vec3(3, 0, 0));
-    for (const glm::uvec3& triangle : other.triangles)
-        scene.triangles.push_back(glm::uvec3(triangle.y, triangle.x, triangle.z) + 8U);
-    scene.meshes[0].triangle_count = 24;
-    EXPECT_GT(averted(scene), 0U); // as a whole it is closed, and its volume positive
+    Scene other = box(0.25F);
+    turn_inside_out(other);
+    add_shell(scene, other, 3); // the mesh as a whole is closed, and its volume positive
+    const std::vector<std::uint8_t> flags = triangles_to_turn(scene);
+    EXPECT_EQ(count(flags), 4U); // of the small box the top, and the side towards the light
+    EXPECT_EQ(std::count(flags.begin(), flags.begin() + 12, std::uint8_t{1}), 0);
 }
 
 TEST(counted_casters, turns_flagged_triangles_by_their_first_two_corners) {

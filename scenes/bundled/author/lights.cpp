@@ -9,12 +9,12 @@ namespace shadowproof::author {
 namespace {
 
 /// Eye and light are inside a ball of glass, which is not seen from within and casts all the same:
-/// what lies outside is dark, what lies inside is lit. No triangle of the glass faces the light, so
-/// that it has no volume.
+/// what lies outside is dark, what lies inside is lit. No triangle of the glass faces the light: as
+/// it is, it has no volume.
 Stage light_inside() {
     Stage stage = looking_along_floor("light_inside",
                                       "The light stands inside a closed ball that darkens all "
-                                      "the world around it, and no volume says so.",
+                                      "the world around it, and of which no triangle faces it.",
                                       {"open_mesh"});
     stage.light.position = {-1.471, 7.377, 1.513};
     add(stage, {{.name = "glass",
