@@ -20,7 +20,7 @@ Technique invert_technique() {
             .summary = "zpass that inverts the stencil instead of counting",
             .source = "Kilgard 2001; CS448 lecture 11, parity",
             .needs = "volumes that do not overlap",
-            .cost = 0.96,
+            .cost = 0.93,
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
                          Cause::open_mesh},
             .by_nature = {Cause::parity},

@@ -24,7 +24,7 @@ Technique zfail_clamp_technique() {
             .summary = "counts volume faces behind the surface, depths clamped to near and far",
             .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
             .needs = "closed volumes, and GL_DEPTH_CLAMP",
-            .cost = 1.03,
+            .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

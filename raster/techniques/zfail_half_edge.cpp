@@ -22,7 +22,7 @@ Technique zfail_half_edge_technique() {
             .summary = "zfail_reversed with silhouettes of a half-edge mesh, holes filled",
             .source = "VGP353 week 5, half-edge meshes",
             .needs = "a half-edge mesh; holes are filled",
-            .cost = 1.00,
+            .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

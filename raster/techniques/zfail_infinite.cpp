@@ -23,7 +23,7 @@ Technique zfail_infinite_technique() {
             .summary = "counts volume faces behind the surface, under an infinite projection",
             .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
             .needs = "closed volumes",
-            .cost = 1.01,
+            .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -19,7 +19,7 @@ Technique zfail_reversed_technique() {
             .summary = "zfail_infinite with reversed floating depth and eye-relative vertices",
             .source = "Everitt & Kilgard 2002, with the depth range reversed",
             .needs = "closed volumes, glClipControl and a D32F depth buffer",
-            .cost = 1.00,
+            .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -21,7 +21,7 @@ Technique zp_plus_technique() {
             .summary = "zpass after drawing the near plane's occluders from the light",
             .source = "Hornus, Hoberock, Lefebvre & Hart 2005, ZP+",
             .needs = "a light that does not lie in the near plane",
-            .cost = 1.02,
+            .cost = 0.99,
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

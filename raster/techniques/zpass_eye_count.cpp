@@ -20,7 +20,7 @@ Technique zpass_eye_count_technique() {
             .summary = "zpass that starts from the number of volumes around the eye",
             .source = "VGP353 week 5",
             .needs = "no volume between the eye and a part of the near plane",
-            .cost = 1.02,
+            .cost = 1,
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -43,6 +43,25 @@ bool is_right(const Tracer& tracer, const Silhouette& silhouette, const GroundTr
     return comparison.differing == comparison.causes[static_cast<std::size_t>(Cause::edge)];
 }
 
+/// Null where no technique but `auto` is right.
+const Costs::value_type* quickest_right(const Costs& costs) {
+    const Costs::value_type* best = nullptr;
+    for (const auto& entry : costs) {
+        const auto& [technique, cost] = entry;
+        if (cost.right && technique != "auto" &&
+            (best == nullptr || cost.milliseconds < best->second.milliseconds))
+            best = &entry;
+    }
+    return best;
+}
+
+/// Whether `auto` took too long beside the quickest right technique, if any.
+bool is_slow(const Costs& costs, const Costs::value_type* best) {
+    return best != nullptr && costs.at("auto").milliseconds > 1.1 * best->second.milliseconds;
+}
+
+/// The quickest of many is quick by chance, too: where `auto` seems slow, all are drawn in up to
+/// four times as many rounds.
 Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
     const Plan plan = make_plan(scene);
     const Tracer tracer(scene);
@@ -51,7 +70,10 @@ Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
     const Silhouette silhouette(tracer);
     Costs costs;
     double quickest = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < rounds; ++round)
+    const auto asks_for_more = [&](int round) {
+        return round < rounds || (round < 4 * rounds && is_slow(costs, quickest_right(costs)));
+    };
+    for (int round = 0; asks_for_more(round); ++round)
         for (const Technique& technique : all_techniques()) {
             Cost& cost = costs[technique.name];
             // What is far behind need not be known so well.
@@ -95,18 +117,6 @@ void add(std::map<std::string_view, Sums>& sums, const Costs& costs) {
     }
 }
 
-/// Null where no technique but `auto` is right.
-const Costs::value_type* quickest_right(const Costs& costs) {
-    const Costs::value_type* best = nullptr;
-    for (const auto& entry : costs) {
-        const auto& [technique, cost] = entry;
-        if (cost.right && technique != "auto" &&
-            (best == nullptr || cost.milliseconds < best->second.milliseconds))
-            best = &entry;
-    }
-    return best;
-}
-
 /// How `auto` fared on all scenes.
 struct Record {
     int wrong = 0;          ///< scenes, where zfail_reversed is right
@@ -118,7 +128,7 @@ void add(Record& record, const Costs& costs, const Costs::value_type* best) {
     const Cost& whole = costs.at("zfail_reversed");
     const Cost& chosen = costs.at("auto");
     record.wrong += whole.right && !chosen.right ? 1 : 0;
-    record.slow += best != nullptr && chosen.milliseconds > 1.1 * best->second.milliseconds ? 1 : 0;
+    record.slow += is_slow(costs, best) ? 1 : 0;
     record.most_gained = std::max(record.most_gained, whole.milliseconds / chosen.milliseconds);
 }
 
