@@ -30,7 +30,9 @@ struct NearCut {
 NearCut cut_at_near_plane(const Scene& scene, std::span<const std::uint32_t> welded,
                           std::span<const std::uint32_t> facing);
 
-/// Depths of the scene are drawn into [ledge, 1], which leaves the caps a ledge in front of it.
+/// Depths of the scene are drawn into [ledge, 1], which leaves the caps a ledge in front of it: a
+/// steep surface that the near plane cuts is extrapolated to pixels that its corners were snapped
+/// over, and comes out in front of that plane.
 inline constexpr double ledge = 0x1p-6;
 
 /// The near distance of a projection whose depths, drawn into [0, 1], equal those of the near

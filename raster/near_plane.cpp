@@ -28,7 +28,8 @@ struct Capped {
     Program cap_program;
     VertexArray points;
     Buffer point_buffer;
-    Triangles cut;
+    Triangles cut_sides;
+    Triangles near_caps;
     Triangles light_caps;
     Triangles turned_caps;
 };
@@ -58,24 +59,29 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
             make_filled_buffer(gl, std::array{std::as_bytes(std::span(cut.points))});
         gl.VertexArrayVertexBuffer(made->points.name(), 0, made->point_buffer.name(), 0,
                                    sizeof(glm::vec4));
-        made->cut = upload_triangles(gl, std::array{std::span<const glm::uvec3>(cut.sides),
-                                                    std::span<const glm::uvec3>(cut.caps)});
         for (const std::uint32_t triangle : volume.facing)
             volume.light_cap.push_back(scene.triangles[triangle]);
         set_special_caps(special, volume);
-        const auto upload = [&](const std::vector<glm::uvec3>& caps) {
-            return upload_triangles(gl, std::array{std::span<const glm::uvec3>(caps)});
+        const auto upload = [&](const std::vector<glm::uvec3>& triangles) {
+            return upload_triangles(gl, std::array{std::span<const glm::uvec3>(triangles)});
         };
+        made->cut_sides = upload(cut.sides);
+        made->near_caps = upload(cut.caps);
         made->light_caps = upload(volume.light_cap);
         made->turned_caps = upload(volume.turned_caps);
     };
     const auto draw = [&gl, &geometry, made] {
-        gl.DepthRange(0, 1);
         gl.UseProgram(made->cut_program.name());
         gl.BindVertexArray(made->points.name());
-        gl.VertexArrayElementBuffer(made->points.name(), made->cut.buffer.name());
-        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * made->cut.count), GL_UNSIGNED_INT,
-                        nullptr);
+        const auto draw_cut = [&](const Triangles& triangles) {
+            gl.VertexArrayElementBuffer(made->points.name(), triangles.buffer.name());
+            gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles.count),
+                            GL_UNSIGNED_INT, nullptr);
+        };
+        gl.DepthRange(0, 1);
+        draw_cut(made->cut_sides);
+        gl.DepthRange(0, 0); // at the front of the ledge
+        draw_cut(made->near_caps);
         gl.DepthRange(ledge, 1);
         gl.BindVertexArray(geometry.vertices.name());
         gl.UseProgram(made->cap_program.name());

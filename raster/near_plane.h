@@ -8,8 +8,8 @@
 
 namespace shadowproof {
 
-/// The volumes' sides beyond the near plane and the caps on it, drawn onto the ledge before the
-/// scene's depths; then the light caps among the scene's. The scene must be drawn into
+/// The volumes' sides beyond the near plane, among the scene's depths; the caps on it, drawn at the
+/// front of the ledge before them; then the light caps. The scene must be drawn into
 /// [ledge, 1] (near_cap.h). Finite projections only. Kilgard 2001.
 VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
                             const ClipTransform& transform, const DepthModel& depth_model,

@@ -1,5 +1,7 @@
 #include "raster/near_cap.h"
+#include "raster/render.h"
 #include "raster/volume.h"
+#include "scenes/plan.h"
 #include "scenes/topology.h"
 #include "tests/raster/small_scenes.h"
 
@@ -91,6 +93,37 @@ TEST(NearCap, caps_and_sides_meet_without_a_crack_wherever_the_light_is) {
         }
     }
     EXPECT_GT(caps, 100U);
+}
+
+// A face so steep that at pixel (87, 21), whose centre lies beside it but for the snapping of its
+// corners, it comes out in front of the near plane that cuts it: the cap has to be before it still.
+TEST(NearCap, lies_before_a_surface_that_comes_out_in_front_of_the_near_plane) {
+    Scene scene = empty_scene();
+    scene.materials[0].double_sided = true;
+    scene.positions = {
+        {1.88457453F, 1.35104215F, -2.94655919F},  {1.20788968F, 1.00289631F, -3.30888104F},
+        {1.20788968F, 0.16336228F, -2.50219393F},  {1.88457453F, 0.511508167F, -2.13987231F},
+        {1.37564731F, 1.8259089F, -2.45235658F},   {0.69896251F, 1.47776306F, -2.81467843F},
+        {0.69896251F, 0.638229072F, -2.00799155F}, {1.37564731F, 0.986374915F, -1.64566958F}};
+    scene.triangles = {{0, 3, 2}, {0, 2, 1}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                       {3, 7, 6}, {3, 6, 2}, {0, 4, 7}, {0, 7, 3}, {1, 2, 6}, {1, 6, 5}};
+    scene.meshes = {{"box", 0, 12, 0}};
+    scene.lights[0].position = {0.07975326501338587, 1.2650617683428236, -0.9577041016370007};
+    Camera& camera = scene.camera;
+    camera.eye = {2.701567330998542, 0.7548501133101488, -3.7439834961615084};
+    camera.right = {-0.8393343077018764, 0.0, -0.5436155994033023};
+    camera.up = {0.0746628438490103, 0.9905232816627989, -0.11527830772672579};
+    camera.forward = {-0.5384639074840485, 0.13734492522099018, 0.8313801728770361};
+    camera.tan_half_height = std::tan(0.45);
+    camera.near = 1.5;
+    camera.width = camera.height = 128;
+    Gpu gpu(GlPlatform::osmesa);
+    const Plan plan = make_plan(scene);
+    const Frame capped = render(*find_technique("zpass_capped"), scene, plan, gpu);
+    ASSERT_NE(capped.triangle.at(87, 21), no_triangle);
+    EXPECT_LT(capped.depth.at(87, 21), ledge);
+    EXPECT_EQ(capped.counter.at(87, 21), capped.counter.at(86, 21));
+    EXPECT_NE(capped.counter.at(87, 21), 0U);
 }
 
 } // namespace
