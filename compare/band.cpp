@@ -107,7 +107,10 @@ private:
         return range;
     }
 
-    CoveredPixel covered_pixel() const { return {around_.rays.front(), around_.reach, clip_far()}; }
+    CoveredPixel covered_pixel() const {
+        const double offset = frame_.depth_model.eye_relative ? 0 : glm::length(scene_.camera.eye);
+        return {around_.rays.front(), around_.reach, clip_far(), offset};
+    }
     /// The far plane's depth where it clips.
     double clip_far() const {
         return frame_.depth_model.finite() && !frame_.counting.depth_clamp ? far_ : infinity;

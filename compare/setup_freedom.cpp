@@ -43,13 +43,23 @@ Polygon clipped(const Polygon& polygon, const glm::dvec4& plane) {
 struct PicturePoint {
     glm::dvec2 place{0, 0};
     double inverse_depth = 0;
+    double place_error = 0; ///< of the float transform, as lateral_freedom has it
+    double depth_error = 0; ///< of it and the window's roundings, as depth_freedom has it
 };
 
-PicturePoint pictured(const Camera& camera, const glm::dvec4& view) {
+PicturePoint pictured(const Camera& camera, const glm::dvec4& view, double offset) {
     const glm::dvec2 half = half_extent(camera);
-    return {{(view.x / view.z / half.x + 1) * 0.5 * camera.width,
-             (1 - view.y / view.z / half.y) * 0.5 * camera.height},
-            view.w / view.z};
+    PicturePoint point{{(view.x / view.z / half.x + 1) * 0.5 * camera.width,
+                        (1 - view.y / view.z / half.y) * 0.5 * camera.height},
+                       view.w / view.z};
+    const double terms = 2 * (std::sqrt(3.0) * glm::length(glm::dvec3(view)) + view.w * offset);
+    const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
+                                    double(camera.width), double(camera.height)});
+    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double relative = 5 * v * terms / view.z;
+    point.place_error = relative * (scale + pixels) + 3 * v * pixels;
+    point.depth_error = (relative + 8 * v) * point.inverse_depth;
+    return point;
 }
 
 using PictureTriangle = std::array<PicturePoint, 3>;
@@ -58,7 +68,7 @@ using PictureTriangle = std::array<PicturePoint, 3>;
 /// picture's size, as Mesa's draw module has it (draw_pt_post_vs: x and y to twice w); what is left
 /// is a fan.
 std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
-                                    double far) {
+                                    const CoveredPixel& pixel) {
     const glm::dvec2 guard = 2.0 * half_extent(camera);
     Polygon polygon;
     for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner));
@@ -66,11 +76,12 @@ std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::
                                     glm::dvec4(-1, 0, guard.x, 0), glm::dvec4(0, 1, guard.y, 0),
                                     glm::dvec4(0, -1, guard.y, 0)})
         polygon = clipped(polygon, plane);
-    if (std::isfinite(far)) polygon = clipped(polygon, glm::dvec4(0, 0, -1, far));
+    if (std::isfinite(pixel.far)) polygon = clipped(polygon, glm::dvec4(0, 0, -1, pixel.far));
     std::vector<PictureTriangle> fan;
     for (std::size_t i = 2; i < polygon.size(); ++i)
-        fan.push_back({pictured(camera, polygon[0]), pictured(camera, polygon[i - 1]),
-                       pictured(camera, polygon[i])});
+        fan.push_back({pictured(camera, polygon[0], pixel.offset),
+                       pictured(camera, polygon[i - 1], pixel.offset),
+                       pictured(camera, polygon[i], pixel.offset)});
     return fan;
 }
 
@@ -99,24 +110,50 @@ bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double 
 // difference of the two (5 v), 1 / A alike in all terms; in A two differences and a product (3 v of
 // each of its terms), and their difference (v). An error that is alike in all terms turns the plane
 // about the first corner by so much of what it climbs to the pixel. The sums at the picture's
-// corner and at the pixel round products of slopes and places: three times each.
-double freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
-    const glm::dvec2 d01 = triangle[0].place - triangle[1].place;
-    const glm::dvec2 d20 = triangle[2].place - triangle[0].place;
-    const double z01 = triangle[0].inverse_depth - triangle[1].inverse_depth;
-    const double z20 = triangle[2].inverse_depth - triangle[0].inverse_depth;
+// corner and at the pixel round products of slopes and places: three times each, and the first
+// one's twice more.
+double freedom_from(const PicturePoint& first, const PicturePoint& second,
+                    const PicturePoint& third, const glm::dvec2& pixel) {
+    const glm::dvec2 d01 = first.place - second.place;
+    const glm::dvec2 d20 = third.place - first.place;
+    const double z01 = first.inverse_depth - second.inverse_depth;
+    const double z20 = third.inverse_depth - first.inverse_depth;
     const double area = std::abs(cross(d01, d20));
-    // Seen edge-on; or an end at infinity in no direction at all, so that the area is not a number.
-    if (!(area > 0)) return std::numeric_limits<double>::infinity();
     const glm::dvec2 terms(std::abs(z01 * d20.y) + std::abs(z20 * d01.y),
                            std::abs(z20 * d01.x) + std::abs(z01 * d20.x));
     const glm::dvec2 slope(std::abs(z01 * d20.y - z20 * d01.y) / area,
                            std::abs(z20 * d01.x - z01 * d20.x) / area);
-    const glm::dvec2 way = glm::abs(pixel - triangle[0].place);
-    const double climb = std::max(std::abs(z01), std::abs(z20));
+    const glm::dvec2 way = glm::abs(pixel - first.place);
+    const double climb = std::max({std::abs(z01), std::abs(z20), glm::dot(slope, way)});
     const double terms_of_area = std::abs(d01.x * d20.y) + std::abs(d20.x * d01.y);
     return 5 * v * glm::dot(terms / area, way) + v * (3 * terms_of_area / area + 2) * climb +
-           3 * v * glm::dot(slope, glm::abs(triangle[0].place) + glm::abs(pixel));
+           v * glm::dot(slope, 5.0 * glm::abs(first.place) + 3.0 * glm::abs(pixel));
+}
+
+/// Which corner is the first hangs on the driver: any may be. Corners are off, too, each by as much
+/// as it weighs at the pixel: by more than one in sum where snapping makes a triangle cover what
+/// lies beside it, and by far more where that is thin.
+double freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+    const auto& [a, b, c] = triangle;
+    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
+    // Seen edge-on; or an end at infinity in no direction at all, so that the area is not a number.
+    if (!(area > 0)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 d01 = a.place - b.place;
+    const glm::dvec2 d20 = c.place - a.place;
+    const double z01 = a.inverse_depth - b.inverse_depth;
+    const double z20 = c.inverse_depth - a.inverse_depth;
+    const double slope =
+        glm::length(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area;
+    double corners = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2 from = triangle[(i + 1) % 3].place;
+        const glm::dvec2 along = triangle[(i + 2) % 3].place - from;
+        const double weight =
+            (std::abs(cross(along, pixel - from)) + reach * glm::length(along)) / area;
+        corners += weight * (triangle[i].depth_error + slope * triangle[i].place_error);
+    }
+    return corners + std::max({freedom_from(a, b, c, pixel), freedom_from(b, c, a, pixel),
+                               freedom_from(c, a, b, pixel)});
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
@@ -126,7 +163,7 @@ double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>&
     double covering = -1;
     double any = 0;
     for (const PictureTriangle& triangle : triangles) {
-        const double freedom = freedom_of(triangle, place);
+        const double freedom = freedom_of(triangle, place, pixel.reach);
         any = std::max(any, freedom);
         if (may_reach(triangle, place, pixel.reach)) covering = std::max(covering, freedom);
     }
@@ -137,8 +174,7 @@ double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>&
 
 double setup_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}, pixel.far),
-                           pixel);
+    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}, pixel), pixel);
 }
 
 // A side is two triangles. Which diagonal parts them hangs on the order of positions: both are
@@ -162,7 +198,7 @@ double setup_freedom(const Scene& casters, const std::vector<glm::vec3>* far_end
         for (const std::array<glm::dvec4, 3>& half :
              {std::array{start(one), start(other), end(other)},
               std::array{start(one), end(other), end(one)}})
-            for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel.far))
+            for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel))
                 triangles.push_back(triangle);
     return largest_freedom(casters.camera, triangles, pixel);
 }

@@ -17,6 +17,7 @@ struct CoveredPixel {
     glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
     double reach = 0;              ///< pixels by which a face may be drawn aside
     double far = std::numeric_limits<double>::infinity(); ///< depth of a far plane that clips
+    double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
 };
 
 /// Error of the inverse of a triangle's view depth at a pixel. Infinite where the triangle is seen
