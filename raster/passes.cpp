@@ -297,6 +297,14 @@ void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Trian
                     reinterpret_cast<const void*>(std::size_t{3} * sizeof(GLuint) * first));
 }
 
+void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Triangles& faces) {
+    constexpr std::uint32_t most_at_once = 1U << 18U;
+    for (std::uint32_t first = 0; first < faces.count; first += most_at_once) {
+        if (first > 0) gl.Finish();
+        draw_triangles(gl, geometry, faces, first, std::min(faces.count - first, most_at_once));
+    }
+}
+
 void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil) {

@@ -105,6 +105,11 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
 void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
                     std::uint32_t first, std::uint32_t count);
 
+/// Draws so many at once that a driver in software does not fill its memory with what it has yet to
+/// draw: llvmpipe sorts triangles into tiles faster than it draws them, and keeps up to 64 scenes
+/// of 36 MB. Primitives are numbered anew in each draw.
+void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Triangles& faces);
+
 /// State that holds for a whole frame: how depth is made, which side is the front.
 void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
                  const DepthModel& depth_model, bool depth_clamp);

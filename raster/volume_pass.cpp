@@ -49,12 +49,12 @@ VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
             .draw =
                 [made, making] {
                     making.gl.UseProgram(made->program.name());
-                    draw_triangles(making.gl, making.geometry, made->faces, 0, made->faces.count);
+                    draw_volume_faces(making.gl, making.geometry, made->faces);
                 },
             .draw_turned =
                 [made, making] {
                     making.gl.UseProgram(made->program.name());
-                    draw_triangles(making.gl, making.geometry, made->turned, 0, made->turned.count);
+                    draw_volume_faces(making.gl, making.geometry, made->turned);
                 },
             .programs = {made->program.name()}};
 }
