@@ -284,7 +284,7 @@ private:
         };
         if (move == 0) add(nominal, false);
         for (const std::int32_t other : starts_)
-            for (const std::int64_t count : possible_counts(faces, other, last))
+            for (const std::int64_t count : counts_with_uncertain(faces, other, last))
                 add(count, count != nominal);
     }
 
@@ -297,45 +297,13 @@ private:
     }
 
     /// All values that the counter may have with uncertain faces counted or not.
-    std::vector<std::int64_t> possible_counts(const std::vector<Candidate>& faces,
-                                              std::int64_t start, std::int64_t last) const {
-        std::vector<Crossing> drawn;
-        std::vector<Candidate> uncertain;
-        for (const Candidate& face : faces) {
-            if (!face.certain)
-                uncertain.push_back(face);
-            else if (face.nominally)
-                drawn.push_back(face.crossing);
-        }
-        std::vector<std::int64_t> counts;
-        if (frame_.counting.operation == Counting::Operation::saturate) {
-            while (uncertain.size() > most_subsets) {
-                if (uncertain.back().nominally) drawn.push_back(uncertain.back().crossing);
-                uncertain.pop_back();
-            }
-            for (std::size_t subset = 0; subset < std::size_t{1} << uncertain.size(); ++subset) {
-                std::vector<Crossing> with = drawn;
-                for (std::size_t i = 0; i < uncertain.size(); ++i)
-                    if ((subset >> i & 1U) != 0) with.push_back(uncertain[i].crossing);
-                counts.push_back(counted_in_order(with, start, last, frame_.counting));
-            }
-            return counts;
-        }
-        const std::int64_t certain = counted_in_order(drawn, start, last, frame_.counting);
-        std::int64_t least = certain;
-        std::int64_t most = certain;
-        for (const auto& [crossing, nominally, certain_] : uncertain) {
-            const int step = weight(frame_.counting, crossing) * crossing.change;
-            (step < 0 ? least : most) += step;
-        }
-        for (std::int64_t count = least; count <= most; ++count) counts.push_back(count);
-        return counts;
+    std::vector<std::int64_t> counts_with_uncertain(const std::vector<Candidate>& faces,
+                                                    std::int64_t start, std::int64_t last) const {
+        std::vector<PossibleFace> possible;
+        for (const Candidate& face : faces)
+            if (!face.certain || face.nominally) possible.push_back({face.crossing, face.certain});
+        return possible_counts(std::move(possible), start, last, frame_.counting);
     }
-
-    /// Where every face's place in the order of drawing matters, their subsets are tried one by
-    /// one: of so many faces at most, the nearest to the eye; others are left as they come out
-    /// nominally.
-    static constexpr std::size_t most_subsets = 8;
 };
 
 void sort_out(std::vector<Reading>& readings) {

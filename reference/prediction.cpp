@@ -5,6 +5,7 @@
 #include "reference/tally.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -93,10 +94,10 @@ std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
 
 } // namespace
 
-std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
-                              std::int64_t dark_caps, const Counting& counting) {
+std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
+                                          std::int64_t dark_caps, const Counting& counting) {
     // Caps of turned triangles are drawn among the turned faces.
-    for (Crossing& face : faces)
+    for (auto& [face, certain] : faces)
         if (face.part == Crossing::Part::light_cap && face.triangle < counting.turned.size())
             face.turned = counting.turned[face.triangle] != 0;
     const auto key = [](const Crossing& crossing) {
@@ -107,19 +108,34 @@ std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
     // In any order the sum is the same, unless it stops at a limit on its way.
     if (counting.operation == Counting::Operation::saturate)
         std::stable_sort(faces.begin(), faces.end(),
-                         [&](const Crossing& a, const Crossing& b) { return key(a) < key(b); });
-    std::int64_t count = start;
+                         [&](const auto& a, const auto& b) { return key(a.face) < key(b.face); });
+    std::set<std::int64_t> counts{start};
+    const auto step = [&](int by, bool certain) {
+        std::set<std::int64_t> after;
+        for (const std::int64_t count : counts) {
+            after.insert(stepped(count, by, counting));
+            if (!certain) after.insert(count);
+        }
+        counts = std::move(after);
+    };
     auto face = faces.begin();
     const auto count_while = [&](bool turned) {
-        for (; face != faces.end() && (turned || !face->turned); ++face)
-            count = stepped(count, weight(counting, *face) * face->change, counting);
+        for (; face != faces.end() && (turned || !face->face.turned); ++face)
+            step(weight(counting, face->face) * face->face.change, face->certain);
     };
     if (counting.operation != Counting::Operation::saturate) count_while(true);
     count_while(false);
-    for (std::int64_t i = 0; i < dark_caps; ++i)
-        count = stepped(count, -weight(Counting::Test::depth_fail), counting);
+    for (std::int64_t i = 0; i < dark_caps; ++i) step(-weight(Counting::Test::depth_fail), true);
     count_while(true);
-    return count;
+    return {counts.begin(), counts.end()};
+}
+
+std::int64_t counted_in_order(const std::vector<Crossing>& faces, std::int64_t start,
+                              std::int64_t dark_caps, const Counting& counting) {
+    std::vector<PossibleFace> certain;
+    certain.reserve(faces.size());
+    for (const Crossing& face : faces) certain.push_back({face, true});
+    return possible_counts(std::move(certain), start, dark_caps, counting).front();
 }
 
 std::int64_t counted(const CountedRay& ray, double far, const Counting& counting,
@@ -130,7 +146,7 @@ std::int64_t counted(const CountedRay& ray, double far, const Counting& counting
             drawn.push_back(crossing);
     // A ray that ends inside volumes leaves them through their dark caps at infinity.
     const bool caps = tally_of_dark_caps(counting, depth_model) == Tally::counted;
-    return counted_in_order(std::move(drawn), start_of(counting, ray.at_eye, ray.at_near),
+    return counted_in_order(drawn, start_of(counting, ray.at_eye, ray.at_near),
                             caps ? dark_caps_at_infinity(counting, ray.at_eye, ray.crossings) : 0,
                             counting);
 }

@@ -30,10 +30,20 @@ std::string_view name_of(Counting::Start start);         ///< "near_plane"
 /// What the counter holds before the first face.
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);
 
-/// The counter that began with `start` after `faces`, in any order, and `dark_caps` at infinity,
-/// drawn as they are: sides and caps, then the sides that are turned. A wrapping counter is left to
-/// run on, and wraps where it is stored.
-std::int64_t counted_in_order(std::vector<Crossing> faces, std::int64_t start,
+/// A face that may be counted, or certainly is.
+struct PossibleFace {
+    Crossing face;
+    bool certain = true;
+};
+
+/// All values of a counter that began with `start` after `faces`, in any order, and `dark_caps` at
+/// infinity, drawn as they are: sides and caps, then the turned ones. A wrapping counter is left to
+/// run on, and wraps where it is stored. In rising order; linear in faces times values.
+std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
+                                          std::int64_t dark_caps, const Counting& counting);
+
+/// The one value where all faces are certain.
+std::int64_t counted_in_order(const std::vector<Crossing>& faces, std::int64_t start,
                               std::int64_t dark_caps, const Counting& counting);
 
 /// The counter after all faces along a ray.
