@@ -109,7 +109,8 @@ private:
 
     CoveredPixel covered_pixel() const {
         const double offset = frame_.depth_model.eye_relative ? 0 : glm::length(scene_.camera.eye);
-        return {around_.rays.front(), around_.reach, clip_far(), offset};
+        const double near = frame_.counting.depth_clamp ? 0 : scene_.camera.near;
+        return {around_.rays.front(), around_.reach, near, clip_far(), offset};
     }
     /// The far plane's depth where it clips.
     double clip_far() const {

@@ -72,7 +72,7 @@ std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::
     const glm::dvec2 guard = 2.0 * half_extent(camera);
     Polygon polygon;
     for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner));
-    for (const glm::dvec4& plane : {glm::dvec4(0, 0, 1, -camera.near), glm::dvec4(1, 0, guard.x, 0),
+    for (const glm::dvec4& plane : {glm::dvec4(0, 0, 1, -pixel.near), glm::dvec4(1, 0, guard.x, 0),
                                     glm::dvec4(-1, 0, guard.x, 0), glm::dvec4(0, 1, guard.y, 0),
                                     glm::dvec4(0, -1, guard.y, 0)})
         polygon = clipped(polygon, plane);

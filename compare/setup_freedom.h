@@ -16,7 +16,8 @@ namespace shadowproof {
 struct CoveredPixel {
     glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
     double reach = 0;              ///< pixels by which a face may be drawn aside
-    double far = std::numeric_limits<double>::infinity(); ///< depth of a far plane that clips
+    double near = 0; ///< depths of planes that clip; 0 where depths are clamped instead
+    double far = std::numeric_limits<double>::infinity();
     double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
 };
 
