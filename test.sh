@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Sets up, builds with warnings as errors, and runs all tests: ./test.sh [CTEST ARGUMENTS...]
-# PRESET=asan-ubsan or tsan takes another preset than dev.
+# PRESET=asan-ubsan or tsan takes another preset than dev; TARGET=name builds no more than that.
 set -euo pipefail
 cd "$(dirname "$0")"
 preset=${PRESET:-dev}
 ./setup.sh test
 cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset"
+cmake --build --preset "$preset" ${TARGET:+--target "$TARGET"}
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
