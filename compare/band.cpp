@@ -1,7 +1,6 @@
 #include "compare/band.h"
 
-#include "compare/freedom.h"
-#include "compare/setup_freedom.h"
+#include "compare/face_depths.h"
 #include "reference/tally.h"
 
 #include <algorithm>
@@ -9,8 +8,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <optional>
-#include <unordered_map>
+#include <tuple>
 
 namespace shadowproof {
 
@@ -18,26 +18,18 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Depth at which a ray meets a triangle's plane; infinite where that is behind the eye.
-double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
-    const glm::dvec3 a = corner(scene, triangle, 0);
-    const glm::dvec3 normal =
-        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
-    const double depth = glm::dot(a - scene.camera.eye, normal) / glm::dot(direction, normal);
-    return depth > 0 ? depth : infinity;
+/// In order, without repetition.
+void sort_out(std::vector<Reading>& readings) {
+    const auto key = [](const Reading& r) {
+        return std::array<std::int64_t, 5>{r.count, r.ideal, r.at_eye, r.in_cone, r.by_rounding};
+    };
+    std::sort(readings.begin(), readings.end(),
+              [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
+    readings.erase(
+        std::unique(readings.begin(), readings.end(),
+                    [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
+        readings.end());
 }
-
-/// The range of view depths that the rasterizer may give to a face.
-struct DepthRange {
-    double nominal = 0; ///< on the sample's own ray
-    double lower = 0;
-    double upper = 0;
-
-    void include(double depth, double freedom) {
-        lower = std::min(lower, depth - freedom);
-        upper = std::max(upper, depth + freedom);
-    }
-};
 
 /// Finds the readings of one pixel, sample by sample. Which faces cover the pixel is what a sample
 /// decides; their depths there are those of their planes, which the sideways freedom moves too: by
@@ -47,8 +39,9 @@ public:
     BandFinder(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame, double far,
                std::uint32_t shown, const Neighbourhood& around, std::span<const RayTruth> truth)
         : tracer_(tracer), volumes_(volumes), scene_(tracer.scene()), frame_(frame), far_(far),
-          shown_(shown), around_(around) {
-        shown_range_ = shown == no_triangle ? background_range() : surface_range(shown);
+          shown_(shown), around_(around),
+          depths_(tracer.scene(), {volumes.casters, volumes.far_ends}, frame, far, around) {
+        shown_range_ = shown == no_triangle ? depths_.background() : depths_.surface(shown);
         may_cover_ =
             shown != no_triangle && may_cover(scene_, shown, around.rays.front(), spread(around));
         std::vector<std::uint32_t> in_front;
@@ -59,7 +52,7 @@ public:
         starts_ = starts();
     }
 
-    /// Appends what the counter may read if the pixel is covered as sample i is: nothing where the
+    /// Finds what the counter may read if the pixel is covered as sample i is: nothing where the
     /// shown surface cannot be seen there.
     void collect(std::size_t i, const RayTruth& truth, std::vector<Reading>& readings) {
         bool moved = false;
@@ -71,6 +64,42 @@ public:
         const std::int64_t ideal = ideal_depth(direction);
         volumes_.counted.crossings(direction, crossings_);
         for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);
+        sort_out(readings);
+        turn_volumes_at_light(readings);
+    }
+
+    /// Appends what a counter that stops at its limits may read where each face comes out as one
+    /// of the samples has it: snapping moves every corner by itself, and a step down that is met on
+    /// no single ray together with the step up that follows changes where the counter stops. In sum
+    /// the faces are those of some sample, as the volumes stay closed.
+    void collect_mixed(std::span<const RayTruth> truth, std::vector<Reading>& readings) {
+        std::vector<Sum> sums;
+        std::map<FaceKey, Candidate> faces;
+        bool first = true;
+        for (std::size_t i = 0; i < around_.rays.size(); ++i) {
+            const glm::dvec3& direction = around_.rays[i];
+            bool moved = false;
+            const std::optional<double> depth = shown_depth(truth[i], direction, moved);
+            if (!depth) continue;
+            shown_range_.nominal = *depth;
+            const std::int64_t ideal = ideal_depth(direction);
+            volumes_.counted.crossings(direction, crossings_);
+            std::map<FaceKey, Candidate> here;
+            for (const Candidate& face : candidates(direction, 0)) {
+                if (face.certain && !face.nominally) continue;
+                const auto [same, is_new] = here.emplace(key_of(face.crossing), face);
+                if (!is_new) same->second.crossing.change += face.crossing.change;
+            }
+            add_sums(here, ideal, truth[i].in_cone, sums);
+            merge(here, first, faces);
+            first = false;
+        }
+        std::vector<PossibleFace> possible;
+        for (const auto& [key, face] : faces) possible.push_back({face.crossing, face.certain});
+        for (const Sum& sum : sums)
+            for (const std::int64_t count : possible_counts_of_sum(
+                     possible, sum.start, sum.dark_caps, frame_.counting, sum.sum))
+                readings.push_back({count, sum.ideal, volumes_.ideal_at_eye, sum.in_cone, false});
     }
 
 private:
@@ -87,66 +116,10 @@ private:
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
     bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
     std::vector<Crossing> crossings_;  ///< of the sample at hand
-    mutable std::unordered_map<std::uint32_t, double> setup_of_side_; ///< by Crossing::edge
-    mutable std::unordered_map<std::uint32_t, double> setup_of_triangle_;
+    FaceDepths depths_;
 
     bool certainly_in_front(std::uint32_t triangle) const {
-        return surface_range(triangle).upper < shown_range_.lower;
-    }
-
-    /// A triangle's plane over the neighbourhood, with the depth format's freedom.
-    DepthRange surface_range(std::uint32_t triangle) const {
-        DepthRange range{0, infinity, 0};
-        const double setup = setup_error(triangle);
-        for (const glm::dvec3& direction : around_.corners) {
-            const double t = plane_depth(scene_, triangle, direction);
-            const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
-            const double slope_error = std::isfinite(t) ? setup * t * t : 0;
-            range.include(t, depth_freedom(scene_, frame_.depth_model, point) + slope_error);
-        }
-        return range;
-    }
-
-    CoveredPixel covered_pixel() const {
-        const double offset = frame_.depth_model.eye_relative ? 0 : glm::length(scene_.camera.eye);
-        const double near = frame_.counting.depth_clamp ? 0 : scene_.camera.near;
-        return {around_.rays.front(), around_.reach, near, clip_far(), offset};
-    }
-    /// The far plane's depth where it clips.
-    double clip_far() const {
-        return frame_.depth_model.finite() && !frame_.counting.depth_clamp ? far_ : infinity;
-    }
-
-    /// As setup_freedom has it, once for each edge and triangle at this pixel.
-    double setup_error(const Crossing& side) const {
-        const auto [known, is_new] = setup_of_side_.try_emplace(side.edge, 0.0);
-        if (is_new)
-            known->second =
-                setup_freedom(volumes_.casters, volumes_.far_ends, side, covered_pixel());
-        return known->second;
-    }
-    double setup_error(std::uint32_t triangle) const {
-        const auto [known, is_new] = setup_of_triangle_.try_emplace(triangle, 0.0);
-        if (is_new) known->second = setup_freedom(scene_, triangle, covered_pixel());
-        return known->second;
-    }
-
-    /// A volume face's plane over the neighbourhood: on a ray D it is met at a depth that is
-    /// inverse to D . plane; not at all where that changes its sign.
-    DepthRange face_range(const Crossing& crossing, const glm::dvec3& direction) const {
-        DepthRange range{crossing.depth, crossing.depth, crossing.depth};
-        // Light caps that may be in front are culled surfaces, or fill holes.
-        if (crossing.is_side())
-            range.include(crossing.depth, setup_error(crossing) * crossing.depth * crossing.depth);
-        else if (crossing.triangle < scene_.triangles.size())
-            range.include(crossing.depth,
-                          setup_error(crossing.triangle) * crossing.depth * crossing.depth);
-        const double here = glm::dot(direction, crossing.plane);
-        for (const glm::dvec3& other : around_.corners) {
-            const double ratio = here / glm::dot(other, crossing.plane);
-            range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
-        }
-        return range;
+        return depths_.surface(triangle).upper < shown_range_.lower;
     }
 
     /// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen
@@ -164,26 +137,14 @@ private:
         return depth;
     }
 
-    /// The cleared depth: the far plane, or infinity, where a standard projection's depths round
-    /// to 1 as soon as n / t is within the error of 1.
-    DepthRange background_range() const {
-        const DepthModel& model = frame_.depth_model;
-        if (model.projection == DepthModel::Projection::infinite_reversed)
-            return {infinity, infinity, infinity};
-        if (model.projection == DepthModel::Projection::infinite)
-            return {infinity, model.near / depth_roundings, infinity};
-        const glm::dvec3 point = scene_.camera.eye + far_ * scene_.camera.forward;
-        const double q = depth_freedom(scene_, model, point);
-        return {far_, far_ - q, far_ + q};
-    }
-
     /// A light cap covers what its own surface covers, at the same depth bit for bit: it is in
     /// front of the visible surface only where that surface is culled, or past the far plane.
     bool is_never_in_front(const Crossing& crossing) const {
         if (crossing.part != Crossing::Part::light_cap) return false;
         if (crossing.triangle == shown_) return true;
-        if (crossing.depth >= clip_depth(far_, -1)) return false;
-        if (frame_.counting.depth_clamp && crossing.depth <= clip_depth(scene_.camera.near, 1))
+        if (crossing.depth >= depths_.clip_depth(far_, -1)) return false;
+        if (frame_.counting.depth_clamp &&
+            crossing.depth <= depths_.clip_depth(scene_.camera.near, 1))
             return false; // which is no surface either
         // What fills a hole is no surface.
         return crossing.triangle < scene_.triangles.size() &&
@@ -201,16 +162,8 @@ private:
         return s;
     }
 
-    /// A clipping plane's depth, moved by -1, 0 or 1 times that depth's freedom: it is rounded as
-    /// any.
-    double clip_depth(double depth, int move) const {
-        const Camera& camera = scene_.camera;
-        return depth + move * depth_freedom(scene_, frame_.depth_model,
-                                            camera.eye + depth * camera.forward);
-    }
-
     std::int32_t depth_at_near(const std::vector<Crossing>& crossings, int move) const {
-        const double near = clip_depth(scene_.camera.near, move);
+        const double near = depths_.clip_depth(scene_.camera.near, move);
         std::int32_t s = volumes_.counted_at_eye;
         for (const Crossing& crossing : crossings)
             if (crossing.depth < near) s += crossing.change;
@@ -244,8 +197,9 @@ private:
     /// Faces that are drawn, neither clipped nor on the wrong side of the surface for certain.
     std::vector<Candidate> candidates(const glm::dvec3& direction, int move) const {
         const Counting& counting = frame_.counting;
-        const double near = clip_depth(scene_.camera.near, move);
-        const double far = std::isfinite(clip_far()) ? clip_depth(far_, move) : infinity;
+        const double near = depths_.clip_depth(scene_.camera.near, move);
+        const double far =
+            std::isfinite(depths_.clip_far()) ? depths_.clip_depth(far_, move) : infinity;
         std::vector<Candidate> found;
         for (const Crossing& crossing : crossings_) {
             const Counting::Caster caster = counting.caster(crossing.triangle);
@@ -255,7 +209,7 @@ private:
             if (!counting.depth_clamp && crossing.depth < near) continue;
             if (!pass && crossing.depth >= far) continue;
             const bool behind = is_never_in_front(crossing);
-            const DepthRange range = face_range(crossing, direction);
+            const DepthRange range = depths_.face(crossing, direction);
             const bool maybe_front = !behind && range.lower <= shown_range_.upper;
             const bool maybe_behind = behind || range.upper >= shown_range_.lower;
             if (!(pass ? maybe_front : maybe_behind)) continue;
@@ -268,6 +222,22 @@ private:
     std::int64_t dark_caps() const {
         if (tally_of_dark_caps(frame_.counting, frame_.depth_model) != Tally::counted) return 0;
         return dark_caps_at_infinity(frame_.counting, volumes_.counted_at_eye, crossings_);
+    }
+
+    /// The volume of a caster that touches the light covers one half of the world or the other,
+    /// once or, turned inside out, minus once, as rounding has it: its share of a count is anything
+    /// from -1 to 1, where it ought to be 0 or 1.
+    void turn_volumes_at_light(std::vector<Reading>& readings) const {
+        const std::size_t last = readings.size();
+        for (std::int64_t by = -2 * volumes_.touching_light; by <= 2 * volumes_.touching_light;
+             ++by)
+            for (std::size_t i = 0; by != 0 && i < last; ++i) {
+                Reading turned = readings[i];
+                turned.count += by;
+                turned.ideal += by;
+                turned.by_rounding = true;
+                readings.push_back(turned);
+            }
     }
 
     /// Readings with the clipping planes moved.
@@ -289,6 +259,54 @@ private:
                 add(count, count != nominal);
     }
 
+    /// A face as samples share it.
+    using FaceKey = std::tuple<Crossing::Part, std::uint32_t, std::uint32_t, int>;
+    static FaceKey key_of(const Crossing& face) {
+        return {face.part, face.triangle, face.is_side() ? face.edge : 0, face.change};
+    }
+
+    /// What the faces of one sample may add up to, none of them lost at a limit.
+    struct Sum {
+        std::int64_t start = 0;
+        std::int64_t dark_caps = 0;
+        std::int64_t sum = 0;
+        std::int64_t ideal = 0;
+        bool in_cone = true;
+        friend bool operator==(const Sum&, const Sum&) = default;
+    };
+
+    void add_sums(const std::map<FaceKey, Candidate>& faces, std::int64_t ideal, bool in_cone,
+                  std::vector<Sum>& sums) const {
+        std::vector<PossibleFace> possible;
+        std::int64_t nominal = 0;
+        for (const auto& [key, face] : faces) {
+            possible.push_back({face.crossing, face.certain});
+            if (face.nominally)
+                nominal += weight(frame_.counting, face.crossing) * face.crossing.change;
+        }
+        Counting unlimited = frame_.counting;
+        unlimited.operation = Counting::Operation::wrap;
+        const std::int64_t last = dark_caps();
+        for (const std::int32_t start : starts_)
+            for (const std::int64_t sum : possible_counts(possible, start, last, unlimited)) {
+                const Sum found{start, last, sum, ideal + sum - nominal - start - last, in_cone};
+                if (std::find(sums.begin(), sums.end(), found) == sums.end()) sums.push_back(found);
+            }
+    }
+
+    /// A face is certain where it is on every sample.
+    static void merge(const std::map<FaceKey, Candidate>& here, bool first,
+                      std::map<FaceKey, Candidate>& faces) {
+        for (auto& [key, face] : faces) {
+            const auto same = here.find(key);
+            face.certain = face.certain && same != here.end() && same->second.certain;
+        }
+        for (const auto& [key, face] : here) {
+            const bool is_new = faces.emplace(key, face).second;
+            if (is_new && !first) faces.at(key).certain = false;
+        }
+    }
+
     std::int64_t nominal_count(const std::vector<Candidate>& faces, std::int64_t start,
                                std::int64_t last) const {
         std::vector<Crossing> drawn;
@@ -307,18 +325,6 @@ private:
     }
 };
 
-void sort_out(std::vector<Reading>& readings) {
-    const auto key = [](const Reading& r) {
-        return std::array<std::int64_t, 5>{r.count, r.ideal, r.at_eye, r.in_cone, r.moved_in_depth};
-    };
-    std::sort(readings.begin(), readings.end(),
-              [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
-    readings.erase(
-        std::unique(readings.begin(), readings.end(),
-                    [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
-        readings.end());
-}
-
 } // namespace
 
 PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
@@ -327,13 +333,16 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
                     const std::function<bool(const Reading&)>& matches) {
     BandFinder finder(tracer, volumes, frame, far, shown, around, truth);
     PixelBand band;
-    for (std::size_t i = 0; i < around.rays.size(); ++i) {
+    bool found = false;
+    for (std::size_t i = 0; i < around.rays.size() && !found; ++i) {
         std::vector<Reading> readings;
         finder.collect(i, truth[i], readings);
-        const bool found = std::any_of(readings.begin(), readings.end(), matches);
+        found = std::any_of(readings.begin(), readings.end(), matches);
         band.readings.insert(band.readings.end(), readings.begin(), readings.end());
-        if (found) break;
     }
+    const bool may_mix = around.rays.size() > 1;
+    if (!found && may_mix && frame.counting.operation == Counting::Operation::saturate)
+        finder.collect_mixed(truth, band.readings);
     sort_out(band.readings);
     return band;
 }

@@ -17,11 +17,11 @@ namespace shadowproof {
 
 /// One value that the counter may have at a pixel, and how it comes about.
 struct Reading {
-    std::int64_t count = 0;      ///< before wrapping
-    std::int64_t ideal = 0;      ///< the surface's shadow depth: what the count ought to tell
-    std::int32_t at_eye = 0;     ///< shadow depth of the eye
-    bool in_cone = true;         ///< the light shines there, if it is a spot
-    bool moved_in_depth = false; ///< only with faces moved by their depths' freedom
+    std::int64_t count = 0;   ///< before wrapping
+    std::int64_t ideal = 0;   ///< the surface's shadow depth: what the count ought to tell
+    std::int32_t at_eye = 0;  ///< shadow depth of the eye
+    bool in_cone = true;      ///< the light shines there, if it is a spot
+    bool by_rounding = false; ///< only as floats round: depths, or the light's side of a caster
 };
 
 /// What the rasterizer may make of a pixel that shows the triangle read back.
@@ -35,6 +35,7 @@ struct PixelVolumes {
     const Scene& casters;  ///< of those volumes
     const std::vector<glm::vec3>* far_ends = nullptr; ///< their far ends, null at infinity
     RegionLedger* ideal = nullptr;   ///< those of the casters, where they are not the same
+    std::int64_t touching_light = 0; ///< how many casting triangles do
     std::int32_t counted_at_eye = 0; ///< shadow depths of the eye
     std::int32_t ideal_at_eye = 0;
 };

@@ -114,6 +114,7 @@ void look_around_region(const JudgedFrame& judged, const Region& region,
                                 volumes.casters(),
                                 volumes.far_ends(),
                                 volumes.are_ideal() ? nullptr : &ideal_here,
+                                volumes.touching_light(),
                                 judged.prediction.depths().at_eye,
                                 judged.prediction.ideal_depths().at_eye};
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());

@@ -94,40 +94,75 @@ std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
 
 } // namespace
 
-std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
-                                          std::int64_t dark_caps, const Counting& counting) {
+namespace {
+
+/// In the order in which they are drawn, where that matters: the sum is the same in any, unless it
+/// stops at a limit on its way.
+void sort_as_drawn(std::vector<PossibleFace>& faces, const Counting& counting) {
     // Caps of turned triangles are drawn among the turned faces.
     for (auto& [face, certain] : faces)
         if (face.part == Crossing::Part::light_cap && face.triangle < counting.turned.size())
             face.turned = counting.turned[face.triangle] != 0;
-    const auto key = [](const Crossing& crossing) {
-        const auto kind = crossing.is_side() ? Crossing::Part::side_0 : crossing.part;
-        return std::tuple(crossing.turned, kind,
-                          crossing.is_side() ? crossing.edge : crossing.triangle);
+    if (counting.operation != Counting::Operation::saturate) return;
+    const auto key = [](const PossibleFace& possible) {
+        const Crossing& face = possible.face;
+        const auto kind = face.is_side() ? Crossing::Part::side_0 : face.part;
+        return std::tuple(face.turned, kind, face.is_side() ? face.edge : face.triangle);
     };
-    // In any order the sum is the same, unless it stops at a limit on its way.
-    if (counting.operation == Counting::Operation::saturate)
-        std::stable_sort(faces.begin(), faces.end(),
-                         [&](const auto& a, const auto& b) { return key(a.face) < key(b.face); });
+    std::stable_sort(faces.begin(), faces.end(),
+                     [&](const PossibleFace& a, const PossibleFace& b) { return key(a) < key(b); });
+}
+
+/// Calls step(by, certain) for each face as it is drawn, dark caps before turned faces.
+template <class Step>
+void draw(const std::vector<PossibleFace>& faces, std::int64_t dark_caps, const Counting& counting,
+          const Step& step) {
+    const bool any_order = counting.operation != Counting::Operation::saturate;
+    auto face = faces.begin();
+    const auto draw_while = [&](bool turned) {
+        for (; face != faces.end() && (turned || !face->face.turned); ++face)
+            step(weight(counting, face->face) * face->face.change, face->certain);
+    };
+    draw_while(any_order);
+    for (std::int64_t i = 0; i < dark_caps; ++i) step(-weight(Counting::Test::depth_fail), true);
+    draw_while(true);
+}
+
+} // namespace
+
+std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
+                                          std::int64_t dark_caps, const Counting& counting) {
+    sort_as_drawn(faces, counting);
     std::set<std::int64_t> counts{start};
-    const auto step = [&](int by, bool certain) {
+    draw(faces, dark_caps, counting, [&](int by, bool certain) {
         std::set<std::int64_t> after;
         for (const std::int64_t count : counts) {
             after.insert(stepped(count, by, counting));
             if (!certain) after.insert(count);
         }
         counts = std::move(after);
-    };
-    auto face = faces.begin();
-    const auto count_while = [&](bool turned) {
-        for (; face != faces.end() && (turned || !face->face.turned); ++face)
-            step(weight(counting, face->face) * face->face.change, face->certain);
-    };
-    if (counting.operation != Counting::Operation::saturate) count_while(true);
-    count_while(false);
-    for (std::int64_t i = 0; i < dark_caps; ++i) step(-weight(Counting::Test::depth_fail), true);
-    count_while(true);
+    });
     return {counts.begin(), counts.end()};
+}
+
+std::vector<std::int64_t> possible_counts_of_sum(std::vector<PossibleFace> faces,
+                                                 std::int64_t start, std::int64_t dark_caps,
+                                                 const Counting& counting, std::int64_t sum) {
+    sort_as_drawn(faces, counting);
+    using Counts = std::set<std::pair<std::int64_t, std::int64_t>>; // by sum
+    Counts counts{{start, start}};
+    draw(faces, dark_caps, counting, [&](int by, bool certain) {
+        Counts after;
+        for (const auto& [so_far, count] : counts) {
+            after.emplace(so_far + by, stepped(count, by, counting));
+            if (!certain) after.emplace(so_far, count);
+        }
+        counts = std::move(after);
+    });
+    std::vector<std::int64_t> possible;
+    for (const auto& [found, count] : counts)
+        if (found == sum) possible.push_back(count);
+    return possible;
 }
 
 std::int64_t counted_in_order(const std::vector<Crossing>& faces, std::int64_t start,

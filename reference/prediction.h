@@ -42,6 +42,11 @@ struct PossibleFace {
 std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
                                           std::int64_t dark_caps, const Counting& counting);
 
+/// Those of them where the same faces, counted without wrapping or stopping, add up to `sum`.
+std::vector<std::int64_t> possible_counts_of_sum(std::vector<PossibleFace> faces,
+                                                 std::int64_t start, std::int64_t dark_caps,
+                                                 const Counting& counting, std::int64_t sum);
+
 /// The one value where all faces are certain.
 std::int64_t counted_in_order(const std::vector<Crossing>& faces, std::int64_t start,
                               std::int64_t dark_caps, const Counting& counting);

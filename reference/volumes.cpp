@@ -2,6 +2,7 @@
 
 #include "scenes/counted_casters.h"
 #include "scenes/extrusion.h"
+#include "scenes/touching_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,6 +61,7 @@ Volumes::Volumes(const Tracer& tracer, const Silhouette& silhouette, const Count
     if (std::isfinite(counting.extrusion))
         ends_ = std::make_unique<Variant>(extruded_scene(casters(), counting.extrusion),
                                           tracer.threads());
+    touching_light_ = static_cast<std::int64_t>(triangles_touching_light(casters()).size());
 }
 Volumes::~Volumes() = default;
 Volumes::Volumes(Volumes&&) noexcept = default;

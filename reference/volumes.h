@@ -21,6 +21,8 @@ public:
     Volumes(const Volumes&) = delete;
     Volumes& operator=(const Volumes&) = delete;
 
+    /// How many casting triangles do, as triangles_touching_light has it.
+    std::int64_t touching_light() const { return touching_light_; }
     /// The scene that casts; its first triangles are those of the scene that is seen.
     const Scene& casters() const;
     int threads() const;
@@ -51,6 +53,7 @@ private:
     std::unique_ptr<Variant> ends_;
     std::unique_ptr<Variant> ideal_; ///< where neither given nor counted ones are
     bool are_ideal_;
+    std::int64_t touching_light_ = 0;
 };
 
 } // namespace shadowproof

@@ -21,7 +21,8 @@ enum class Cause : std::uint8_t {
     resolution,  ///< another point of the shadow map texel's footprint has another answer
     acne,        ///< the shadow map texel saw the receiver itself
     leak,        ///< a true occluder lies within the bias
-    precision,   ///< gone when the surface moves by the quantum of the depth format
+    precision,   ///< gone when the surface moves by the quantum of the depth format, or
+                 ///< the light off the caster it lies on, as far as floats tell
     shading,     ///< colour beyond its derived bound
     unexplained, ///< no prediction matches: always a failure
 };
@@ -46,7 +47,7 @@ inline constexpr std::array<CauseWords, 15> all_causes{{
     {Cause::resolution, "resolution", "the shadow map texel covers both answers"},
     {Cause::acne, "acne", "the shadow map texel saw the receiver itself"},
     {Cause::leak, "leak", "an occluder lies within the bias"},
-    {Cause::precision, "precision", "within the quantum of the depth format"},
+    {Cause::precision, "precision", "within the rounding of depths, or of a light on a caster"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
 }};

@@ -3,11 +3,13 @@
 #include "scenes/beam.h"
 #include "scenes/counted_casters.h"
 #include "scenes/topology.h"
+#include "scenes/touching_light.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace shadowproof {
@@ -66,6 +68,20 @@ std::vector<std::string> list_faults(const Scene& scene, const std::vector<Caste
     return faults;
 }
 
+/// One line a mesh.
+std::vector<std::string> list_touching(const Scene& scene) {
+    std::map<std::uint32_t, int> triangles; // by mesh
+    for (const std::uint32_t triangle : triangles_touching_light(scene))
+        ++triangles[mesh_of(scene, triangle)];
+    std::vector<std::string> lines;
+    for (const auto& [mesh, count] : triangles)
+        lines.push_back(fmt::format(
+            "caster '{}' touches the light with {} triangle{}: floats do not tell on which side of "
+            "{} that is, and shadows may be wrong anywhere (precision); move the light off it",
+            scene.meshes[mesh].name, count, count == 1 ? "" : "s", count == 1 ? "it" : "them"));
+    return lines;
+}
+
 } // namespace
 
 Plan make_plan(const Scene& scene) {
@@ -73,6 +89,7 @@ Plan make_plan(const Scene& scene) {
     plan.left_out.push_back("tangents: no normal map is evaluated, visibility only");
     const std::vector<CasterReport> casters = inspect_casters(scene);
     plan.faults = list_faults(scene, casters);
+    for (std::string& line : list_touching(scene)) plan.faults.push_back(std::move(line));
     plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
                                      [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");

@@ -38,6 +38,7 @@ std::optional<std::int64_t> unmoved_count(const Tracer& tracer, const Prediction
                             .casters = volumes.casters(),
                             .far_ends = volumes.far_ends(),
                             .ideal = nullptr,
+                            .touching_light = volumes.touching_light(),
                             .counted_at_eye = prediction.depths().at_eye,
                             .ideal_at_eye = prediction.depths().at_eye};
     const std::vector<RayTruth> truth = trace_rays(tracer, around.rays);
@@ -45,7 +46,7 @@ std::optional<std::int64_t> unmoved_count(const Tracer& tracer, const Prediction
                                      [](const Reading&) { return false; });
     std::optional<std::int64_t> count;
     for (const Reading& reading : band.readings)
-        if (!reading.moved_in_depth) count = reading.count;
+        if (!reading.by_rounding) count = reading.count;
     return count;
 }
 

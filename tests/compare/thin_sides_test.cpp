@@ -57,7 +57,7 @@ TEST(ThinSides, every_pixel_of_a_mesh_as_fine_as_the_picture_is_explained) {
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
     const Silhouette silhouette(tracer);
     Gpu gpu(GlPlatform::osmesa);
-    for (const char* name : {"zfail_reversed", "zpass", "auto"}) {
+    for (const char* name : {"zfail_reversed", "zfail_saturate", "zpass", "auto"}) {
         SCOPED_TRACE(name);
         const Frame frame = render(*find_technique(name), scene, make_plan(scene), gpu);
         const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
