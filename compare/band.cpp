@@ -65,7 +65,17 @@ public:
         volumes_.counted.crossings(direction, crossings_);
         for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);
         sort_out(readings);
-        turn_volumes_at_light(readings);
+        // The volume of a caster that touches the light covers one half of the world or the other,
+        // once or, turned inside out, minus once, as rounding has it: its share of a count is
+        // anything from -1 to 1, where it ought to be 0 or 1.
+        move_counts(2 * volumes_.touching_light, readings);
+    }
+
+    /// Appends to readings of all samples what they are with sides that are seen edge-on: no ray of
+    /// a sample meets them, but snapping may make slivers of them, that face either way.
+    void add_edge_on_sides(std::vector<Reading>& readings) const {
+        sort_out(readings);
+        move_counts(volumes_.counted.edge_on_sides(around_.corners), readings);
     }
 
     /// Appends what a counter that stops at its limits may read where each face comes out as one
@@ -224,19 +234,16 @@ private:
         return dark_caps_at_infinity(frame_.counting, volumes_.counted_at_eye, crossings_);
     }
 
-    /// The volume of a caster that touches the light covers one half of the world or the other,
-    /// once or, turned inside out, minus once, as rounding has it: its share of a count is anything
-    /// from -1 to 1, where it ought to be 0 or 1.
-    void turn_volumes_at_light(std::vector<Reading>& readings) const {
-        const std::size_t last = readings.size();
-        for (std::int64_t by = -2 * volumes_.touching_light; by <= 2 * volumes_.touching_light;
-             ++by)
-            for (std::size_t i = 0; by != 0 && i < last; ++i) {
-                Reading turned = readings[i];
-                turned.count += by;
-                turned.ideal += by;
-                turned.by_rounding = true;
-                readings.push_back(turned);
+    /// Appends what the readings are with up to `most` faces counted more, or fewer.
+    static void move_counts(std::int64_t most, std::vector<Reading>& readings) {
+        const std::size_t unmoved = readings.size();
+        for (std::int64_t by = -most; by <= most; ++by)
+            for (std::size_t i = 0; by != 0 && i < unmoved; ++i) {
+                Reading moved = readings[i];
+                moved.count += by;
+                moved.ideal += by;
+                moved.by_rounding = true;
+                readings.push_back(moved);
             }
     }
 
@@ -343,6 +350,7 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
     const bool may_mix = around.rays.size() > 1;
     if (!found && may_mix && frame.counting.operation == Counting::Operation::saturate)
         finder.collect_mixed(truth, band.readings);
+    if (!found && may_mix) finder.add_edge_on_sides(band.readings);
     sort_out(band.readings);
     return band;
 }

@@ -267,6 +267,14 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     });
 }
 
+int RegionLedger::edge_on_sides(const std::array<glm::dvec3, 4>& corners) const {
+    int edge_on = 0;
+    for (const Silhouette::Side& side : sides_)
+        if (Signs(corners, side.plane).mixed() && Signs(corners, side.edge).mixed())
+            edge_on += std::abs(side.surplus);
+    return edge_on;
+}
+
 void RegionLedger::cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found) {
     ends_->crossings(direction, found_at_ends_);
     for (Crossing& crossing : found_at_ends_) {

@@ -69,6 +69,10 @@ public:
     /// counts.
     void crossings(const glm::dvec3& direction, std::vector<Crossing>& found);
 
+    /// How many sides are seen edge-on within the rectangle of four rays: both the line of their
+    /// edges and the line in which their planes vanish pass through it.
+    int edge_on_sides(const std::array<glm::dvec3, 4>& corners) const;
+
 private:
     struct Cap {
         std::uint32_t triangle = no_triangle;
