@@ -11,9 +11,9 @@ after(() => rmSync(scratch, { recursive: true }));
 
 /**
  * Runs `shadowproof ARGS`: { code, signal, out, err }. code is null where a signal ended it, and
- * where `seconds` went by.
+ * where `seconds` went by: it hangs.
  */
-export function shadowproof(args, { env = {}, seconds = 120 } = {}) {
+export function shadowproof(args, { env = {}, seconds = 800 } = {}) {
   const run = spawnSync(process.env.SHADOWPROOF, args, {
     cwd: scratch,
     encoding: 'utf8',
