@@ -146,7 +146,7 @@ TEST(plan, nothing_that_random_rays_find_was_ruled_out) {
 }
 
 TEST(plan, each_faulty_caster_gets_a_line_up_to_twenty_and_the_others_are_counted) {
-    Scene scene = one_triangle({-1, 0, -5}, {1, 0, -5}, {0, 0, -6}, {0, 3, -5});
+    Scene scene = one_triangle({-1, 0, -5}, {1, 0, -5}, {0, 0, -6}, {0, 2.5, -5});
     EXPECT_EQ(make_plan(scene).faults.size(), 1U);
     EXPECT_EQ(make_plan(scene).faults[0].find("caster 'triangle' is open: 3 boundary edges in 1"),
               0U);
