@@ -138,8 +138,9 @@ VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const G
     made->program = link_files(gl, {"from_light.vert", "volume.frag"});
     const auto update = [&gl, &scene, made] {
         const glm::dvec3& eye = scene.camera.eye;
-        const glm::vec3 high(eye);
-        const glm::vec3 low(eye - glm::dvec3(high));
+        glm::vec3 high;
+        glm::vec3 low;
+        split(eye, high, low);
         const glm::mat4 matrix(clip_from_eye_relative(scene));
         const GLuint program = made->program.name();
         gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, glm::value_ptr(matrix));

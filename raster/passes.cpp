@@ -32,10 +32,11 @@ void require_complete(const GlFunctions& gl, const Framebuffer& framebuffer) {
                     "use --gl osmesa");
 }
 
-/// The point as a sum of two floats, exact to 48 bits.
-void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low) {
-    high = glm::vec3(point);
-    low = glm::vec3(point - glm::dvec3(high));
+/// Through memory, as gcc 12 at -O2 takes converting two neighbours to float and back for nothing
+/// at all.
+float rounded(double value) {
+    const volatile float nearest = static_cast<float>(value);
+    return nearest;
 }
 
 glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
@@ -73,6 +74,13 @@ Image<Value> read_picture(const GlFunctions& gl, const Target& target, GLenum fo
 }
 
 } // namespace
+
+void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low) {
+    for (int k = 0; k < 3; ++k) {
+        high[k] = rounded(point[k]);
+        low[k] = rounded(point[k] - high[k]);
+    }
+}
 
 Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
     GLint most = 0;

@@ -36,6 +36,9 @@ void add_sum(const GlFunctions& gl, Target& target);
 void begin_adding(const GlFunctions& gl, const Target& target);
 void end_adding(const GlFunctions& gl);
 
+/// The point as a sum of two floats, exact to 48 bits.
+void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low);
+
 /// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
 /// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
 /// floats, and the matrix is computed in double and rounded once.

@@ -1,4 +1,5 @@
 #include "raster/near_cap.h"
+#include "raster/passes.h"
 #include "raster/render.h"
 #include "scenes/error.h"
 #include "tests/raster/small_scenes.h"
@@ -98,6 +99,21 @@ TEST(Render, says_how_it_counted_and_how_it_made_depth) {
         EXPECT_EQ(std::isfinite(frame.depth_model.far), frame.depth_model.finite());
         EXPECT_GT(frame.milliseconds, 0);
     }
+}
+
+TEST(Render, keeps_eye_and_light_to_48_bits_in_two_floats_a_coordinate) {
+    Scene scene = empty_scene();
+    scene.camera.eye = {4097.337, -8186.727, 16396.617};
+    scene.lights[0].position = {-4100.1, 8190.3, 0.1};
+    const ClipTransform transform = clip_transform(scene, {.eye_relative = true});
+    const auto expect_kept = [](const glm::dvec3& point, const glm::vec3& high,
+                                const glm::vec3& low) {
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(double{high[k]} + double{low[k]}, point[k],
+                        std::ldexp(std::abs(point[k]), -48));
+    };
+    expect_kept(scene.camera.eye, transform.origin_high, transform.origin_low);
+    expect_kept(scene.lights[0].position, transform.light_high, transform.light_low);
 }
 
 TEST(Render, stores_the_window_depth_that_the_depth_model_says) {
