@@ -110,8 +110,7 @@ Cause cause_in_band(const JudgedFrame& judged, PixelPlace p, const PixelBand& ba
     for (const Reading& reading : band.readings) {
         if (!explains(judged, p, reading)) continue;
         // What ought to be counted makes this claim, too, with faces moved in depth.
-        if (reading.by_rounding &&
-            claim_of(judged, reading.ideal, shown, reading.in_cone) == claim)
+        if (reading.by_rounding && claim_of(judged, reading.ideal, shown, reading.in_cone) == claim)
             return Cause::precision;
         if (!algorithmic) algorithmic = algorithmic_cause(judged, reading, truth_of_shown);
     }
