@@ -235,12 +235,12 @@ private:
     }
 
     /// Appends what the readings are with up to `most` faces counted more, or fewer.
-    static void move_counts(std::int64_t most, std::vector<Reading>& readings) {
+    void move_counts(std::int64_t most, std::vector<Reading>& readings) const {
         const std::size_t unmoved = readings.size();
         for (std::int64_t by = -most; by <= most; ++by)
             for (std::size_t i = 0; by != 0 && i < unmoved; ++i) {
                 Reading moved = readings[i];
-                moved.count += by;
+                moved.count = stepped(moved.count, by, frame_.counting);
                 moved.ideal += by;
                 moved.by_rounding = true;
                 readings.push_back(moved);

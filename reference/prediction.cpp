@@ -84,15 +84,11 @@ std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_
     return 0;
 }
 
-namespace {
-
-std::int64_t stepped(std::int64_t count, int step, const Counting& counting) {
-    if (counting.operation != Counting::Operation::saturate) return count + step;
+std::int64_t stepped(std::int64_t count, std::int64_t by, const Counting& counting) {
+    if (counting.operation != Counting::Operation::saturate) return count + by;
     const std::int64_t most = (std::int64_t{1} << counting.bits) - 1;
-    return std::clamp<std::int64_t>(count + step, 0, most);
+    return std::clamp<std::int64_t>(count + by, 0, most);
 }
-
-} // namespace
 
 namespace {
 

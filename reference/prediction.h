@@ -30,6 +30,10 @@ std::string_view name_of(Counting::Start start);         ///< "near_plane"
 /// What the counter holds before the first face.
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);
 
+/// A count moved on by so many equal steps: one that saturates stops at its limits, any other runs
+/// on.
+std::int64_t stepped(std::int64_t count, std::int64_t by, const Counting& counting);
+
 /// A face that may be counted, or certainly is.
 struct PossibleFace {
     Crossing face;

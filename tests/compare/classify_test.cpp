@@ -1,9 +1,7 @@
-#include "compare/classify.h"
 #include "compare/verdict.h"
-#include "raster/render.h"
 #include "raster/technique.h"
 #include "scenes/catalog.h"
-#include "scenes/plan.h"
+#include "tests/compare/traced_scene.h"
 #include "tests/raster/faulty_techniques.h"
 
 #include <gtest/gtest.h>
@@ -17,43 +15,29 @@
 namespace shadowproof {
 namespace {
 
-/// A scene with its truth, traced once for all tests that ask for it.
-struct TracedScene {
-    Scene scene;
-    Plan plan;
-    Tracer tracer;
-    Silhouette silhouette;
-    GroundTruth truth;
-    ShadowDepths depths;
+using tests::compared;
+using tests::pixels_of;
+using tests::TracedScene;
 
-    /// A bundled name, or that and a light's: "many_lights-fill".
-    explicit TracedScene(const std::string& name)
-        : scene(load(name)), plan(make_plan(scene)), tracer(scene), silhouette(tracer),
-          truth(trace(tracer)), depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
-
-    static Scene load(const std::string& name) {
-        const std::size_t dash = name.find('-');
-        SceneRequest request;
-        if (dash != std::string::npos) request.light = name.substr(dash + 1);
-        return load_scene(name.substr(0, dash), request);
-    }
-};
+/// A bundled name, or that and a light's: "many_lights-fill".
+Scene load(const std::string& name) {
+    const std::size_t dash = name.find('-');
+    SceneRequest request;
+    if (dash != std::string::npos) request.light = name.substr(dash + 1);
+    return load_scene(name.substr(0, dash), request);
+}
 
 class Classify : public testing::Test {
 protected:
     static TracedScene& traced(const std::string& name) {
         static std::map<std::string, std::unique_ptr<TracedScene>> scenes;
         std::unique_ptr<TracedScene>& scene = scenes[name];
-        if (!scene) scene = std::make_unique<TracedScene>(name);
+        if (!scene) scene = std::make_unique<TracedScene>(load(name));
         return *scene;
     }
 
     Comparison compare(const std::string& name, const Technique& technique) {
-        TracedScene& t = traced(name);
-        const Frame frame = render(technique, t.scene, t.plan, gpu_);
-        return classify(
-            t.tracer, t.silhouette, t.truth, t.depths, frame,
-            {t.tracer, t.silhouette, t.truth, t.depths, frame.counting, frame.depth_model});
+        return compared(traced(name), technique, gpu_);
     }
     Comparison compare(const std::string& name, const std::string& technique) {
         return compare(name, *find_technique(technique));
@@ -62,10 +46,6 @@ protected:
 private:
     Gpu gpu_{GlPlatform::osmesa};
 };
-
-std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
-    return comparison.causes[static_cast<std::size_t>(cause)];
-}
 
 /// Differing pixels whose cause is none of these.
 std::uint64_t pixels_beyond(const Comparison& comparison, std::initializer_list<Cause> causes) {

@@ -1,8 +1,6 @@
 // A side of a volume that is seen edge-on, on the very line of the picture along which other sides
 // begin: first seen in a scene made by chance, where two pixels had no explanation.
-#include "compare/classify.h"
-#include "raster/render.h"
-#include "scenes/plan.h"
+#include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
@@ -47,16 +45,10 @@ Scene prism_of_eight() {
 }
 
 TEST(EdgeOn, a_sliver_that_no_ray_meets_is_counted_and_foreseen) {
-    const Scene scene = prism_of_eight();
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const Silhouette silhouette(tracer);
+    const tests::TracedScene traced(prism_of_eight());
     Gpu gpu(GlPlatform::osmesa);
-    const Frame frame = render(*find_technique("zfail_reversed"), scene, make_plan(scene), gpu);
-    const Comparison comparison =
-        classify(tracer, silhouette, truth, depths, frame,
-                 {tracer, silhouette, truth, depths, frame.counting, frame.depth_model});
+    const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+    const Comparison comparison = tests::compared(traced, frame);
     ASSERT_NE(frame.counter.at(309, 295), comparison.predicted.at(309, 295));
     EXPECT_EQ(comparison.ledger.unexplained, 0U);
     EXPECT_EQ(comparison.cause.at(309, 295), static_cast<std::uint8_t>(Cause::precision));

@@ -1,9 +1,7 @@
 // Sides of a fine mesh's volumes are long and thin in the picture, and the set-up of their depths
 // rounds: first seen with a million triangles, where pixels had no explanation before.
-#include "compare/classify.h"
 #include "compare/setup_freedom.h"
-#include "raster/render.h"
-#include "scenes/plan.h"
+#include "tests/compare/traced_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -51,22 +49,14 @@ Scene bumpy_ball(unsigned rings, unsigned sectors) {
 }
 
 TEST(ThinSides, every_pixel_of_a_mesh_as_fine_as_the_picture_is_explained) {
-    const Scene scene = bumpy_ball(320, 320);
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const Silhouette silhouette(tracer);
+    const tests::TracedScene traced(bumpy_ball(320, 320));
     Gpu gpu(GlPlatform::osmesa);
     for (const char* name : {"zfail_reversed", "zfail_saturate", "zpass", "auto"}) {
         SCOPED_TRACE(name);
-        const Frame frame = render(*find_technique(name), scene, make_plan(scene), gpu);
-        const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
-                                    frame.depth_model);
-        const Comparison comparison =
-            classify(tracer, silhouette, truth, depths, frame, prediction);
+        const Comparison comparison = tests::compared(traced, name, gpu);
         EXPECT_EQ(comparison.ledger.unexplained, 0U);
-        EXPECT_EQ(comparison.causes[static_cast<std::size_t>(Cause::unexplained)], 0U);
-        EXPECT_GT(comparison.causes[static_cast<std::size_t>(Cause::precision)], 0U);
+        EXPECT_EQ(tests::pixels_of(comparison, Cause::unexplained), 0U);
+        EXPECT_GT(tests::pixels_of(comparison, Cause::precision), 0U);
     }
 }
 

@@ -1,9 +1,7 @@
 // A light on a caster, as near as floats tell: every technique may then take it to be on either
 // side, and what that does to whole pictures is foreseen.
-#include "compare/classify.h"
-#include "raster/render.h"
-#include "scenes/plan.h"
 #include "scenes/touching_light.h"
+#include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +11,9 @@
 
 namespace shadowproof {
 namespace {
+
+using tests::compared;
+using tests::pixels_of;
 
 /// A box turned so that floats do not hold its faces' planes, over a floor; the light over a point
 /// of one of its triangles, off by a length.
@@ -41,29 +42,15 @@ Scene light_on_box(std::uint32_t triangle, double off) {
     return scene;
 }
 
-Comparison compared(const Scene& scene, const char* technique, Gpu& gpu) {
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const Silhouette silhouette(tracer);
-    const Frame frame = render(*find_technique(technique), scene, make_plan(scene), gpu);
-    return classify(tracer, silhouette, truth, depths, frame,
-                    {tracer, silhouette, truth, depths, frame.counting, frame.depth_model});
-}
-
-std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
-    return comparison.causes[static_cast<std::size_t>(cause)];
-}
-
 TEST(TouchingLight, on_a_face_turns_whole_pictures_over_and_each_pixel_is_foreseen) {
     Gpu gpu(GlPlatform::osmesa);
     std::uint64_t turned_over = 0;
     for (std::uint32_t triangle = 0; triangle < 12; ++triangle) {
-        const Scene scene = light_on_box(triangle, 0);
-        ASSERT_FALSE(triangles_touching_light(scene).empty());
+        const tests::TracedScene traced(light_on_box(triangle, 0));
+        ASSERT_FALSE(triangles_touching_light(traced.scene).empty());
         for (const char* technique : {"zfail_clamp", "zfail_reversed", "zfail_per_triangle",
                                       "zfail_degenerate_quads", "zpass", "auto"}) {
-            const Comparison comparison = compared(scene, technique, gpu);
+            const Comparison comparison = compared(traced, technique, gpu);
             EXPECT_EQ(comparison.ledger.unexplained, 0U) << technique << " on " << triangle;
             EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U)
                 << technique << " on " << triangle;
@@ -76,9 +63,9 @@ TEST(TouchingLight, on_a_face_turns_whole_pictures_over_and_each_pixel_is_forese
 TEST(TouchingLight, a_ten_thousandth_off_the_face_the_pictures_are_right) {
     Gpu gpu(GlPlatform::osmesa);
     for (std::uint32_t triangle = 0; triangle < 12; ++triangle) {
-        const Scene scene = light_on_box(triangle, 1e-4);
-        ASSERT_TRUE(triangles_touching_light(scene).empty());
-        const Comparison comparison = compared(scene, "zfail_reversed", gpu);
+        const tests::TracedScene traced(light_on_box(triangle, 1e-4));
+        ASSERT_TRUE(triangles_touching_light(traced.scene).empty());
+        const Comparison comparison = compared(traced, "zfail_reversed", gpu);
         EXPECT_EQ(comparison.ledger.unexplained, 0U) << triangle;
         EXPECT_LE(pixels_of(comparison, Cause::precision), 4U) << triangle;
         EXPECT_EQ(comparison.differing,
