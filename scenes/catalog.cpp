@@ -39,6 +39,10 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"inverted", "a box wound inside out"},
         {"non_manifold", "two boxes share an edge of four triangles"},
         {"t_junctions", "a closed box whose faces meet corner against edge"},
+        {"bumpy_sphere", "a normal map, lit; tangents by MikkTSpace's rule"},
+        {"bumpy_torus", "a normal map, a decal and its gloss, on tangents of the asset's own"},
+        {"mirrored_skin", "both halves of a head wear one normal map, mirrored"},
+        {"height_field", "bumps by a height field instead of a normal map"},
     };
     return scenes;
 }

@@ -10,37 +10,79 @@ namespace shadowproof {
 
 namespace {
 
-struct FreeState {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+/// XXH3 over bytes as they come.
+class Hash {
+public:
+    Hash() : state_(XXH3_createState()) { XXH3_64bits_reset(state_.get()); }
+
+    template <class T>
+    void add(const T* values, std::size_t count) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        XXH3_64bits_update(state_.get(), values, count * sizeof(T));
+    }
+    template <class T>
+    void add(const T& value) {
+        add(&value, 1);
+    }
+    std::uint64_t digest() const { return XXH3_64bits_digest(state_.get()); }
+
+private:
+    struct FreeState {
+        void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+    };
+    std::unique_ptr<XXH3_state_t, FreeState> state_;
 };
+
+void add_camera(Hash& hash, const Camera& camera) {
+    for (const glm::dvec3& v : {camera.eye, camera.right, camera.up, camera.forward}) hash.add(v);
+    for (const double v : {camera.tan_half_height, camera.near, camera.far}) hash.add(v);
+    for (const int v : {camera.width, camera.height}) hash.add(v);
+}
+
+void add_light(Hash& hash, const Light& light) {
+    hash.add(light.kind);
+    hash.add(homogeneous(light));
+    if (light.kind == Light::Kind::spot) {
+        hash.add(light.direction);
+        hash.add(light.outer_cone);
+    }
+}
+
+/// What decides no visibility, but colours.
+void add_lighting(Hash& hash, const Scene& scene) {
+    hash.add(scene.surfaces.data(), scene.surfaces.size());
+    for (const TextureImage& texture : scene.textures) {
+        for (const int v : {texture.texels.width, texture.texels.height}) hash.add(v);
+        for (const Wrap wrap : {texture.wrap_s, texture.wrap_t}) hash.add(wrap);
+        hash.add(texture.texels.pixels.data(), texture.texels.pixels.size());
+    }
+    for (const Mesh& mesh : scene.meshes) hash.add(mesh.material);
+    for (const Material& material : scene.materials) {
+        for (const glm::dvec3& v : {material.color, material.specular}) hash.add(v);
+        for (const std::uint32_t v : {material.decal, material.bump_map}) hash.add(v);
+        hash.add(material.gloss_in_alpha);
+        hash.add(material.bump);
+        hash.add(material.bump_scale);
+    }
+    const Light& light = chosen_light(scene);
+    for (const glm::dvec3& v : {scene.ambient, light.color}) hash.add(v);
+    for (const double v : {light.intensity, light.inner_cone}) hash.add(v);
+    hash.add(scene.inverse_square);
+}
 
 } // namespace
 
 std::string digest_of(const Scene& scene) {
-    const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
-    XXH3_64bits_reset(state.get());
-    const auto add = [&](const auto* values, std::size_t count) {
-        static_assert(std::is_trivially_copyable_v<std::remove_pointer_t<decltype(values)>>);
-        XXH3_64bits_update(state.get(), values, count * sizeof(*values));
-    };
-    add(scene.positions.data(), scene.positions.size());
-    add(scene.triangles.data(), scene.triangles.size());
+    Hash hash;
+    hash.add(scene.positions.data(), scene.positions.size());
+    hash.add(scene.triangles.data(), scene.triangles.size());
     for (const std::vector<std::uint8_t>& flags :
          {double_sided_triangles(scene), casting_triangles(scene), receiving_triangles(scene)})
-        add(flags.data(), flags.size());
-    const Camera& camera = scene.camera;
-    for (const glm::dvec3* v : {&camera.eye, &camera.right, &camera.up, &camera.forward}) add(v, 1);
-    for (const double* v : {&camera.tan_half_height, &camera.near, &camera.far}) add(v, 1);
-    for (const int* v : {&camera.width, &camera.height}) add(v, 1);
-    const Light& light = chosen_light(scene);
-    add(&light.kind, 1);
-    const glm::dvec4 place = homogeneous(light);
-    add(&place, 1);
-    if (light.kind == Light::Kind::spot) {
-        add(&light.direction, 1);
-        add(&light.outer_cone, 1);
-    }
-    return fmt::format("{:016x}", XXH3_64bits_digest(state.get()));
+        hash.add(flags.data(), flags.size());
+    add_camera(hash, scene.camera);
+    add_light(hash, chosen_light(scene));
+    if (is_bump_lit(scene)) add_lighting(hash, scene);
+    return fmt::format("{:016x}", hash.digest());
 }
 
 } // namespace shadowproof

@@ -122,6 +122,30 @@ constexpr std::array rules{
     Rule{"buffers/*/uri"},
 };
 
+/// Held where surfaces are lit by bump maps, else no picture is looked at.
+constexpr std::array rules_of_lighting{
+    numbers("extras?/shadowproof/ambient", 3),
+    Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},
+    numbers("materials/*/pbrMetallicRoughness/baseColorFactor", 4),
+    index("materials/*/pbrMetallicRoughness/baseColorTexture/index!", "/textures"),
+    whole("materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", 0, 0x7fffffff),
+    index("materials/*/normalTexture/index!", "/textures"),
+    whole("materials/*/normalTexture/texCoord", 0, 0x7fffffff),
+    Rule{"materials/*/normalTexture/scale", Kind::number},
+    index("materials/*/extras?/shadowproof/height/index!", "/textures"),
+    whole("materials/*/extras?/shadowproof/height/texCoord", 0, 0x7fffffff),
+    Rule{"materials/*/extras?/shadowproof/height/scale", Kind::number},
+    Rule{"materials/*/extras?/shadowproof/glossInAlpha", Kind::boolean},
+    numbers("materials/*/extras?/shadowproof/specular", 3),
+    index("textures/*/sampler", "/samplers"),
+    index("textures/*/source", "/images"),
+    whole("samplers/*/magFilter", 0, 0xffff),
+    whole("samplers/*/wrapS", 0, 0xffff),
+    whole("samplers/*/wrapT", 0, 0xffff),
+    index("images/*/bufferView", "/bufferViews"),
+    Rule{"images/*/uri"},
+};
+
 void require(bool holds, const json& value, const Place& place, const char* kind) {
     if (!holds)
         place.refuse(fmt::format("is {}, not {}", value.type_name(), kind),
@@ -256,7 +280,7 @@ private:
     std::size_t count_;
 };
 
-/// Changes the look of a surface only, and visibility alone is judged.
+/// Changes the look of a surface in ways that no bump map needs.
 bool is_only_look(std::string_view extension) {
     return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
            extension == "EXT_texture_webp" || extension == "KHR_xmp_json_ld";
@@ -319,6 +343,11 @@ void check_json(const Place& root, json& document) {
     for (const Rule& rule : rules) Checker(rule, document).walk(document, root, rule.path);
     check_transforms(root, document);
     check_indices(root, document);
+}
+
+void check_lighting(const Place& root, json& document) {
+    for (const Rule& rule : rules_of_lighting)
+        Checker(rule, document).walk(document, root, rule.path);
 }
 
 } // namespace shadowproof::gltf

@@ -15,6 +15,10 @@ namespace shadowproof::gltf {
 /// fraction of zero (3.0), which glTF allows and tinygltf drops, become integers.
 void check_json(const Place& root, nlohmann::json& document);
 
+/// The same of what lighting by bump maps reads: materials, textures, samplers and images, and the
+/// root's extras.
+void check_lighting(const Place& root, nlohmann::json& document);
+
 /// Whether an extension is evaluated in full.
 bool is_evaluated(std::string_view extension);
 

@@ -89,22 +89,10 @@ Bytes read_buffer(const BufferFiles& files, const BufferFiles::Buffer& buffer) {
 
 /// A data URI with one of the media types that tinygltf knows, and no more than the bytes it wants.
 std::string trimmed_data_uri(const std::string& uri, const BufferFiles::Buffer& buffer) {
-    constexpr std::string_view marker = ";base64,";
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const Place place = buffer.place / "uri";
-    const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos || !uri.substr(0, comma + 1).ends_with(marker))
-        place.refuse("is a data URI that is not base64", "encode it as base64");
-    const std::string_view text = std::string_view(uri).substr(comma + 1);
-    const std::size_t end = std::min(text.find_first_not_of(digits), text.size());
-    // tinygltf stops at the first character that is no digit, as if the text ended there.
-    if (text.size() % 4 != 0 || text.size() - end > 2 ||
-        text.find_first_not_of('=', end) != std::string_view::npos)
-        place.refuse("is not well-formed base64", "export the asset again");
-    require_length(end * 3 / 4, buffer);
+    const std::string_view digits = base64_digits(uri, buffer.place / "uri");
+    require_length(digits.size() * 3 / 4, buffer);
     return fmt::format("data:application/octet-stream;base64,{}",
-                       text.substr(0, (buffer.length * 4 + 2) / 3));
+                       digits.substr(0, (buffer.length * 4 + 2) / 3));
 }
 
 /// Takes the buffers' URIs out of the JSON: tinygltf reads whatever they name, and turns each + of
@@ -131,10 +119,21 @@ void take_buffers(const Place& root, json& document, BufferFiles& files) {
     }
 }
 
-/// Takes out what tinygltf would refuse or drop although glTF allows it, or we never look at it.
+/// The members that lighting reads, copied or (where tinygltf must not see them) moved.
+json take_look(json& document) {
+    json look = json::object();
+    for (const char* key : {"materials", "bufferViews", "extras"})
+        if (document.contains(key)) look[key] = document[key];
+    for (const char* key : {"textures", "samplers", "images"})
+        if (document.contains(key)) {
+            look[key] = std::move(document[key]);
+            document.erase(key);
+        }
+    return look;
+}
+
+/// Takes out what tinygltf would refuse or drop although glTF allows it.
 void make_digestible(json& document) {
-    // Images that cannot be read fail the load, and are not wanted at all.
-    for (const char* key : {"images", "textures", "samplers"}) document.erase(key);
     if (document.contains("cameras"))
         for (json& camera : document["cameras"])
             if (camera["type"] == "orthographic") // not evaluated
@@ -188,14 +187,17 @@ tinygltf::Model parse_model(const Place& root, const json& document, BufferFiles
 } // namespace
 
 Document read_document(const std::filesystem::path& file) {
-    Document document{file.string(), {}, {}};
+    Document document;
+    document.file = file.string();
+    document.folder = file.parent_path();
     const Place root = document.root();
     const Bytes bytes = read_bytes(file, root);
     const Chunks chunks = split_chunks(root, bytes);
     json parsed = parse_json(root, chunks.json);
     check_json(root, parsed);
-    BufferFiles files{file.parent_path(), chunks.binary, {}};
+    BufferFiles files{document.folder, chunks.binary, {}};
     take_buffers(root, parsed, files);
+    document.look = take_look(parsed);
     make_digestible(parsed);
     document.model = parse_model(root, parsed, files);
     document.extras = parsed.value("extras", json());

@@ -1,6 +1,6 @@
 // A .gltf or .glb file as tinygltf's model. Sizes, nesting and every value are checked before
 // tinygltf sees them; buffers are read through callbacks that stay inside the asset's folder;
-// images are never read.
+// images are left to whoever needs them.
 #pragma once
 
 #include "scenes/gltf_place.h"
@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof::gltf {
@@ -24,6 +25,8 @@ struct Limits {
     std::uint64_t json_depth = 64;          ///< nested objects and arrays
     std::uint64_t elements = 1ULL << 26;    ///< accessor elements read, all reads together
     std::uint64_t triangles = 1ULL << 24;   ///< baked, all nodes together; vertices as many
+    std::uint64_t surfaces = 1ULL << 22;    ///< triangles baked for lighting, 132 bytes each
+    std::uint64_t texels = 1ULL << 26;      ///< of all textures together, 16 bytes each
 };
 inline constexpr Limits limits;
 
@@ -34,6 +37,11 @@ struct Document {
     tinygltf::Model model;
     /// The root's; tinygltf's own copy lacks empty arrays, and "provokes": [] means something.
     nlohmann::json extras;
+    /// What lighting by bump maps reads: materials, textures, samplers, images, bufferViews and
+    /// extras, as in the file, for check_lighting. tinygltf would decode every image, wanted or
+    /// not.
+    nlohmann::json look;
+    std::filesystem::path folder; ///< of the asset
 
     Place root() const { return Place(file); }
 };
@@ -50,5 +58,8 @@ inline std::size_t as_index(int index) {
 /// (at `place`) absolute paths, schemes, and whatever leaves the folder, through links as well.
 std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri,
                                   const Place& place);
+
+/// The digits of a base64 data URI, without padding. Refused at `place`: anything else.
+std::string_view base64_digits(const std::string& uri, const Place& place);
 
 } // namespace shadowproof::gltf

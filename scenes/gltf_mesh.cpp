@@ -1,10 +1,11 @@
 #include "scenes/gltf_mesh.h"
 
-#include "scenes/gltf_skin.h"
+#include "scenes/gltf_attribute.h"
+#include "scenes/gltf_material.h"
+#include "scenes/gltf_surface.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <numeric>
@@ -31,44 +32,8 @@ std::vector<glm::uvec3> assemble(Mode mode, const std::vector<std::uint32_t>& in
     return triangles;
 }
 
-unsigned position_kinds(const Document& document) {
-    const std::vector<std::string>& used = document.model.extensionsUsed;
-    const bool quantized =
-        std::find(used.begin(), used.end(), "KHR_mesh_quantization") != used.end();
-    return quantized ? floats | normalized_integers | plain_integers : unsigned{floats};
-}
-
-/// A primitive and where it stands.
-struct Part {
-    Place place;
-    const tinygltf::Primitive& primitive;
-};
-
-Elements read_positions(AccessorReader& reader, const Place& reference, int accessor) {
-    return reader.read(reference, accessor, TINYGLTF_TYPE_VEC3, position_kinds(reader.document()));
-}
-
-/// Adds weight times displacement for every morph target (section 3.7.2.2).
-void apply_morphs(AccessorReader& reader, const Part& part, const std::vector<double>& weights,
-                  Elements& positions) {
-    const auto& targets = part.primitive.targets;
-    if (!weights.empty() && weights.size() != targets.size())
-        part.place.refuse(
-            fmt::format("has {} morph targets for {} weights", targets.size(), weights.size()),
-            "give each target one weight");
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const auto attribute = targets[i].find("POSITION");
-        if (attribute == targets[i].end() || weights[i] == 0) continue;
-        const Place reference = part.place / "targets" / i / "POSITION";
-        const Elements offsets = read_positions(reader, reference, attribute->second);
-        if (offsets.count != positions.count)
-            reference.refuse(
-                fmt::format("has {} elements for {} vertices", offsets.count, positions.count),
-                "give each vertex one displacement");
-        for (std::size_t k = 0; k < positions.values.size(); ++k)
-            positions.values[k] += weights[i] * offsets.values[k];
-    }
-}
+const Attribute position{"POSITION", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3, floats,
+                         normalized_integers | plain_integers};
 
 /// What the primitives of one node share.
 struct Placement {
@@ -99,15 +64,9 @@ Placement find_placement(AccessorReader& reader, const NodeGraph& graph, std::si
 }
 
 /// World positions of a primitive's vertices, rounded to float.
-std::vector<glm::vec3> world_positions(AccessorReader& reader, const Placement& placement,
-                                       const Part& part, int accessor) {
-    const Place reference = part.place / "attributes" / "POSITION";
-    Elements local = read_positions(reader, reference, accessor);
-    apply_morphs(reader, part, placement.weights, local);
-    std::optional<Influences> influences;
-    if (placement.skin)
-        influences =
-            read_influences(reader, part.place, part.primitive, *placement.skin, local.count);
+std::vector<glm::vec3> world_positions(const Placement& placement, const Part& part,
+                                       const Elements& local,
+                                       const std::optional<Influences>& influences) {
     std::vector<glm::vec3> world(local.count);
     for (std::size_t i = 0; i < local.count; ++i) {
         const glm::dvec4 point(local.vec3(i), 1);
@@ -115,9 +74,10 @@ std::vector<glm::vec3> world_positions(AccessorReader& reader, const Placement& 
                                              : glm::dvec3(placement.node.world_from_node * point);
         world[i] = glm::vec3(placed);
         if (!std::isfinite(world[i].x) || !std::isfinite(world[i].y) || !std::isfinite(world[i].z))
-            reference.refuse(fmt::format("vertex {} is not finite in world space as placed by {}",
-                                         i, placement.node.place.pointer()),
-                             "scale the vertex or the node's transform down");
+            (part.place / "attributes" / position.name)
+                .refuse(fmt::format("vertex {} is not finite in world space as placed by {}", i,
+                                    placement.node.place.pointer()),
+                        "scale the vertex or the node's transform down");
     }
     return world;
 }
@@ -163,27 +123,36 @@ std::vector<std::uint32_t> vertex_order(AccessorReader& reader, const Part& part
 }
 
 void bake_primitive(AccessorReader& reader, const Placement& placement, const Part& part,
-                    Scene& scene) {
+                    const Materials& materials, Scene& scene) {
     const auto mode = static_cast<Mode>(part.primitive.mode);
     if (mode < Mode::triangles) {
         scene.notes.push_back(part.place.pointer() + ": points and lines are left out");
         return;
     }
-    const auto attribute = part.primitive.attributes.find("POSITION");
-    if (attribute == part.primitive.attributes.end()) {
+    if (!has_attribute(part, position)) {
         scene.notes.push_back(part.place.pointer() + ": left out, it has no positions");
         return;
     }
-    const std::vector<glm::vec3> positions =
-        world_positions(reader, placement, part, attribute->second);
+    const Elements local = read_morphed(reader, part, position, placement.weights);
+    std::optional<Influences> influences;
+    if (placement.skin)
+        influences =
+            read_influences(reader, part.place, part.primitive, *placement.skin, local.count);
+    const std::vector<glm::vec3> positions = world_positions(placement, part, local, influences);
     const std::vector<std::uint32_t> indices = vertex_order(reader, part, positions.size());
     std::vector<glm::uvec3> triangles = assemble(mode, indices);
     note_leftover(scene, part.place, indices.size(), triangles.size(), mode);
-    if (is_mirrored(placement))
-        for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
+    const bool mirrored = is_mirrored(placement);
     const auto material =
         static_cast<std::uint32_t>(part.primitive.material >= 0 ? as_index(part.primitive.material)
                                                                 : scene.materials.size() - 1);
+    if (materials.bump_lit)
+        append_surfaces(reader,
+                        {part, placement.weights, local, triangles, placement.node.world_from_node,
+                         placement.skin, influences, mirrored},
+                        scene.materials[material], materials.sets[material], scene);
+    if (mirrored)
+        for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
     append(scene, part.place, positions, std::move(triangles));
@@ -193,33 +162,17 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
                                 placement.node.receives.value_or(true)});
 }
 
-/// The file's materials, and behind them the default one (section 3.7.2.1).
-void read_materials(const Document& document, Scene& scene) {
-    for (const tinygltf::Material& source : document.model.materials) {
-        const Place place = document.root() / "materials" / scene.materials.size();
-        const std::string name = source.name.empty() ? place.pointer() : source.name;
-        scene.materials.push_back({name, source.doubleSided});
-        if (source.alphaMode != "OPAQUE")
-            scene.notes.push_back(fmt::format("{} \"{}\": alphaMode {} is drawn as opaque",
-                                              place.pointer(), name, source.alphaMode));
-        if (source.normalTexture.index >= 0)
-            scene.notes.push_back(
-                fmt::format("{}: normal maps are not evaluated: visibility only", place.pointer()));
-    }
-    scene.materials.push_back({"default", false});
-}
-
 } // namespace
 
 void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
-    read_materials(reader.document(), scene);
+    const Materials materials = read_materials(reader.document(), graph, scene);
     for (const std::size_t node : graph.in_scene) {
         if (reader.document().model.nodes[node].mesh < 0) continue;
         const Placement placement = find_placement(reader, graph, node);
         for (std::size_t i = 0; i < placement.mesh.primitives.size(); ++i)
             bake_primitive(reader, placement,
                            {placement.place / "primitives" / i, placement.mesh.primitives[i]},
-                           scene);
+                           materials, scene);
     }
     if (scene.triangles.empty())
         reader.document().root().refuse("holds no triangle in its scene",

@@ -10,7 +10,9 @@ namespace shadowproof::gltf {
 
 /// Appends the meshes of every node of the scene, in the order of graph.in_scene, which place_nodes
 /// has placed. Positions are transformed once, in double, and rounded once, to float. Also fills
-/// scene.materials. Throws Error; a file without a single triangle is one.
+/// scene.materials and, where one of them has a bump map, scene.surfaces and what else lighting
+/// needs; where none has, none of it is looked at. Throws Error; a file without a single triangle
+/// is one.
 void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene);
 
 } // namespace shadowproof::gltf

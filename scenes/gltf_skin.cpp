@@ -98,4 +98,14 @@ glm::dvec3 deform(const Skin& skin, const Influences& influences, std::size_t ve
     return moved / sum;
 }
 
+glm::dmat3 deformation(const Skin& skin, const Influences& influences, std::size_t vertex) {
+    glm::dmat3 world_from_mesh(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec4 direction(0);
+        direction[axis] = 1;
+        world_from_mesh[axis] = deform(skin, influences, vertex, direction);
+    }
+    return world_from_mesh;
+}
+
 } // namespace shadowproof::gltf

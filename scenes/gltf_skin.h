@@ -34,4 +34,7 @@ Influences read_influences(AccessorReader& reader, const Place& place,
 glm::dvec3 deform(const Skin& skin, const Influences& influences, std::size_t vertex,
                   const glm::dvec4& point);
 
+/// What deform does to directions at a vertex: world from the mesh's own space.
+glm::dmat3 deformation(const Skin& skin, const Influences& influences, std::size_t vertex);
+
 } // namespace shadowproof::gltf

@@ -62,4 +62,20 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std
     return path;
 }
 
+std::string_view base64_digits(const std::string& uri, const Place& place) {
+    constexpr std::string_view marker = ";base64,";
+    constexpr std::string_view digits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || !std::string_view(uri).substr(0, comma + 1).ends_with(marker))
+        place.refuse("is a data URI that is not base64", "encode it as base64");
+    const std::string_view text = std::string_view(uri).substr(comma + 1);
+    const std::size_t end = std::min(text.find_first_not_of(digits), text.size());
+    // tinygltf stops at the first character that is no digit, as if the text ended there.
+    if (text.size() % 4 != 0 || text.size() - end > 2 ||
+        text.find_first_not_of('=', end) != std::string_view::npos)
+        place.refuse("is not well-formed base64", "export the asset again");
+    return text.substr(0, end);
+}
+
 } // namespace shadowproof::gltf

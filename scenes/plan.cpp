@@ -86,7 +86,7 @@ std::vector<std::string> list_touching(const Scene& scene) {
 
 Plan make_plan(const Scene& scene) {
     Plan plan;
-    plan.left_out.push_back("tangents: no normal map is evaluated, visibility only");
+    if (!is_bump_lit(scene)) plan.left_out.push_back("tangents: no normal map or height field");
     const std::vector<CasterReport> casters = inspect_casters(scene);
     plan.faults = list_faults(scene, casters);
     for (std::string& line : list_touching(scene)) plan.faults.push_back(std::move(line));

@@ -1,12 +1,15 @@
 // A scene as both sides see it: triangles baked once to world-space float32, one camera, one light
-// chosen among the file's. Plain data; indices for references.
+// chosen among the file's; and, where a material has a bump map, what lighting needs of its
+// surfaces. Plain data; indices for references.
 #pragma once
 
 #include "scenes/camera.h"
 #include "scenes/cause.h"
+#include "scenes/texture.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <string>
@@ -15,10 +18,36 @@
 namespace shadowproof {
 
 inline constexpr std::uint32_t no_triangle = 0xffffffffU;
+inline constexpr std::uint32_t no_texture = 0xffffffffU;
 
+/// What gives a surface its small normals.
+enum class Bump : std::uint8_t {
+    none,
+    normal_map,   ///< glTF's normalTexture: x along the tangent, y along the bitangent, 0 at 0.5
+    height_field, ///< red is the height, in units of Material::bump_scale texels
+};
+
+/// Colours are linear. All but the first two are there in scenes with bump maps only (is_bump_lit).
 struct Material {
     std::string name;
     bool double_sided = false; ///< otherwise a triangle is not seen from behind, as glTF says
+    glm::dvec3 color{1, 1, 1}; ///< times the decal's
+    glm::dvec3 specular{1, 1, 1};
+    std::uint32_t decal = no_texture; ///< index into Scene::textures
+    bool gloss_in_alpha = false;      ///< the decal's alpha times the specular colour
+    Bump bump = Bump::none;
+    std::uint32_t bump_map = no_texture; ///< index into Scene::textures; none where bump is
+    double bump_scale = 1;               ///< of a normal's x and y, or of a height (texels)
+};
+
+/// A triangle's corner as lighting sees it, in world space, rounded once to float: the same array
+/// goes to OpenGL.
+struct Surface {
+    glm::vec3 normal{0, 0, 1};     ///< unit, towards the front
+    glm::vec4 tangent{0, 0, 0, 0}; ///< unit, w = +-1: bitangent = w * cross(normal, tangent), which
+                                   ///< runs against the texture's rows; 0 without a bump map
+    glm::vec2 decal_at{0, 0};      ///< texture coordinates (1, 1: the lower right corner)
+    glm::vec2 bump_at{0, 0};
 };
 
 /// A run of triangles with one material: one glTF primitive of one node.
@@ -49,13 +78,19 @@ struct Light {
 glm::dvec4 homogeneous(const Light& light);
 
 struct Scene {
-    std::string name;                  ///< bundled name, or the file's stem
-    std::filesystem::path file;        ///< as given
-    std::vector<glm::vec3> positions;  ///< world space; the same array goes to OpenGL
-    std::vector<glm::uvec3> triangles; ///< into positions; counter-clockwise from the front, the
-                                       ///< flip of mirroring nodes already made
-    std::vector<Mesh> meshes;          ///< cover all triangles, in order, without gaps
-    std::vector<Material> materials;   ///< at least one
+    std::string name;                   ///< bundled name, or the file's stem
+    std::filesystem::path file;         ///< as given
+    std::vector<glm::vec3> positions;   ///< world space; the same array goes to OpenGL
+    std::vector<glm::uvec3> triangles;  ///< into positions; counter-clockwise from the front, the
+                                        ///< flip of mirroring nodes already made
+    std::vector<Mesh> meshes;           ///< cover all triangles, in order, without gaps
+    std::vector<Material> materials;    ///< at least one
+    std::vector<Surface> surfaces;      ///< three a triangle, in the order of its corners; empty
+                                        ///< where no material of a mesh has a bump map
+    std::vector<TextureImage> textures; ///< what such a scene's materials need
+    glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
+    bool inverse_square = false;        ///< extras.shadowproof.inverseSquare: the light's intensity
+                                        ///< and distance count
     Camera camera;
     std::vector<Light> lights;      ///< at least one
     std::size_t light = 0;          ///< the one that is judged
@@ -73,6 +108,11 @@ inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
 /// negative where clockwise: (b - a) x (c - a) . (l - w a) in double, from the first of its corners
 /// (by x, y, z) on. Zero without area or in its plane.
 double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
+
+/// Whether lighting by bump maps is asked for: some mesh's material has one.
+inline bool is_bump_lit(const Scene& scene) {
+    return !scene.surfaces.empty();
+}
 
 inline const Light& chosen_light(const Scene& scene) {
     return scene.lights[scene.light];

@@ -47,5 +47,24 @@ TEST(Digest, a_sun_counts_by_its_direction_and_a_spot_by_its_cone) {
     EXPECT_TRUE(changes([&] { light.outer_cone /= 2; }));
 }
 
+TEST(Digest, counts_what_lighting_needs_in_scenes_with_bump_maps_alone) {
+    const auto changes = [](const char* name, auto change) {
+        Scene scene = load_scene(name, {});
+        const std::string before = digest_of(scene);
+        change(scene);
+        return digest_of(scene) != before;
+    };
+    for (const char* name : {"ordinary", "bumpy_torus"}) {
+        const bool counts = std::string(name) == "bumpy_torus";
+        EXPECT_EQ(changes(name, [](Scene& s) { s.ambient.y += 0x1p-30; }), counts);
+        EXPECT_EQ(changes(name, [](Scene& s) { s.materials[1].specular.x /= 2; }), counts);
+        EXPECT_EQ(changes(name, [](Scene& s) { s.lights[0].color.z /= 2; }), counts);
+    }
+    EXPECT_TRUE(changes("bumpy_torus", [](Scene& s) { s.surfaces[77].tangent.w *= -1; }));
+    EXPECT_TRUE(changes("bumpy_torus", [](Scene& s) { s.textures[0].texels.at(3, 5).g += 0.01F; }));
+    EXPECT_TRUE(
+        changes("bumpy_torus", [](Scene& s) { s.textures[1].wrap_t = Wrap::clamp_to_edge; }));
+}
+
 } // namespace
 } // namespace shadowproof

@@ -47,11 +47,21 @@ TEST(reading, base64_that_stops_in_the_middle_is_refused) {
     EXPECT_NE(refusal(gltf).find(" /buffers/0/uri: is not well-formed base64"), std::string::npos);
 }
 
-TEST(reading, images_are_never_looked_at) {
+TEST(reading, images_are_never_looked_at_where_no_surface_has_a_bump_map) {
     json gltf = triangle_gltf();
     gltf["images"] = {{{"uri", "../../etc/passwd"}}, {{"bufferView", 99}}, 5};
     gltf["textures"] = {{{"source", 7}}};
+    const json decal = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}};
+    const json bumpy = {{"normalTexture", {{"index", 0}}}};
+    gltf["materials"] = {decal, bumpy};
+    gltf["meshes"][0]["primitives"][0]["material"] = 0;
     EXPECT_EQ(refusal(gltf), "");
+    const Scene scene = load(gltf);
+    EXPECT_FALSE(is_bump_lit(scene));
+    EXPECT_TRUE(scene.textures.empty());
+    EXPECT_TRUE(scene.surfaces.empty());
+    gltf["meshes"][0]["primitives"][0]["material"] = 1;
+    EXPECT_NE(refusal(gltf), "");
 }
 
 TEST(reading, a_channel_without_a_node_shifts_no_other) {

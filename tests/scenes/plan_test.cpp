@@ -204,5 +204,28 @@ TEST(plan, bundled_scenes_need_what_they_provoke_and_no_more) {
     EXPECT_TRUE(plan_of("eye_inside").volume_meets_near);
 }
 
+TEST(plan, leaves_tangents_out_exactly_where_no_surface_has_a_bump_map) {
+    const auto says_so = [](const char* name) {
+        const std::vector<std::string> left_out = make_plan(load_scene(name, {})).left_out;
+        return std::find(left_out.begin(), left_out.end(),
+                         "tangents: no normal map or height field") != left_out.end();
+    };
+    EXPECT_TRUE(says_so("ordinary"));
+    EXPECT_FALSE(says_so("bumpy_sphere"));
+    EXPECT_FALSE(says_so("height_field"));
+}
+
+TEST(plan, a_scene_without_bump_maps_holds_nothing_that_lighting_would_need) {
+    for (const BundledScene& bundled : bundled_scenes()) {
+        const Scene scene = load_scene(std::string(bundled.name), {});
+        const bool has_bump_map =
+            std::any_of(scene.materials.begin(), scene.materials.end(),
+                        [](const Material& material) { return material.bump != Bump::none; });
+        EXPECT_EQ(scene.surfaces.size(), has_bump_map ? 3 * scene.triangles.size() : 0U)
+            << bundled.name;
+        EXPECT_EQ(scene.textures.empty(), !has_bump_map) << bundled.name;
+    }
+}
+
 } // namespace
 } // namespace shadowproof

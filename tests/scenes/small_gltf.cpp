@@ -1,5 +1,6 @@
 #include "tests/scenes/small_gltf.h"
 
+#include "scenes/bundled/author/png.h"
 #include "scenes/error.h"
 
 #include <unistd.h>
@@ -80,6 +81,23 @@ json triangle_gltf() {
     add_accessor(gltf, indices, 5123, 3, "SCALAR");
     const json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
     gltf["meshes"] = json::array({{{"primitives", json::array({primitive})}}});
+    return gltf;
+}
+
+json textured_gltf() {
+    json gltf = triangle_gltf();
+    Bytes coordinates;
+    for (const float value : {0.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F}) put(coordinates, value);
+    gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        add_accessor(gltf, coordinates, 5126, 3, "VEC2");
+    author::Raster flat{2, 2, 3, 8, {}};
+    for (int i = 0; i < 4; ++i)
+        for (const unsigned value : {128U, 128U, 255U})
+            flat.values.push_back(static_cast<std::uint16_t>(value));
+    gltf["images"] = {{{"uri", "data:image/png;base64," + base64(png_of(flat))}}};
+    gltf["textures"] = {{{"source", 0}}};
+    gltf["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    gltf["meshes"][0]["primitives"][0]["material"] = 0;
     return gltf;
 }
 

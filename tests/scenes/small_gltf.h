@@ -47,6 +47,10 @@ std::size_t add_accessor(nlohmann::json& gltf, const Bytes& bytes, int component
                          std::size_t count, const std::string& type);
 std::size_t add_positions(nlohmann::json& gltf, const std::vector<glm::vec3>& positions);
 
+/// The triangle with a normal map (a PNG in a data URI of 2 x 2 texels: 0.5 0.5 1 all over, as
+/// near as bytes come to it) and texture coordinates (0, 1) (1, 1) (0, 0): upright. Accessor 2.
+nlohmann::json textured_gltf();
+
 /// A GLB of `gltf` whose buffer 0 is `binary`.
 Bytes glb_of(const nlohmann::json& gltf, const Bytes& binary);
 

@@ -20,6 +20,7 @@ constexpr int component_unsigned_short = 5123;
 constexpr int component_float = 5126;
 constexpr int target_vertices = 34962;
 constexpr int target_indices = 34963;
+constexpr int filter_linear = 9729;
 
 Json array(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
@@ -85,6 +86,29 @@ std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertice
     return buffer.accessors.size() - 1;
 }
 
+/// Float vectors without bounds: normals, tangents, texture coordinates.
+template <class Vector>
+std::size_t add_vectors(Buffer& buffer, const std::vector<Vector>& vectors) {
+    const std::size_t offset = buffer.bytes.size();
+    for (const Vector& vector : vectors)
+        for (int k = 0; k < vector.length(); ++k)
+            buffer.append(std::bit_cast<std::uint32_t>(static_cast<float>(vector[k])), 4);
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
+                                {"componentType", component_float},
+                                {"count", vectors.size()},
+                                {"type", "VEC" + std::to_string(Vector::length())}});
+    return buffer.accessors.size() - 1;
+}
+
+Json attributes_of(Buffer& buffer, const Shape& shape) {
+    Json attributes{{"POSITION", add_positions(buffer, shape.vertices)}};
+    if (!shape.normals.empty()) attributes["NORMAL"] = add_vectors(buffer, shape.normals);
+    if (!shape.tangents.empty()) attributes["TANGENT"] = add_vectors(buffer, shape.tangents);
+    if (!shape.coordinates.empty())
+        attributes["TEXCOORD_0"] = add_vectors(buffer, shape.coordinates);
+    return attributes;
+}
+
 std::size_t add_indices(Buffer& buffer, const std::vector<glm::uvec3>& triangles) {
     const std::size_t offset = buffer.bytes.size();
     for (const glm::uvec3& triangle : triangles)
@@ -109,6 +133,19 @@ std::size_t add_times(Buffer& buffer, const std::vector<float>& times) {
     return buffer.accessors.size() - 1;
 }
 
+void wear(Json& material, const Look& look) {
+    if (look.decal) material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *look.decal}};
+    Json ours = Json::object();
+    if (look.bump) {
+        Json map{{"index", *look.bump}};
+        if (look.bump_scale != 1) map["scale"] = look.bump_scale;
+        (look.bump_is_height ? ours["height"] : material["normalTexture"]) = map;
+    }
+    if (look.gloss_in_alpha) ours["glossInAlpha"] = true;
+    if (look.specular) ours["specular"] = array(*look.specular);
+    if (!ours.empty()) material["extras"] = {{"shadowproof", ours}};
+}
+
 Json material_of(const Placed& thing) {
     Json color = array(thing.color);
     color.push_back(1);
@@ -116,6 +153,7 @@ Json material_of(const Placed& thing) {
                   {"pbrMetallicRoughness",
                    {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
     if (thing.double_sided) material["doubleSided"] = true;
+    wear(material, thing.look);
     return material;
 }
 
@@ -183,6 +221,25 @@ Json lights_of(const Stage& stage) {
     return {{"KHR_lights_punctual", {{"lights", lights}}}};
 }
 
+/// Images in the buffer, one texture and one sampler each.
+void add_textures(Buffer& buffer, const Stage& stage, Json& gltf) {
+    if (stage.textures.empty()) return;
+    for (const Painting& painting : stage.textures) {
+        const std::size_t offset = buffer.bytes.size();
+        buffer.bytes.insert(buffer.bytes.end(), painting.png.begin(), painting.png.end());
+        const std::size_t view = buffer.close_view(offset, std::nullopt);
+        const std::size_t number = gltf["textures"].size();
+        gltf["textures"].push_back({{"sampler", number}, {"source", number}});
+        gltf["samplers"].push_back({{"magFilter", filter_linear},
+                                    {"minFilter", filter_linear},
+                                    {"wrapS", painting.wrap},
+                                    {"wrapT", painting.wrap}});
+        gltf["images"].push_back(
+            {{"name", painting.name}, {"mimeType", "image/png"}, {"bufferView", view}});
+    }
+    gltf["extras"]["shadowproof"]["ambient"] = array(stage.ambient);
+}
+
 } // namespace
 
 std::string write_gltf(const Stage& stage) {
@@ -191,12 +248,12 @@ std::string write_gltf(const Stage& stage) {
     Json meshes = Json::array();
     Json materials = Json::array();
     for (const Placed& thing : stage.things) {
-        const std::size_t positions = add_positions(buffer, thing.shape.vertices);
+        const Json attributes = attributes_of(buffer, thing.shape);
         const std::size_t indices = add_indices(buffer, thing.shape.triangles);
         nodes.push_back(node_of(thing, meshes.size()));
         meshes.push_back({{"name", thing.name},
                           {"primitives",
-                           {{{"attributes", {{"POSITION", positions}}},
+                           {{{"attributes", attributes},
                              {"indices", indices},
                              {"material", materials.size()}}}}});
         materials.push_back(material_of(thing));
@@ -221,6 +278,7 @@ std::string write_gltf(const Stage& stage) {
     gltf["cameras"] = cameras_of(stage);
     gltf["meshes"] = meshes;
     gltf["materials"] = materials;
+    add_textures(buffer, stage, gltf);
     if (stage.light.moves_to) gltf["animations"] = animations_of(buffer, stage.light, first_light);
     gltf["accessors"] = buffer.accessors;
     gltf["bufferViews"] = buffer.views;

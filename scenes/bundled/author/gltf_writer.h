@@ -4,12 +4,23 @@
 
 #include "scenes/bundled/author/shapes.h"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace shadowproof::author {
+
+/// What a thing wears beside its colour; textures are indices into Stage::textures.
+struct Look {
+    std::optional<std::size_t> bump{};
+    bool bump_is_height = false; ///< else it is a normal map
+    double bump_scale = 1;
+    std::optional<std::size_t> decal{};
+    bool gloss_in_alpha = false;
+    std::optional<glm::dvec3> specular{};
+};
 
 struct Placed {
     std::string name;
@@ -19,6 +30,17 @@ struct Placed {
     glm::dvec3 turn_axis{0, 1, 0};
     double turn = 0; ///< radians about turn_axis
     bool double_sided = false;
+    Look look{};
+};
+
+// Wrap modes by their numbers in glTF.
+inline constexpr int wrap_repeat = 10497;
+inline constexpr int wrap_mirrored_repeat = 33648;
+
+struct Painting {
+    std::string name;
+    std::vector<std::uint8_t> png;
+    int wrap = wrap_repeat; ///< both ways
 };
 
 struct Lamp {
@@ -36,6 +58,8 @@ struct Stage {
     std::string title;                 ///< for asset.extras, one sentence
     std::vector<std::string> provokes; ///< cause names
     std::vector<Placed> things;
+    std::vector<Painting> textures{};
+    glm::dvec3 ambient{0, 0, 0};
     glm::dvec3 eye{0, 0, 5};
     glm::dvec3 target{0, 0, 0};
     double yfov = 0.6; ///< radians

@@ -39,5 +39,6 @@ glm::dvec3 above(const glm::dvec3& floor_point, double height, const glm::dvec3&
 std::vector<Stage> stages_of_planes();  ///< the near plane, the far plane and the eye
 std::vector<Stage> stages_of_lights();  ///< where the light stands, and how many there are
 std::vector<Stage> stages_of_casters(); ///< how often, how closed and how wound
+std::vector<Stage> stages_of_bumps();   ///< lighting by bump maps
 
 } // namespace shadowproof::author

@@ -1,0 +1,95 @@
+#include "scenes/bundled/author/parts.h"
+#include "scenes/bundled/author/textures.h"
+
+#include <utility>
+
+namespace shadowproof::author {
+
+namespace {
+
+/// A floor to throw shadows on, and a light from the left that the eye sees half of things lit by.
+Stage lit_from_the_left(std::string name, std::string title) {
+    Stage stage = looking_along_floor(std::move(name), std::move(title));
+    stage.ambient = {0.11, 0.12, 0.14};
+    stage.light.position = {-5.471, 8.877, 4.683};
+    stage.target = {0.141, 1.041, 0.013};
+    stage.yfov = 0.4237;
+    stage.things[0].look.specular = glm::dvec3(0);
+    return stage;
+}
+
+/// The sphere has no tangents of its own: they are made by MikkTSpace's rule.
+Stage bumpy_sphere() {
+    Stage stage = lit_from_the_left(
+        "bumpy_sphere", "A sphere with round bumps by a normal map, without tangents of its own.");
+    stage.textures = {{"bumps", png_of(normal_map(64, 64, bumps(2, 2), 7))}};
+    add(stage, {{.name = "sphere",
+                 .shape = textured_ball(glm::dvec3(1.713), 48, 24, Wearing::around, {6, 3}),
+                 .color = teal,
+                 .position = {0.113, 1.741, 0.171},
+                 .turn_axis = {0.31, 0.83, 0.47},
+                 .turn = 0.7331,
+                 .look = {.bump = 0, .specular = glm::dvec3(0.7)}}});
+    return stage;
+}
+
+/// Kilgard's doughnut: bumps, and a decal whose alpha is the gloss.
+Stage bumpy_torus() {
+    Stage stage = lit_from_the_left(
+        "bumpy_torus",
+        "A torus with tangents, a normal map, and a decal that is glossy on the bumps alone.");
+    stage.textures = {{"bumps", png_of(normal_map(64, 64, bumps(2, 2), 9))},
+                      {"stripes", png_of(glossy_stripes(64, 64, bumps(2, 2), {0.93, 0.79, 0.42},
+                                                        {0.55, 0.17, 0.21}))}};
+    add(stage, {{.name = "torus",
+                 .shape = textured_torus(1.487, 0.613, 56, 28, {8, 4}),
+                 .color = {0.95, 0.95, 0.95},
+                 .position = {0.091, 1.367, 0.143},
+                 .turn_axis = {0.913, 0.071, 0.402},
+                 .turn = 0.6713,
+                 .look = {.bump = 0,
+                          .decal = 1,
+                          .gloss_in_alpha = true,
+                          .specular = glm::dvec3(0.9, 0.85, 0.8)}}});
+    return stage;
+}
+
+/// Half a picture for a whole face, as skins of characters save texels: its mirror image is the
+/// other half, and tangents part where the halves meet.
+Stage mirrored_skin() {
+    Stage stage = lit_from_the_left(
+        "mirrored_skin", "Both halves of a head wear one picture, the other half mirrored.");
+    stage.textures = {{"hook", png_of(normal_map(64, 64, hook(), 6))}};
+    add(stage, {{.name = "head",
+                 .shape = textured_ball({1.313, 1.787, 1.413}, 24, 16, Wearing::mirrored, {2, 2}),
+                 .color = amber,
+                 .position = {0.113, 1.811, 0.171},
+                 .turn = 0.0713,
+                 .look = {.bump = 0, .specular = glm::dvec3(0.5)}}});
+    return stage;
+}
+
+/// A height field of 16 bits, mirrored again and again over the faces of a slab.
+Stage height_field() {
+    Stage stage = lit_from_the_left(
+        "height_field", "A slab whose bumps are a height field instead of a normal map.");
+    stage.textures = {{"ripples", png_of(height_map(64, 64, ripples())), wrap_mirrored_repeat}};
+    add(stage,
+        {{.name = "slab",
+          .shape = textured_box({1.613, 1.413, 0.413}, 3),
+          .color = coral,
+          .position = {0.113, 1.571, 0.171},
+          .turn_axis = {-0.871, 0.131, 0.073},
+          .turn = 0.3713,
+          .look = {
+              .bump = 0, .bump_is_height = true, .bump_scale = 11, .specular = glm::dvec3(0.6)}}});
+    return stage;
+}
+
+} // namespace
+
+std::vector<Stage> stages_of_bumps() {
+    return {bumpy_sphere(), bumpy_torus(), mirrored_skin(), height_field()};
+}
+
+} // namespace shadowproof::author

@@ -1,0 +1,35 @@
+// Textures that the bump-mapped stages wear, painted by formulas.
+#pragma once
+
+#include "scenes/bundled/author/png.h"
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace shadowproof::author {
+
+/// Height at a texture coordinate, 0 to 1.
+using Relief = std::function<double(double u, double v)>;
+
+/// Round bumps on a lattice, `columns` by `rows` of them; repeats.
+Relief bumps(unsigned columns, unsigned rows);
+
+/// A slanted hook and three dots: no mirror image of it is like it.
+Relief hook();
+
+/// Ripples around the middle, and a step across them.
+Relief ripples();
+
+/// Gray of 16 bits.
+Raster height_map(unsigned width, unsigned height, const Relief& relief);
+
+/// glTF's normal map of a relief `scale` texels high, by central differences that wrap around; 8
+/// bits.
+Raster normal_map(unsigned width, unsigned height, const Relief& relief, double scale);
+
+/// RGBA of 8 bits: stripes of two colours (sRGB) across the relief, which shines where it is high.
+Raster glossy_stripes(unsigned width, unsigned height, const Relief& relief,
+                      const glm::dvec3& color, const glm::dvec3& other);
+
+} // namespace shadowproof::author

@@ -1,0 +1,120 @@
+#include "scenes/gltf_texture.h"
+
+#include "scenes/gltf_bytes.h"
+#include "scenes/picture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace shadowproof::gltf {
+
+namespace {
+
+using nlohmann::json;
+
+// Numbers of the glTF 2.0 specification.
+constexpr int filter_nearest = 9728;
+constexpr int wrap_clamp_to_edge = 33071;
+constexpr int wrap_mirrored_repeat = 33648;
+constexpr int wrap_repeat = 10497;
+
+Bytes bytes_in_view(const Document& document, std::size_t index) {
+    const tinygltf::BufferView& view = document.model.bufferViews[index];
+    const Bytes& buffer = document.model.buffers[as_index(view.buffer)].data;
+    if (view.byteOffset + view.byteLength > buffer.size()) // each is at most limits.bytes
+        (document.root() / "bufferViews" / index)
+            .refuse(fmt::format("ends at byte {} of a buffer of {}",
+                                view.byteOffset + view.byteLength, buffer.size()),
+                    "mend byteOffset and byteLength");
+    const auto first = buffer.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+    return {first, first + static_cast<std::ptrdiff_t>(view.byteLength)};
+}
+
+Bytes bytes_in_uri(const Document& document, const std::string& uri, const Place& place) {
+    if (!uri.starts_with("data:"))
+        return read_bytes(resolve_uri(document.folder, uri, place), place);
+    Bytes bytes;
+    std::string type;
+    const std::string known = // as tinygltf knows it
+        fmt::format("data:application/octet-stream;base64,{}", base64_digits(uri, place));
+    if (!tinygltf::DecodeDataURI(&bytes, type, known, 0, false))
+        place.refuse("is an empty data URI", "embed the picture");
+    return bytes;
+}
+
+Bytes image_bytes(const Document& document, const json& source, std::size_t image) {
+    const Place place = document.root() / "images" / image;
+    if (source.contains("bufferView")) return bytes_in_view(document, source["bufferView"]);
+    if (!source.contains("uri"))
+        place.refuse("has neither uri nor bufferView", "say where the picture is");
+    return bytes_in_uri(document, source["uri"], place / "uri");
+}
+
+Wrap wrap_mode(const Place& place, int mode) {
+    if (mode == wrap_repeat) return Wrap::repeat;
+    if (mode == wrap_mirrored_repeat) return Wrap::mirrored_repeat;
+    if (mode == wrap_clamp_to_edge) return Wrap::clamp_to_edge;
+    place.refuse(fmt::format("{} is no wrap mode", mode), "use 10497, 33071 or 33648");
+}
+
+/// IEC 61966-2-1, in double.
+double linear_from_srgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+/// The pixels as vectors: gray is all three colours, a missing alpha 1.
+Image<glm::vec4> texels_of(const Picture& picture, Encoding encoding) {
+    Image<glm::vec4> texels(picture.width, picture.height);
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    const bool has_alpha = channels == 2 || channels >= 4;
+    const std::array<std::size_t, 3> color =
+        channels < 3 ? std::array<std::size_t, 3>{0, 0, 0} : std::array<std::size_t, 3>{0, 1, 2};
+    for (std::size_t i = 0; i < texels.pixels.size(); ++i) {
+        const float* stored = picture.values.data() + i * channels;
+        glm::vec4& texel = texels.pixels[i];
+        for (int k = 0; k < 3; ++k) {
+            const float value = stored[color[static_cast<std::size_t>(k)]];
+            texel[k] =
+                encoding == Encoding::plain ? value : static_cast<float>(linear_from_srgb(value));
+        }
+        texel.a = has_alpha ? stored[channels == 2 ? 1 : 3] : 1;
+    }
+    return texels;
+}
+
+} // namespace
+
+void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
+    const json& source = look_["samplers"][sampler];
+    const Place place = document_.root() / "samplers" / sampler;
+    texture.wrap_s = wrap_mode(place / "wrapS", source.value("wrapS", wrap_repeat));
+    texture.wrap_t = wrap_mode(place / "wrapT", source.value("wrapT", wrap_repeat));
+    nearest_ = nearest_ || source.value("magFilter", 0) == filter_nearest;
+}
+
+std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, Encoding encoding) {
+    const auto known = read_.find({texture, encoding});
+    if (known != read_.end()) return known->second;
+    const json& source = look_["textures"][texture];
+    const Place place = document_.root() / "textures" / texture;
+    if (!source.contains("source"))
+        reference.refuse(fmt::format("names texture {}, which has no PNG or JPEG image", texture),
+                         "give it a source");
+    const std::size_t image = source["source"];
+    TextureImage read{.name = place.pointer()};
+    if (source.contains("sampler")) set_sampler(source["sampler"], read);
+    const Picture picture =
+        decode_picture(image_bytes(document_, look_["images"][image], image),
+                       (document_.root() / "images" / image).where(), limits.texels - texels_);
+    read.bits = picture.bits;
+    read.texels = texels_of(picture, encoding);
+    texels_ += read.texels.pixels.size();
+    textures_.push_back(std::move(read));
+    const auto index = static_cast<std::uint32_t>(textures_.size() - 1);
+    read_.emplace(std::pair{texture, encoding}, index);
+    return index;
+}
+
+} // namespace shadowproof::gltf

@@ -1,0 +1,46 @@
+// Textures of a glTF file: images from a buffer view, a data URI or a file of the asset's folder,
+// decoded only when a material asks for them.
+#pragma once
+
+#include "scenes/gltf_file.h"
+#include "scenes/texture.h"
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace shadowproof::gltf {
+
+/// How the colour channels of a picture are meant (alpha is always a plain number).
+enum class Encoding : std::uint8_t {
+    srgb,  ///< colours, IEC 61966-2-1
+    plain, ///< numbers: normals, heights
+};
+
+/// Fills a scene's textures as they are asked for, each once.
+class TextureReader {
+public:
+    /// `look`: the document's, checked by check_lighting.
+    TextureReader(const Document& document, const nlohmann::json& look,
+                  std::vector<TextureImage>& textures)
+        : document_(document), look_(look), textures_(textures) {}
+
+    /// Index of the texture of that number in the file; `reference` is what names it. Throws Error:
+    /// no image, a missing or damaged one, an unknown wrap mode, more texels than limits.texels.
+    std::uint32_t read(const Place& reference, std::size_t texture, Encoding encoding);
+
+    bool asks_for_nearest() const { return nearest_; } ///< some sampler's magFilter does
+
+private:
+    const Document& document_;
+    const nlohmann::json& look_;
+    std::vector<TextureImage>& textures_;
+    std::map<std::pair<std::size_t, Encoding>, std::uint32_t> read_;
+    std::uint64_t texels_ = 0;
+    bool nearest_ = false;
+
+    void set_sampler(std::size_t sampler, TextureImage& texture);
+};
+
+} // namespace shadowproof::gltf
