@@ -30,6 +30,10 @@ public:
         for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
     }
 
+    glm::dvec3 at(int x, int y) const {
+        return columns_[static_cast<std::size_t>(x)] + rows_[static_cast<std::size_t>(y)];
+    }
+
     Tile tile(int left, int top) const {
         Tile tile;
         const int right = std::min(left + tile_side, static_cast<int>(columns_.size()));
@@ -39,8 +43,7 @@ public:
                 const auto lane = static_cast<std::size_t>((y - top) * tile_side + x - left);
                 tile.x[lane] = x;
                 tile.y[lane] = y;
-                tile.directions[lane] =
-                    columns_[static_cast<std::size_t>(x)] + rows_[static_cast<std::size_t>(y)];
+                tile.directions[lane] = at(x, y);
                 tile.lanes |= 1U << lane;
             }
         return tile;
