@@ -1,14 +1,13 @@
-// One point's lighting, by the definition in shading.h.
+// Lighting of up to sixteen points, by the definition in shading.h.
 #pragma once
 
+#include "reference/lighting_lanes.h"
 #include "reference/shading.h"
 #include "reference/state.h"
 
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-#include <limits>
 #include <vector>
 
 namespace shadowproof {
@@ -17,51 +16,72 @@ namespace shadowproof {
 struct ShadingTables {
     const Tracer::State* state = nullptr;
     std::vector<Image<glm::dvec2>> slopes; ///< a material; empty where it has no height field
-    glm::dvec4 light{0, 0, 0, 1};          ///< homogeneous, a place less the eye
-    glm::dvec3 light_color{1, 1, 1};       ///< times the intensity, where that counts
-    bool spot = false;
-    double cos_outer = 0;
-    double cone_scale = 0; ///< 1 / max(0.001, cos inner - cos outer)
+    LaneLight light;
+    glm::dvec3 light_color{1, 1, 1}; ///< times the intensity, where that counts
 };
 
 ShadingTables make_shading_tables(const Tracer& tracer);
 
-/// One thread's means of shading; keeps what it knows of a triangle while points lie on it.
+/// One thread's means of shading; keeps what it knows of triangles.
 class PointShader {
 public:
-    explicit PointShader(const ShadingTables& tables) : tables_(&tables) {}
+    explicit PointShader(const ShadingTables& tables) : tables_(&tables), known_(kept_triangles) {}
 
     /// The point that the eye ray along `direction` sees on `triangle`.
-    Shading shade(const glm::dvec3& direction, std::uint32_t triangle, bool lit);
+    void set(std::size_t lane, const glm::dvec3& direction, std::uint32_t triangle, bool lit);
+
+    /// All that is set. Afterwards, lane by lane:
+    void shade() { light_lanes(tables_->light, lanes_); }
+    glm::dvec3 color(std::size_t lane) const;
+    Shading terms(std::size_t lane) const;
 
 private:
-    /// A value at each of three corners.
+    /// A value at each corner.
     template <class T>
-    using Corners3 = std::array<T, 3>;
+    using ThreeOf = std::array<T, 3>;
 
-    /// The triangle, less the eye, and its surface, in double.
+    /// A triangle, less the eye, and its surface, in double.
     struct Known {
         std::uint32_t triangle = no_triangle;
         const Material* material = nullptr;
         const Image<glm::dvec2>* slopes = nullptr;
-        bool from_behind = false;
-        Corners3<glm::dvec3> points{};
-        Corners3<glm::dvec3> across{}; ///< b x c, c x a, a x b
-        Corners3<glm::dvec3> normals{};
-        Corners3<glm::dvec3> tangents{};
-        Corners3<glm::dvec2> decal_at{};
-        Corners3<glm::dvec2> bump_at{};
+        glm::dvec3 point{0, 0, 0};    ///< the first corner
+        glm::dvec3 edge_b{0, 0, 0};   ///< from there to the second
+        glm::dvec3 edge_c{0, 0, 0};   ///< from there to the third
+        glm::dvec3 across{0, 0, 0};   ///< the triangle: edge_b x edge_c
+        glm::dvec3 toward_b{0, 0, 0}; ///< edge_c x point
+        glm::dvec3 toward_c{0, 0, 0}; ///< point x edge_b
+        ThreeOf<glm::dvec3> normals{};
+        ThreeOf<glm::dvec3> tangents{};
+        ThreeOf<glm::dvec2> decal_at{};
+        ThreeOf<glm::dvec2> bump_at{};
         double hand = 1;
+        double side = 1;
+    };
+    /// Around a tile lie fewer, and they fit a first cache.
+    static constexpr std::size_t kept_triangles = 64;
+
+    /// What lighting_lanes.h has no part in.
+    struct Look {
+        const Material* material = nullptr;
+        glm::dvec3 decal{0, 0, 0};
+        double gloss = 1;
+        bool lit = false;
+    };
+    struct Summands {
+        glm::dvec3 diffuse, specular, ambient;
     };
 
     const ShadingTables* tables_;
-    Known known_;
+    std::vector<Known> known_; ///< each triangle in the place of its number modulo their number
+    LightingLanes lanes_;
+    Lanes<Look> looks_{};
 
-    void learn(std::uint32_t triangle);
-    glm::dvec3 bumped(const glm::dvec3& weights, const glm::dvec3& normal) const;
-    glm::dvec3 bump_sample(const glm::dvec2& at) const;
-    void set_decal(const glm::dvec3& weights, Shading& shading) const;
-    void set_light(const glm::dvec3& point, Shading& shading) const;
+    const Known& known(std::uint32_t triangle);
+    void learn(std::uint32_t triangle, Known& known) const;
+    glm::dvec3 bump_at(const Known& known, const glm::dvec3& weights) const;
+    Look look_at(const Known& known, const glm::dvec3& weights) const;
+    Summands summands(std::size_t lane) const;
 };
 
 } // namespace shadowproof

@@ -26,7 +26,7 @@ private:
     std::vector<std::unique_ptr<PointShader>> shaders_;
 };
 
-/// What `of` makes of the shading of every pixel that sees a surface.
+/// What `of` makes of every pixel that sees a surface, from a shader and the pixel's lane.
 template <class T, class Of>
 Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
     const Camera& camera = tracer.scene().camera;
@@ -36,15 +36,26 @@ Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
     Shaders shaders(tables, tracer.threads());
     const PixelRays rays(camera);
     Image<T> picture(camera.width, camera.height, T{});
-    parallel_for(camera.height, tracer.threads(), [&](int y, int thread) {
-        PointShader& shader = shaders.of(thread);
-        for (int x = 0; x < camera.width; ++x) {
-            const std::size_t pixel = picture.index(x, y);
+    const auto shade_tile = [&](const Tile& tile, PointShader& shader) {
+        std::uint32_t seen = 0;
+        for (std::size_t lane = 0; lane < packet_size; ++lane) {
+            if ((tile.lanes >> lane & 1U) == 0) continue;
+            const std::size_t pixel = picture.index(tile.x[lane], tile.y[lane]);
             const std::uint32_t triangle = truth.triangle.pixels[pixel];
             if (triangle == no_triangle) continue;
-            const bool lit = truth.visibility.pixels[pixel] == Visibility::lit;
-            picture.pixels[pixel] = of(shader.shade(rays.at(x, y), triangle, lit));
+            shader.set(lane, tile.directions[lane], triangle,
+                       truth.visibility.pixels[pixel] == Visibility::lit);
+            seen |= 1U << lane;
         }
+        if (seen == 0) return;
+        shader.shade();
+        for (std::size_t lane = 0; lane < packet_size; ++lane)
+            if ((seen >> lane & 1U) != 0) picture.at(tile.x[lane], tile.y[lane]) = of(shader, lane);
+    };
+    const int rows = (camera.height + tile_side - 1) / tile_side;
+    parallel_for(rows, tracer.threads(), [&](int row, int thread) {
+        for (int left = 0; left < camera.width; left += tile_side)
+            shade_tile(rays.tile(left, row * tile_side), shaders.of(thread));
     });
     return picture;
 }
@@ -81,12 +92,16 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
         Lanes<Lighting> lighting;
         prober.see(directions, lanes, seen);
         prober.light(directions, lanes, seen, lighting);
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane) {
-            if (seen[lane].triangle == no_triangle) continue;
+        const auto for_seen = [&](const auto& work) {
+            for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
+                if (seen[lane].triangle != no_triangle) work(lane);
+        };
+        for_seen([&](std::size_t lane) {
+            shader.set(lane, directions[lane], seen[lane].triangle, lighting[lane].lit);
             ++sum.seen;
-            sum.color +=
-                shader.shade(directions[lane], seen[lane].triangle, lighting[lane].lit).color();
-        }
+        });
+        shader.shade();
+        for_seen([&](std::size_t lane) { sum.color += shader.color(lane); });
     }
     return sum;
 }
@@ -94,20 +109,25 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
 } // namespace
 
 Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth) {
-    return shaded<glm::dvec3>(tracer, truth,
-                              [](const Shading& shading) { return shading.color(); });
+    return shaded<glm::dvec3>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
+        return shader.color(lane);
+    });
 }
 
 Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth) {
-    return shaded<Shading>(tracer, truth, [](const Shading& shading) { return shading; });
+    return shaded<Shading>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
+        return shader.terms(lane);
+    });
 }
 
 std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction) {
     const RayTruth truth = trace_ray(tracer, direction);
     if (truth.triangle == no_triangle) return std::nullopt;
     const ShadingTables tables = make_shading_tables(tracer);
-    return PointShader(tables).shade(direction, truth.triangle,
-                                     truth.visibility == Visibility::lit);
+    PointShader shader(tables);
+    shader.set(0, direction, truth.triangle, truth.visibility == Visibility::lit);
+    shader.shade();
+    return shader.terms(0);
 }
 
 Supersampled shade_supersampled(const Tracer& tracer, int n) {

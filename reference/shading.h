@@ -5,10 +5,12 @@
 // for each angle of a spot's cone), each rounded by itself; so any processor gives the same bits.
 // Where a step divides by a length of zero, it says what holds instead.
 //
-//  1. Point. D is the eye ray's direction, a, b, c the corners of the seen triangle less the eye.
-//     Its weights are D . (b x c), D . (c x a) and D . (a x b), over their sum; the point less the
-//     eye is Q = wa a + wb b + wc c. Normals, tangents and texture coordinates are interpolated
-//     with the same weights, from the floats that Scene::surfaces holds.
+//  1. Point. D is the eye ray's direction, a the seen triangle's first corner less the eye, e and f
+//     its edges from there to the second and the third corner. The weights of these two are
+//     D . (f x a) and D . (a x e), over D . (e x f), each clamped to [0, 1]; the first corner's is
+//     1 less theirs. The point less the eye is Q = a + wb e + wc f. Normals, tangents and texture
+//     coordinates are interpolated with the same weights, from the floats that Scene::surfaces
+//     holds.
 //  2. Frame. N is the interpolated normal, made of unit length (of length zero: the triangle's
 //     own). T is the interpolated tangent less N (N . T), made of unit length (of length zero:
 //     any_tangent(N)). B = w N x T, with the w that the triangle's three corners share.

@@ -280,7 +280,7 @@ private:
     std::size_t count_;
 };
 
-/// Changes the look of a surface in ways that no bump map needs.
+/// Changes the look of a surface only: what is missed is said in the notes.
 bool is_only_look(std::string_view extension) {
     return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
            extension == "EXT_texture_webp" || extension == "KHR_xmp_json_ld";

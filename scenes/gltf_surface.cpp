@@ -77,9 +77,14 @@ std::vector<glm::vec2> read_coordinates(AccessorReader& reader, const PosedPart&
         read_morphed(reader, posed.part, wanted, posed.weights, posed.positions.count);
     std::vector<glm::vec2> at;
     at.reserve(local.vertices.size());
-    for (const std::uint32_t vertex : local.vertices)
+    for (const std::uint32_t vertex : local.vertices) {
         at.emplace_back(static_cast<float>(given.values[2 * vertex]),
                         static_cast<float>(given.values[2 * vertex + 1]));
+        if (!std::isfinite(at.back().x) || !std::isfinite(at.back().y)) // as morphed
+            (posed.part.place / "attributes" / wanted.name)
+                .refuse(fmt::format("vertex {} has coordinates that are not finite", vertex),
+                        "scale its displacements down");
+    }
     return at;
 }
 

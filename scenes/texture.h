@@ -4,6 +4,8 @@
 
 #include "scenes/image.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <string>
@@ -30,12 +32,45 @@ struct Taps {
     double fraction = 0;
 };
 
+/// std::floor, which is a call on processors that are not known to have an instruction for it. The
+/// detour by an integer is exact below 2^62.
+inline double floor_of(double x) {
+    if (!(std::abs(x) < 0x1p62)) return std::floor(x);
+    const auto toward_zero = static_cast<double>(static_cast<std::int64_t>(x));
+    return toward_zero > x ? toward_zero - 1 : toward_zero;
+}
+
+/// A texel number between -1 and one behind the last period's end, brought into [0, n).
+inline int mirrored(int texel, int n) {
+    if (texel < 0) return -1 - texel;
+    if (texel >= 2 * n) return texel - 2 * n;
+    return texel < n ? texel : 2 * n - 1 - texel;
+}
+
 /// The texture spans [0, 1]; texel i of n has its centre at (i + 0.5) / n. With x = n * at - 0.5
 /// the texels are floor(x) and floor(x) + 1, each wrapped into the texture as OpenGL does
 /// (OpenGL 4.5, table 8.20), the fraction x - floor(x). For repeat and mirrored_repeat `at` is
 /// first brought into one period, at - floor(at) or at - 2 floor(at / 2); for clamp_to_edge x is
 /// clamped to [0, n - 1]. Any finite coordinate is welcome.
-Taps taps_at(Wrap wrap, int texels, double at);
+inline Taps taps_at(Wrap wrap, int texels, double at) {
+    const double n = texels;
+    if (wrap == Wrap::repeat) at -= floor_of(at);
+    if (wrap == Wrap::mirrored_repeat) at -= 2 * floor_of(at / 2);
+    double x = n * at - 0.5;
+    if (wrap == Wrap::clamp_to_edge) x = std::clamp(x, 0.0, n - 1);
+    const double below = floor_of(x);
+    const int first = static_cast<int>(below);
+    const double fraction = x - below;
+    switch (wrap) {
+    case Wrap::repeat:
+        return {first < 0 ? texels - 1 : first, first + 1 == texels ? 0 : first + 1, fraction};
+    case Wrap::mirrored_repeat:
+        return {mirrored(first, texels), mirrored(first + 1, texels), fraction};
+    case Wrap::clamp_to_edge:
+        break;
+    }
+    return {first, std::min(first + 1, texels - 1), fraction};
+}
 
 /// Bilinear interpolation in double of anything kept texel by texel: a + f (b - a) along the rows,
 /// then between them. Equal texels come out unchanged.

@@ -47,9 +47,25 @@ Bytes mutated(Bytes bytes, std::mt19937& random) {
     return bytes;
 }
 
-/// Camera, light, skin, morph, animation and sparse accessor, so that all code is within reach.
+/// Camera, light, skin, morph, animation, textures and bump maps, so that all code is within reach.
 json everything() {
-    json gltf = triangle_gltf();
+    json gltf = textured_gltf();
+    gltf["samplers"] = json::array({{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9729}}});
+    gltf["textures"].push_back({{"source", 0}, {"sampler", 0}});
+    const json decal = {{"baseColorTexture", {{"index", 1}, {"texCoord", 0}}},
+                        {"baseColorFactor", {1, 0.5, 0.25, 1}}};
+    gltf["materials"][0]["pbrMetallicRoughness"] = decal;
+    gltf["materials"].push_back({{"pbrMetallicRoughness", decal},
+                                 {"extras",
+                                  {{"shadowproof",
+                                    {{"height", {{"index", 1}, {"scale", 2}}},
+                                     {"glossInAlpha", true},
+                                     {"specular", {1, 1, 0}}}}}}});
+    gltf["extras"]["shadowproof"] = {{"ambient", {0, 0, 1}}, {"inverseSquare", true}};
+    json second = gltf["meshes"][0]["primitives"][0];
+    second["material"] = 1;
+    second["attributes"]["NORMAL"] = 0;
+    gltf["meshes"].push_back({{"primitives", json::array({second})}});
     json& primitive = gltf["meshes"][0]["primitives"][0];
     const std::size_t joints = add_accessor(gltf, Bytes(12, 0), 5121, 3, "VEC4");
     Bytes weights;
@@ -62,7 +78,7 @@ json everything() {
     gltf["nodes"].push_back({{"camera", 0}, {"translation", {0.25, 0.25, 3}}});
     gltf["nodes"].push_back(
         {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 2, 3}}});
-    gltf["nodes"].push_back({{"mesh", 0}, {"children", {1, 2}}});
+    gltf["nodes"].push_back({{"mesh", 1}, {"children", {1, 2}}});
     gltf["scenes"][0]["nodes"] = {0, 3};
     gltf["cameras"] = json::array(
         {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 9}}}}});

@@ -106,6 +106,47 @@ TEST(tangents, where_a_triangle_has_no_area_are_those_of_its_neighbours_or_any) 
     }
 }
 
+/// A vertex of a grid whose picture is mirrored at x = 1.
+TexturedCorner grid_corner(int column, int row) {
+    const auto x = static_cast<float>(column);
+    const auto y = static_cast<float>(row);
+    TexturedCorner corner;
+    corner.position = {x + 0.2F * std::sin(3 * x + 5 * y), y + 0.15F * std::cos(2 * x - y),
+                       0.3F * std::sin(x + 2 * y)};
+    corner.normal =
+        glm::normalize(glm::vec3(0.3F * std::sin(4 * x + y), 0.25F * std::cos(x - 3 * y), 1));
+    corner.at = {std::abs(x - 1) * (1 + 0.1F * std::sin(7 * x + y)),
+                 0.1F * std::cos(x + 6 * y) - y};
+    return corner;
+}
+
+TEST(tangents, are_those_that_the_published_code_of_mikktspace_finds) {
+    Corners corners;
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x)
+            for (const auto& corner :
+                 {grid_corner(x, y), grid_corner(x + 1, y), grid_corner(x + 1, y + 1),
+                  grid_corner(x, y), grid_corner(x + 1, y + 1), grid_corner(x, y + 1)})
+                corners.push_back(corner);
+    struct Known {
+        std::size_t corner;
+        glm::vec4 tangent;
+    };
+    // By mikktspace 1.1.1 of npm, w turned round as it says that glTF needs it.
+    const Known known[]{
+        {0, {-0.993102, 0.113753, -0.028438, -1}},   {1, {-0.937980, 0.244328, -0.245962, -1}},
+        {2, {-0.957688, 0.115884, -0.263449, -1}},   {5, {-0.971260, -0.059676, 0.230417, -1}},
+        {6, {0.940115, -0.236566, 0.245399, 1}},     {7, {0.949896, -0.108303, -0.293204, 1}},
+        {8, {0.924638, -0.375500, -0.063597, 1}},    {11, {0.826733, -0.532184, 0.182466, 1}},
+        {14, {-0.994463, -0.069983, -0.078398, -1}}, {17, {-0.948521, -0.128329, 0.289551, -1}},
+        {20, {0.913730, -0.397509, 0.084169, 1}},    {23, {0.939565, -0.326843, 0.101937, 1}}};
+    const std::vector<glm::vec4> found = make_tangents(corners);
+    for (const auto& [corner, tangent] : known) {
+        SCOPED_TRACE(corner);
+        expect_near(found[corner], tangent);
+    }
+}
+
 /// A bumpy square of 2 n^2 triangles, its picture mirrored in the middle.
 Corners random_patch(std::mt19937& random) {
     constexpr int n = 6;
