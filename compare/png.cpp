@@ -39,6 +39,13 @@ void write_png(const std::filesystem::path& file, const Image<Visibility>& class
           PNG_FORMAT_GRAY, nullptr, 0);
 }
 
+void write_png(const std::filesystem::path& file, const Image<Rgb>& picture,
+               const std::filesystem::path& named) {
+    static_assert(sizeof(Rgb) == 3);
+    write(file, named.empty() ? file : named, picture.width, picture.height, picture.pixels.data(),
+          PNG_FORMAT_RGB, nullptr, 0);
+}
+
 void write_png(const std::filesystem::path& file, const PalettePicture& picture) {
     static_assert(sizeof(Rgb) == 3);
     assert(picture.palette.size() <= 256);

@@ -27,6 +27,9 @@ struct PalettePicture {
 /// its reader knows of, where `file` stands beside its place.
 void write_png(const std::filesystem::path& file, const Image<Visibility>& classes,
                const std::filesystem::path& named = {});
+/// The same, 8 bits a colour.
+void write_png(const std::filesystem::path& file, const Image<Rgb>& picture,
+               const std::filesystem::path& named = {});
 /// The same, with a palette of colours.
 void write_png(const std::filesystem::path& file, const PalettePicture& picture);
 

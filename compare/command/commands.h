@@ -6,11 +6,12 @@
 
 namespace shadowproof {
 
-Work add_verify(CLI::App& app);  ///< verify.cpp
-Work add_render(CLI::App& app);  ///< render.cpp
-Work add_explain(CLI::App& app); ///< explain.cpp
-Work add_list(CLI::App& app);    ///< list.cpp
-Work add_report(CLI::App& app);  ///< report.cpp
-Work add_merge(CLI::App& app);   ///< merge.cpp
+Work add_verify(CLI::App& app);     ///< verify.cpp
+Work add_render(CLI::App& app);     ///< render.cpp
+Work add_explain(CLI::App& app);    ///< explain.cpp
+Work add_list(CLI::App& app);       ///< list.cpp
+Work add_report(CLI::App& app);     ///< report.cpp
+Work add_merge(CLI::App& app);      ///< merge.cpp
+Work add_normal_map(CLI::App& app); ///< normal_map.cpp
 
 } // namespace shadowproof

@@ -27,6 +27,7 @@ constexpr const char* footer =
     "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
     "  shadowproof explain near_plane --pixel 229,103  why one pixel is what it is\n"
     "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
+    "  shadowproof normal-map height.png -o normal.png a height field as a normal map\n"
     "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
     "\nExit codes:\n"
     "  0  every technique agrees with the truth, or fails as was predicted\n"
@@ -40,8 +41,9 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", [] {
         return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
     });
-    const std::vector<Work> works{add_verify(app), add_render(app), add_explain(app),
-                                  add_list(app),   add_report(app), add_merge(app)};
+    const std::vector<Work> works{add_verify(app),    add_render(app), add_explain(app),
+                                  add_list(app),      add_report(app), add_merge(app),
+                                  add_normal_map(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;

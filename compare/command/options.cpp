@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -137,6 +138,13 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
     return words;
+}
+
+std::string extension_of(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
 }
 
 } // namespace shadowproof

@@ -59,6 +59,9 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options);
 /// A check for CLI11: the path may not be empty.
 CLI::Validator not_empty();
 
+/// Of a file's name, in small letters: ".exr".
+std::string extension_of(const std::string& file);
+
 /// The flags that differ from their defaults, as words of a command line.
 std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOptions& technique);
 

@@ -1,3 +1,4 @@
+#include "compare/command/color_picture.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/truth_exr.h"
@@ -5,11 +6,10 @@
 #include "compare/png.h"
 #include "compare/write_file.h"
 #include "scenes/catalog.h"
+#include "scenes/error.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <memory>
 
 namespace shadowproof {
@@ -20,15 +20,47 @@ struct RenderOptions {
     std::string scene;
     SceneOptions picture;
     std::string output;
+    std::string aov; ///< of a PNG; empty: visibility
+    int samples = 1; ///< along each side of a pixel
     bool quiet = false;
 };
 
-/// ".EXR" and ".exr" are one.
-std::string extension_of(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
+bool is_exr(const RenderOptions& options) {
+    return extension_of(options.output) == ".exr";
+}
+
+/// Whether lighting is asked for, and what to say where it cannot be had.
+bool wants_lighting(const RenderOptions& options, const Scene& scene) {
+    const bool asked = options.aov == "color" || options.aov == "normal";
+    if (asked && !is_bump_lit(scene))
+        throw Error(scene.file.string(), "has no bump map, so its colours are not judged",
+                    "render --aov visibility, or give a material a normalTexture");
+    return asked || (is_exr(options) && is_bump_lit(scene));
+}
+
+/// Bytes a pixel of what lighting adds, at most.
+std::size_t lighting_bytes(const RenderOptions& options) {
+    return is_exr(options) || options.aov == "normal" ? sizeof(Shading) : sizeof(glm::dvec3);
+}
+
+Image<Rgb> lit_picture(const RenderOptions& options, const Tracer& tracer,
+                       const GroundTruth& truth) {
+    if (options.aov == "normal") return normal_picture(shade_terms(tracer, truth));
+    return color_picture(options.samples > 1 ? shade_supersampled(tracer, options.samples).color
+                                             : shade(tracer, truth));
+}
+
+void write_truth(const RenderOptions& options, const Tracer& tracer, const GroundTruth& truth) {
+    const bool lit = wants_lighting(options, tracer.scene());
+    if (is_exr(options))
+        return write_truth_exr(tracer.scene(), truth,
+                               lit ? shade_terms(tracer, truth) : Image<Shading>(), options.output);
+    write_beside(options.output, [&](const std::filesystem::path& beside) {
+        if (lit)
+            write_png(beside, lit_picture(options, tracer, truth), options.output);
+        else
+            write_png(beside, truth.visibility, options.output);
+    });
 }
 
 int render_truth(const RenderOptions& options) {
@@ -37,19 +69,25 @@ int render_truth(const RenderOptions& options) {
     refuse_too_large(options.picture.size.width, options.picture.size.height, truth_bytes());
     const Scene scene = load_scene(options.scene, options.picture.request());
     for (const std::string& note : scene.notes) console.line("note: " + note);
-    const GroundTruth truth = trace(Tracer(scene, options.picture.threads));
-    if (extension_of(options.output) == ".exr") {
-        write_truth_exr(scene, truth, options.output);
-    } else {
-        write_beside(options.output, [&](const std::filesystem::path& beside) {
-            write_png(beside, truth.visibility, options.output);
-        });
-    }
+    if (wants_lighting(options, scene))
+        refuse_too_large(options.picture.size.width, options.picture.size.height,
+                         truth_bytes() + lighting_bytes(options));
+    const Tracer tracer(scene, options.picture.threads);
+    const GroundTruth truth = trace(tracer);
+    write_truth(options, tracer, truth);
     const TraceStatistics& traced = truth.statistics;
     console.line(fmt::format("{}: lit {}, shadowed {}, background {}  {:.1f} ms", options.output,
                              grouped(traced.lit), grouped(traced.shadowed),
                              grouped(traced.background), traced.milliseconds));
     return exit_passed;
+}
+
+/// What CLI11 cannot see of one option alone.
+void check_together(const RenderOptions& options) {
+    if (!options.aov.empty() && is_exr(options))
+        throw CLI::ValidationError("--aov", "an .exr holds them all; name a .png, or leave it out");
+    if (options.samples > 1 && options.aov != "color")
+        throw CLI::ValidationError("--samples", "is for --aov color");
 }
 
 } // namespace
@@ -62,8 +100,9 @@ Work add_render(CLI::App& app) {
         ->check(not_empty());
     command
         ->add_option("-o,--output", options->output,
-                     ".png: the class map (0 background, 64 shadowed, 255 lit); .exr: position, "
-                     "normal, depth, visibility, primId and exactness by name")
+                     ".png: the class map (0 background, 64 shadowed, 255 lit), or what --aov "
+                     "says; .exr: position, normal, depth, visibility, primId and exactness by "
+                     "name, and colours where the scene has bump maps")
         ->type_name("FILE")
         ->required()
         ->check([](const std::string& file) {
@@ -72,7 +111,19 @@ Work add_render(CLI::App& app) {
                        ? ""
                        : "'" + file + "' is neither; name a file that ends in .png or .exr";
         });
+    command
+        ->add_option("--aov", options->aov,
+                     "What a .png shows: visibility (the class map), or, of scenes with bump maps, "
+                     "color (sRGB) or normal (the bumped ones, world space)")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"visibility", "color", "normal"}));
+    command
+        ->add_option("--samples", options->samples,
+                     "Rays along each side of a pixel, 1 to 32, whose mean is its colour (1)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 32));
     add_scene_flags(*command, options->picture);
+    command->final_callback([options] { check_together(*options); });
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
     return [options] { return render_truth(*options); };
 }

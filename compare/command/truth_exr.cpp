@@ -22,7 +22,19 @@ struct Pixel {
 };
 static_assert(sizeof(Pixel) == 40);
 
-OIIO::ImageSpec spec_of(const Scene& scene) {
+/// The same with lighting.
+struct LitPixel {
+    Pixel pixel;
+    float color[3];
+    float diffuse[3];
+    float specular[3];
+    float ambient[3];
+    float albedo[3];
+    float bumped[3];
+};
+static_assert(sizeof(LitPixel) == 40 + 72);
+
+OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
     using OIIO::TypeDesc;
     OIIO::ImageSpec spec(scene.camera.width, scene.camera.height, 10, TypeDesc::FLOAT);
     spec.channelnames = {"P.X",       "P.Y",   "P.Z",     "N.X",
@@ -30,6 +42,13 @@ OIIO::ImageSpec spec_of(const Scene& scene) {
                          "exactness", "primId"};
     spec.channelformats.assign(9, TypeDesc::FLOAT);
     spec.channelformats.emplace_back(TypeDesc::UINT32);
+    if (lit) {
+        for (const std::string group : {"", "diffuse.", "specular.", "ambient.", "Albedo."})
+            for (const char* name : {"R", "G", "B"}) spec.channelnames.push_back(group + name);
+        for (const char* name : {"Ns.X", "Ns.Y", "Ns.Z"}) spec.channelnames.emplace_back(name);
+        spec.nchannels = static_cast<int>(spec.channelnames.size());
+        spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
+    }
     spec.attribute("compression", "zip");
     // Else the writer puts in the time of day, and no two files are the same. Blank is how Exif
     // 2.3 (4.6.4) writes an unknown time.
@@ -62,25 +81,51 @@ Pixel pixel_of(const Scene& scene, const GroundTruth& truth, int x, int y) {
     return pixel;
 }
 
-} // namespace
+void put(float* to, const glm::dvec3& from) {
+    for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
 
-void write_truth_exr(const Scene& scene, const GroundTruth& truth,
-                     const std::filesystem::path& file) {
-    Image<Pixel> picture(truth.visibility.width, truth.visibility.height);
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) picture.at(x, y) = pixel_of(scene, truth, x, y);
+LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
+    LitPixel lit{};
+    lit.pixel = pixel;
+    put(lit.color, shading.color());
+    put(lit.diffuse, shading.diffuse_color);
+    put(lit.specular, shading.specular_color);
+    put(lit.ambient, shading.ambient_color);
+    put(lit.albedo, shading.decal);
+    put(lit.bumped, shading.bumped);
+    return lit;
+}
 
+template <class T>
+void write_pixels(const OIIO::ImageSpec& spec, const Image<T>& picture,
+                  const std::filesystem::path& file) {
     write_beside(file, [&](const std::filesystem::path& beside) {
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
         // An unknown format means: each channel in its own.
-        if (output && output->open(beside.string(), spec_of(scene)) &&
-            output->write_image(OIIO::TypeDesc::UNKNOWN, picture.pixels.data(), sizeof(Pixel)) &&
+        if (output && output->open(beside.string(), spec) &&
+            output->write_image(OIIO::TypeDesc::UNKNOWN, picture.pixels.data(), sizeof(T)) &&
             output->close())
             return;
         throw Error(file.string(),
                     "cannot be written (" + (output ? output->geterror() : OIIO::geterror()) + ")",
                     "name a file in a folder that exists and is writable");
     });
+}
+
+} // namespace
+
+void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<Shading>& shadings,
+                     const std::filesystem::path& file) {
+    Image<Pixel> picture(truth.visibility.width, truth.visibility.height);
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) picture.at(x, y) = pixel_of(scene, truth, x, y);
+    const bool lit = !shadings.pixels.empty();
+    if (!lit) return write_pixels(spec_of(scene, lit), picture, file);
+    Image<LitPixel> lit_picture(picture.width, picture.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        lit_picture.pixels[i] = lit_pixel(picture.pixels[i], shadings.pixels[i]);
+    write_pixels(spec_of(scene, lit), lit_picture, file);
 }
 
 } // namespace shadowproof

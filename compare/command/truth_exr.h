@@ -1,7 +1,7 @@
 // The truth as an OpenEXR picture of named channels.
 #pragma once
 
-#include "reference/trace.h"
+#include "reference/shading.h"
 
 #include <filesystem>
 
@@ -12,7 +12,11 @@ namespace shadowproof {
 /// value over 255: 0 background, 64/255 shadowed, 1 lit); exactness (0 filtered, 1 exact,
 /// 2 degenerate); primId (UINT32, 0xffffffff at background; the others are FLOAT). OpenEXR
 /// orders channels by name: look them up by name. Written beside and renamed; throws Error.
-void write_truth_exr(const Scene& scene, const GroundTruth& truth,
+///
+/// With shadings (of scenes with bump maps; else an empty picture) also, 0 at background: R G B,
+/// the linear colour, and its summands diffuse.R to B, specular.R to B and ambient.R to B; Albedo.R
+/// to B, the decal; Ns.X Ns.Y Ns.Z, the bumped normal.
+void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<Shading>& shadings,
                      const std::filesystem::path& file);
 
 } // namespace shadowproof

@@ -1,0 +1,15 @@
+// Truth of colour as pictures to look at.
+#pragma once
+
+#include "compare/png.h"
+#include "reference/shading.h"
+
+namespace shadowproof {
+
+/// Linear to sRGB (IEC 61966-2-1), clamped to what 8 bits hold.
+Image<Rgb> color_picture(const Image<glm::dvec3>& linear);
+
+/// The bumped normals as normal maps show them, in world space: 0.5 + 0.5 n. Background is black.
+Image<Rgb> normal_picture(const Image<Shading>& shadings);
+
+} // namespace shadowproof

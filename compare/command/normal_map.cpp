@@ -1,0 +1,112 @@
+#include "compare/command/commands.h"
+#include "compare/command/console.h"
+#include "compare/command/map_file.h"
+#include "compare/write_file.h"
+#include "scenes/error.h"
+#include "scenes/picture.h"
+#include "scenes/relief.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+namespace shadowproof {
+
+namespace {
+
+struct NormalMapOptions {
+    std::string heights;
+    std::string output;
+    double scale = 1; ///< texels
+    Wrap wrap = Wrap::repeat;
+    int bits = 8;
+    int level = 0;
+    bool green_down = false;
+    bool quiet = false;
+};
+
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26U;
+
+/// The first channel: of gray pictures the gray, else the red.
+Image<double> heights_of(const Picture& picture) {
+    Image<double> heights(picture.width, picture.height);
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    for (std::size_t i = 0; i < heights.pixels.size(); ++i)
+        heights.pixels[i] = picture.values[i * channels];
+    return heights;
+}
+
+int make_normal_map(const NormalMapOptions& options) {
+    Console console(options.quiet);
+    check_writable(options.output);
+    const Picture picture = read_picture(options.heights, most_pixels);
+    const int levels = levels_of(picture.width, picture.height);
+    if (options.level >= levels)
+        throw Error(options.heights,
+                    fmt::format("has {} levels, and {} is none of them", levels, options.level),
+                    fmt::format("give --level 0 to {}", levels - 1));
+    Image<glm::dvec4> map = normal_map_of(
+        slopes_of(heights_of(picture), options.wrap, options.wrap, options.scale), options.level);
+    if (options.green_down)
+        for (glm::dvec4& texel : map.pixels) texel.g = 1 - texel.g;
+    write_map(map, options.bits, options.output);
+    console.line(fmt::format("{}: {}x{} normals of {}x{} heights of {} bits", options.output,
+                             map.width, map.height, picture.width, picture.height, picture.bits));
+    return exit_passed;
+}
+
+} // namespace
+
+Work add_normal_map(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("normal-map", "A normal map from a height field");
+    const auto options = std::make_shared<NormalMapOptions>();
+    command
+        ->add_option("HEIGHT", options->heights,
+                     "A picture of heights: its gray, or its red; 16 bits show no steps")
+        ->required()
+        ->check(not_empty());
+    command
+        ->add_option("-o,--output", options->output,
+                     "The normal map: .png (8 or 16 bits a channel), or .exr (32-bit floats). RGB "
+                     "is 0.5 + 0.5 n, y up the picture, as glTF has it; alpha the "
+                     "denormalisation factor")
+        ->type_name("FILE")
+        ->required()
+        ->check([](const std::string& file) {
+            return is_map_file(file)
+                       ? ""
+                       : "'" + file + "' is neither; name a file that ends in .png or .exr";
+        });
+    command
+        ->add_option("--scale", options->scale, "How many texels high white is against black (1)")
+        ->type_name("TEXELS")
+        ->check([](const std::string& text) {
+            double value = 0;
+            return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
+                       ? ""
+                       : "'" + text + "' is not a number";
+        });
+    const std::map<std::string, Wrap> wraps{{"repeat", Wrap::repeat},
+                                            {"mirror", Wrap::mirrored_repeat},
+                                            {"clamp", Wrap::clamp_to_edge}};
+    command
+        ->add_option("--wrap", options->wrap,
+                     "What lies past the border: repeat (the default), mirror or clamp")
+        ->type_name("MODE")
+        ->transform(CLI::CheckedTransformer(wraps).description(""));
+    command->add_option("--bits", options->bits, "Bits a channel of a .png, 8 or 16 (8)")
+        ->type_name("N")
+        ->check(CLI::IsMember({8, 16}));
+    command
+        ->add_option("--level", options->level,
+                     "Mipmap level (0): above 0, means of normals, whose lengths alpha holds")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
+    command->add_flag("--green-down", options->green_down,
+                      "y down the picture, as some engines have it");
+    command->add_flag("-q,--quiet", options->quiet, "No output but errors");
+    return [options] { return make_normal_map(*options); };
+}
+
+} // namespace shadowproof
