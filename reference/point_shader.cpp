@@ -3,6 +3,7 @@
 #include "scenes/relief.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -41,6 +42,7 @@ T blend(const glm::dvec3& weights, const std::array<T, 3>& values) {
 ShadingTables make_shading_tables(const Tracer& tracer) {
     const Tracer::State& state = tracer.state();
     const Scene& scene = *state.scene;
+    assert(is_bump_lit(scene));
     ShadingTables tables;
     tables.state = &state;
     for (const Material& material : scene.materials)

@@ -30,7 +30,6 @@ private:
 template <class T, class Of>
 Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
     const Camera& camera = tracer.scene().camera;
-    assert(is_bump_lit(tracer.scene()));
     assert(truth.triangle.width == camera.width && truth.triangle.height == camera.height);
     const ShadingTables tables = make_shading_tables(tracer);
     Shaders shaders(tables, tracer.threads());
@@ -133,7 +132,7 @@ std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& directi
 Supersampled shade_supersampled(const Tracer& tracer, int n) {
     const Tracer::State& state = tracer.state();
     const Camera& camera = state.scene->camera;
-    assert(is_bump_lit(*state.scene) && n >= 1 && n <= 32);
+    assert(n >= 1 && n <= 32);
     const ShadingTables tables = make_shading_tables(tracer);
     Shaders shaders(tables, state.threads);
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
