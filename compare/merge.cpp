@@ -228,11 +228,12 @@ bool is_whole(const Json& scene, const Json& arguments, const Matrix& matrix) {
         return word == "--size" || word == "--camera" || word == "--light" || word == "--time";
     });
     const auto ran_by_name = [&](const KnownTechnique& technique) {
-        return std::any_of(cells.begin(), cells.end(), [&](const Json& cell) {
-            return cell.at("name") == technique.name && !could_not_run(cell) &&
-                   cell.at("command").get<std::string>().starts_with(
-                       fmt::format("shadowproof verify {} ", name));
-        });
+        return !technique.on_every_scene ||
+               std::any_of(cells.begin(), cells.end(), [&](const Json& cell) {
+                   return cell.at("name") == technique.name && !could_not_run(cell) &&
+                          cell.at("command").get<std::string>().starts_with(
+                              fmt::format("shadowproof verify {} ", name));
+               });
     };
     return bundled && !changed &&
            std::all_of(matrix.techniques.begin(), matrix.techniques.end(), ran_by_name);

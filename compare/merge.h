@@ -14,6 +14,7 @@ namespace shadowproof {
 struct KnownTechnique {
     std::string name;
     std::vector<Cause> fails_at;
+    bool on_every_scene = true; ///< otherwise its shadows are those of another that is
 };
 
 /// What a whole run tries.

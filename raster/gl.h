@@ -78,6 +78,7 @@ struct Platform; // platform.h
     X(PFNGLPROGRAMUNIFORM2FPROC, ProgramUniform2f)                                                 \
     X(PFNGLPROGRAMUNIFORM3DPROC, ProgramUniform3d)                                                 \
     X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv)                                               \
+    X(PFNGLPROGRAMUNIFORMMATRIX3FVPROC, ProgramUniformMatrix3fv)                                   \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)                                   \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                                             \
     X(PFNGLSCISSORPROC, Scissor)                                                                   \
@@ -88,6 +89,7 @@ struct Platform; // platform.h
     X(PFNGLSTENCILOPSEPARATEPROC, StencilOpSeparate)                                               \
     X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                               \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                 \
+    X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                               \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                 \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                   \

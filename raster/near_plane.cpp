@@ -137,15 +137,12 @@ VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const G
     const auto made = std::make_shared<Occluders>();
     made->program = link_files(gl, {"from_light.vert", "volume.frag"});
     const auto update = [&gl, &scene, made] {
-        const glm::dvec3& eye = scene.camera.eye;
-        glm::vec3 high;
-        glm::vec3 low;
-        split(eye, high, low);
+        const TwoFloats eye = split(scene.camera.eye);
         const glm::mat4 matrix(clip_from_eye_relative(scene));
         const GLuint program = made->program.name();
         gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, glm::value_ptr(matrix));
-        gl.ProgramUniform3fv(program, 1, 1, glm::value_ptr(high));
-        gl.ProgramUniform3fv(program, 2, 1, glm::value_ptr(low));
+        gl.ProgramUniform3fv(program, 1, 1, glm::value_ptr(eye.high));
+        gl.ProgramUniform3fv(program, 2, 1, glm::value_ptr(eye.low));
         std::vector<glm::uvec3> facing;
         for (const std::uint32_t triangle : triangles_facing_light(scene))
             facing.push_back(scene.triangles[triangle]);

@@ -1,5 +1,6 @@
 #include "raster/passes.h"
 
+#include "raster/lit_sides.h"
 #include "raster/shader.h"
 #include "raster/volume.h"
 #include "scenes/error.h"
@@ -15,22 +16,6 @@
 namespace shadowproof {
 
 namespace {
-
-Texture make_picture(const GlFunctions& gl, GLenum format, int width, int height) {
-    Texture texture = make_texture(gl, GL_TEXTURE_2D);
-    gl.TextureStorage2D(texture.name(), 1, format, width, height);
-    // Integers under the initial, linear filter make a texture incomplete, and its texels zero.
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
-}
-
-void require_complete(const GlFunctions& gl, const Framebuffer& framebuffer) {
-    if (gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER) !=
-        GL_FRAMEBUFFER_COMPLETE)
-        throw Error("OpenGL", "the driver cannot draw into R8, R32UI and depth-stencil textures",
-                    "use --gl osmesa");
-}
 
 /// Through memory, as gcc 12 at -O2 takes converting two neighbours to float and back for nothing
 /// at all.
@@ -54,105 +39,29 @@ glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
     return glm::dmat4(1);
 }
 
-/// OpenGL's rows run from the bottom.
-template <class Value>
-Image<Value> from_bottom_up(int width, int height, const std::vector<Value>& rows) {
-    Image<Value> image(width, height);
-    const auto stride = static_cast<std::ptrdiff_t>(width);
-    for (std::ptrdiff_t y = 0; y < height; ++y)
-        std::copy_n(rows.begin() + (height - 1 - y) * stride, stride,
-                    image.pixels.begin() + y * stride);
-    return image;
-}
-
-template <class Value>
-Image<Value> read_picture(const GlFunctions& gl, const Target& target, GLenum format, GLenum type) {
-    std::vector<Value> rows(static_cast<std::size_t>(target.width) *
-                            static_cast<std::size_t>(target.height));
-    gl.ReadPixels(0, 0, target.width, target.height, format, type, rows.data());
-    return from_bottom_up(target.width, target.height, rows);
-}
-
 } // namespace
 
-void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low) {
+TwoFloats split(const glm::dvec3& point) {
+    TwoFloats sum;
     for (int k = 0; k < 3; ++k) {
-        high[k] = rounded(point[k]);
-        low[k] = rounded(point[k] - high[k]);
+        sum.high[k] = rounded(point[k]);
+        sum.low[k] = rounded(point[k] - double{sum.high[k]});
     }
-}
-
-Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
-    GLint most = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (camera.width > most || camera.height > most)
-        throw Error("size " + std::to_string(camera.width) + "x" + std::to_string(camera.height),
-                    "the driver draws at most " + std::to_string(most) + " pixels a side",
-                    "ask for a smaller picture");
-
-    const auto picture = [&](GLenum format) {
-        return make_picture(gl, format, camera.width, camera.height);
-    };
-    Target target{.width = camera.width,
-                  .height = camera.height,
-                  .claim = picture(GL_R8),
-                  .triangle = picture(GL_R32UI),
-                  .depth_stencil = picture(floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8),
-                  .surface = make_framebuffer(gl),
-                  .light = make_framebuffer(gl)};
-    for (const GLuint framebuffer : {target.surface.name(), target.light.name()}) {
-        gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.claim.name(), 0);
-        gl.NamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT,
-                                   target.depth_stencil.name(), 0);
-    }
-    gl.NamedFramebufferTexture(target.surface.name(), GL_COLOR_ATTACHMENT1, target.triangle.name(),
-                               0);
-    constexpr std::array<GLenum, 2> both{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    gl.NamedFramebufferDrawBuffers(target.surface.name(), 2, both.data());
-    require_complete(gl, target.surface);
-    require_complete(gl, target.light);
-    check(gl, "making the pictures");
-    return target;
-}
-
-void add_sum(const GlFunctions& gl, Target& target) {
-    target.sum = make_picture(gl, GL_R32F, target.width, target.height);
-    target.adding = make_framebuffer(gl);
-    const GLuint framebuffer = target.adding.name();
-    gl.NamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.sum.name(), 0);
-    gl.NamedFramebufferTexture(framebuffer, GL_DEPTH_STENCIL_ATTACHMENT,
-                               target.depth_stencil.name(), 0);
-    require_complete(gl, target.adding);
-}
-
-void begin_adding(const GlFunctions& gl, const Target& target) {
-    constexpr std::array<GLfloat, 4> nothing{0, 0, 0, 0};
-    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl.ClearNamedFramebufferfv(target.adding.name(), GL_COLOR, 0, nothing.data());
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.adding.name());
-    gl.DepthMask(GL_FALSE);
-    gl.Disable(GL_STENCIL_TEST);
-    gl.Disable(GL_CULL_FACE);
-    gl.Enable(GL_BLEND);
-    gl.BlendFunc(GL_ONE, GL_ONE);
-}
-
-void end_adding(const GlFunctions& gl) {
-    gl.Disable(GL_BLEND);
+    return sum;
 }
 
 ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
     const glm::dmat4 projection = clip_from_view(scene.camera, depth_model);
     ClipTransform transform;
     if (depth_model.eye_relative) {
-        split(scene.camera.eye, transform.origin_high, transform.origin_low);
+        transform.origin = split(scene.camera.eye);
         transform.clip_from_relative =
             glm::mat4(projection * glm::dmat4(view_from_eye_relative(scene.camera)));
     } else {
         transform.clip_from_relative = glm::mat4(projection * view_from_world(scene.camera));
     }
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    split(light, transform.light_high, transform.light_low);
+    transform.light = split(light);
     transform.light_w = static_cast<float>(light.w);
     return transform;
 }
@@ -215,25 +124,14 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
     gl.EnableVertexArrayAttrib(vertices, 0);
     geometry.surface = upload_triangles(gl, std::array{std::span(scene.triangles)});
 
-    std::vector<std::uint32_t> indices;
-    const std::vector<std::uint8_t> receives = receiving_triangles(scene);
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const glm::dvec4 eye(scene.camera.eye, 1);
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        const double of_light = side(scene, triangle, light);
-        const double of_eye = side(scene, triangle, eye);
-        if ((of_light > 0 && of_eye > 0) || (of_light < 0 && of_eye < 0))
-            indices.push_back(triangle);
-    }
-    const auto others =
-        std::stable_partition(indices.begin(), indices.end(),
-                              [&](std::uint32_t triangle) { return receives[triangle] != 0; });
-    geometry.receivers = static_cast<std::uint32_t>(others - indices.begin());
-    std::vector<glm::uvec3> lit_sides;
-    for (const std::uint32_t triangle : indices) lit_sides.push_back(scene.triangles[triangle]);
-    geometry.lit_sides = upload_triangles(gl, std::array{std::span<const glm::uvec3>(lit_sides)});
+    const LitSides sides = lit_sides(scene);
+    geometry.receivers = static_cast<std::uint32_t>(sides.receivers);
+    std::vector<glm::uvec3> triangles;
+    for (const std::uint32_t triangle : sides.triangles)
+        triangles.push_back(scene.triangles[triangle]);
+    geometry.lit_sides = upload_triangles(gl, std::array{std::span<const glm::uvec3>(triangles)});
     geometry.lit_side_indices =
-        make_filled_buffer(gl, std::array{std::as_bytes(std::span(indices))});
+        make_filled_buffer(gl, std::array{std::as_bytes(std::span(sides.triangles))});
     check(gl, "uploading the scene");
     return geometry;
 }
@@ -242,10 +140,10 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
     // Locations as project.vert lays them out.
     gl.ProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE,
                                glm::value_ptr(transform.clip_from_relative));
-    gl.ProgramUniform3fv(program.name(), 1, 1, glm::value_ptr(transform.origin_high));
-    gl.ProgramUniform3fv(program.name(), 2, 1, glm::value_ptr(transform.origin_low));
-    gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light_high));
-    gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light_low));
+    gl.ProgramUniform3fv(program.name(), 1, 1, glm::value_ptr(transform.origin.high));
+    gl.ProgramUniform3fv(program.name(), 2, 1, glm::value_ptr(transform.origin.low));
+    gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light.high));
+    gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light.low));
     gl.ProgramUniform1f(program.name(), 11, transform.light_w);
 }
 
@@ -369,34 +267,6 @@ void draw_light(const GlFunctions& gl, const Program& light, const Target& targe
     gl.ProgramUniform1i(light.name(), 12, 0);
     draw(geometry.receivers, geometry.lit_sides.count - geometry.receivers);
     check(gl, "the light pass");
-}
-
-Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.surface.name());
-    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    Frame frame;
-    gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT0);
-    frame.claim = read_picture<Visibility>(gl, target, GL_RED, GL_UNSIGNED_BYTE);
-    gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT1);
-    frame.triangle = read_picture<std::uint32_t>(gl, target, GL_RED_INTEGER, GL_UNSIGNED_INT);
-    frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);
-    frame.counter =
-        counter == Counter::stencil
-            ? read_picture<std::uint32_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_INT)
-            : converted<std::uint32_t>(read_sum(gl, target), [](float sum) {
-                  return static_cast<std::uint32_t>(static_cast<std::int32_t>(sum)) & 0xffffffU;
-              });
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    check(gl, "reading back");
-    return frame;
-}
-
-Image<float> read_sum(const GlFunctions& gl, const Target& target) {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.adding.name());
-    gl.NamedFramebufferReadBuffer(target.adding.name(), GL_COLOR_ATTACHMENT0);
-    Image<float> sum = read_picture<float>(gl, target, GL_RED, GL_FLOAT);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-    return sum;
 }
 
 } // namespace shadowproof

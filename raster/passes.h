@@ -1,9 +1,10 @@
-// The steps that techniques share: what is drawn into, the uploaded scene, the surface pass, the
-// light pass, and reading back. Every pass sets all the state that it depends on.
+// The steps that techniques share: the uploaded scene, the surface pass, the light pass. Every pass
+// sets all the state that it depends on.
 #pragma once
 
 #include "raster/context.h"
 #include "raster/gl.h"
+#include "raster/target.h"
 #include "scenes/frame.h"
 #include "scenes/scene.h"
 
@@ -17,37 +18,20 @@
 
 namespace shadowproof {
 
-/// The pictures that the passes draw, of the camera's size. Only some techniques need the last two.
-struct Target {
-    int width = 0;
-    int height = 0;
-    Texture claim;         ///< R8: values of Visibility
-    Texture triangle;      ///< R32UI
-    Texture depth_stencil; ///< D24 or D32F, and 8 bits
-    Framebuffer surface;   ///< all three
-    Framebuffer light;     ///< without `triangle`, which the light pass reads
-    Texture sum{};         ///< R32F: what faces are worth, added up; made by add_sum
-    Framebuffer adding{};  ///< `sum` and `depth_stencil`
+/// A point as a sum of two floats a coordinate, exact to 48 bits.
+struct TwoFloats {
+    glm::vec3 high{0};
+    glm::vec3 low{0};
 };
-Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
-void add_sum(const GlFunctions& gl, Target& target);
-
-/// Begins a pass whose faces' worth (volume.frag) is added up in `sum`, from zero on.
-void begin_adding(const GlFunctions& gl, const Target& target);
-void end_adding(const GlFunctions& gl);
-
-/// The point as a sum of two floats, exact to 48 bits.
-void split(const glm::dvec3& point, glm::vec3& high, glm::vec3& low);
+TwoFloats split(const glm::dvec3& point);
 
 /// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
 /// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
 /// floats, and the matrix is computed in double and rounded once.
 struct ClipTransform {
     glm::mat4 clip_from_relative{1};
-    glm::vec3 origin_high{0};
-    glm::vec3 origin_low{0};
-    glm::vec3 light_high{0}; ///< position, or the direction to a light at infinity
-    glm::vec3 light_low{0};
+    TwoFloats origin;
+    TwoFloats light;   ///< position, or the direction to a light at infinity
     float light_w = 1; ///< 0 at infinity
 };
 /// Row z of an infinite projection equals row w in all coefficients of directions, so corners at
@@ -132,21 +116,9 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 
-/// Where faces are counted.
-enum class Counter : std::uint8_t {
-    stencil,
-    sum, ///< as colour, added up; exact to 24 bits
-};
-
 /// Draws the lit sides again where the depth is equal and the counter zero, or where they show no
 /// shadows: `lit`. Writes neither stencil nor depth.
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
                 const Geometry& geometry, Counter counter);
-
-/// The pictures, rows from the top. Counting and depth model are left to the caller.
-Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
-
-/// What has been added up, rows from the top.
-Image<float> read_sum(const GlFunctions& gl, const Target& target);
 
 } // namespace shadowproof

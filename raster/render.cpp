@@ -3,6 +3,7 @@
 #include "scenes/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace shadowproof {
@@ -23,12 +24,18 @@ bool is_window_depth(float depth) {
     return depth >= 0 && depth <= 1;
 }
 
+bool is_color(const glm::vec3& color) {
+    return std::isfinite(color.r) && std::isfinite(color.g) && std::isfinite(color.b);
+}
+
 void require_picture(const Frame& frame, const Scene& scene, std::string_view technique) {
     const auto refuse = [&](const char* what) {
         throw Error(std::string(technique), "the driver's " + std::string(what), "use --gl osmesa");
     };
     if (!std::ranges::all_of(frame.depth.pixels, is_window_depth))
         refuse("picture holds depths that are NaN or outside [0, 1]");
+    if (!std::ranges::all_of(frame.color.pixels, is_color))
+        refuse("picture holds colours that are NaN or infinite");
     if (!std::ranges::all_of(frame.triangle.pixels, [&](std::uint32_t triangle) {
             return triangle < scene.triangles.size() || triangle == no_triangle;
         }))
@@ -43,6 +50,10 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 } // namespace
 
 Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
+    if (!suits(technique, scene))
+        throw Error(scene.file.empty() ? scene.name : scene.file.string(),
+                    "has no bump map, and " + std::string(technique.name) + " is for those that do",
+                    "leave the technique out, or give a material a normalTexture");
     require_drawable(gpu.driver());
     gpu.make_current();
     Frame frame = technique.run(gpu, scene, plan);

@@ -62,6 +62,11 @@ Shader compile(const GlFunctions& gl, const ShaderText& source) {
 
 } // namespace
 
+ShaderText shader_file(std::string_view name) {
+    assert(!glsl_source(name).empty());
+    return {name, glsl_source(name)};
+}
+
 Program link(const GlFunctions& gl, std::span<const ShaderText> stages) {
     Program program(gl, gl.CreateProgram());
     std::vector<Shader> shaders;
@@ -85,10 +90,7 @@ Program link(const GlFunctions& gl, std::span<const ShaderText> stages) {
 
 Program link_files(const GlFunctions& gl, std::initializer_list<std::string_view> files) {
     std::vector<ShaderText> stages;
-    for (const std::string_view file : files) {
-        assert(!glsl_source(file).empty());
-        stages.push_back({file, glsl_source(file)});
-    }
+    for (const std::string_view file : files) stages.push_back(shader_file(file));
     return link(gl, std::span<const ShaderText>(stages));
 }
 

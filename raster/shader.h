@@ -17,6 +17,9 @@ struct ShaderText {
     std::string_view text;
 };
 
+/// A file of raster/glsl/ by its name.
+ShaderText shader_file(std::string_view name);
+
 /// One text a stage. Throws Error with the driver's log, each line of it led by "file:line".
 Program link(const GlFunctions& gl, std::span<const ShaderText> stages);
 

@@ -99,6 +99,7 @@ struct Frames {
     Program surface;
     Program light;
     std::optional<VolumePass> occluders;
+    std::optional<LightingPass> lighting;
     std::uint8_t start = 0;
 
     Frames(Gpu& gpu, const Scene& drawn, const StencilRecipe& with)
@@ -119,6 +120,10 @@ struct Frames {
         }
         if (with.near_plane == NearPlane::from_light)
             occluders = make_occluder_pass(gl, parts.front()->scene, geometry);
+        if (with.lighting) {
+            add_color(gl, target);
+            lighting = make_lighting_pass(gl, drawn, transform, *with.lighting);
+        }
         check(gl, "making the passes");
     }
     Frames(const Frames&) = delete;
@@ -204,6 +209,9 @@ struct Frames {
             count_in_sum();
         check(gl, "the volume pass");
         draw_light(gl, light, target, geometry, recipe.counter);
+        if (!lighting) return;
+        draw_lighting(gl, *lighting, scene, target);
+        gl.BindVertexArray(geometry.vertices.name());
     }
 
     void measure(Frame& frame) {
@@ -259,11 +267,14 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     assert(recipe.counter == Counter::stencil ||
            (recipe.counting.operation == Counting::Operation::wrap &&
             recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
+    assert(!recipe.lighting ||
+           (recipe.counter == Counter::stencil && recipe.depth_model.eye_relative));
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
     compile_all(frames);
     const Clock::duration elapsed = quickest_frame(frames);
     Frame frame = read_back(gl, frames.target, recipe.counter);
+    if (recipe.lighting) frame.color = read_color(gl, frames.target);
     frame.counting = recipe.counting;
     frame.depth_model = recipe.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;

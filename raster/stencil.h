@@ -2,10 +2,13 @@
 #pragma once
 
 #include "raster/context.h"
+#include "raster/lighting.h"
 #include "raster/volume_pass.h"
 #include "scenes/frame.h"
 #include "scenes/plan.h"
 #include "scenes/scene.h"
+
+#include <optional>
 
 namespace shadowproof {
 
@@ -27,6 +30,8 @@ struct StencilRecipe {
     std::vector<std::uint8_t> hidden_caps{};
     NearPlane near_plane = NearPlane::lost;
     Counter counter = Counter::stencil; ///< a sum asks for Counting::bits 24 and wrapping
+    /// Colours beside the claim: of bump-lit scenes, with a stencil, and relative to the eye.
+    std::optional<LightingRecipe> lighting{};
 };
 
 /// Draws one pixel of the frame, so that the driver compiles what it has put off, and then the

@@ -1,5 +1,5 @@
-// A technique: how the shadow volumes are counted, what it is known to fail at, and the function
-// that draws it.
+// A technique: how the shadow volumes are counted, what it is known to fail at, what it needs, and
+// the function that draws it.
 #pragma once
 
 #include "scenes/cause.h"
@@ -27,8 +27,14 @@ struct Technique {
     std::vector<Cause> fails_at; ///< the causes it is known to have
     /// Of those, what it has on almost any scene: no scene need declare that it provokes it.
     std::vector<Cause> by_nature = {};
+    bool needs_bump_maps = false; ///< it lights them, and is for scenes that are bump-lit alone
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
+
+/// Whether a technique is for such a scene; if not, it is left out unless asked for by name.
+inline bool suits(const Technique& technique, const Scene& scene) {
+    return !technique.needs_bump_maps || is_bump_lit(scene);
+}
 
 /// All techniques in the order of the registry, techniques.inc.
 std::span<const Technique> all_techniques();

@@ -5,6 +5,7 @@
 #include "scenes/image.h"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -107,6 +108,9 @@ struct Frame {
     Image<std::uint32_t> counter;  ///< as read back, before the light pass
     Image<float> depth;            ///< window depth in [0, 1]
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
+    /// Claimed colours where the technique lights bump maps, else empty: linear, neither clamped
+    /// nor rounded to bytes, the floats that blending left. Background is black.
+    Image<glm::vec3> color{};
     Counting counting;
     DepthModel depth_model;
     double milliseconds = 0; ///< making the volumes, drawing and finishing, without the read-back

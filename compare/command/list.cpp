@@ -36,6 +36,7 @@ std::string as_text() {
         };
         add("fails at", fails_at(technique));
         add("needs", technique.needs);
+        if (technique.needs_bump_maps) add("for", "scenes with bump maps alone");
         add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
         add("source", technique.source);
     }
@@ -58,6 +59,7 @@ Json as_json() {
                                       {"summary", technique.summary},
                                       {"source", technique.source},
                                       {"needs", technique.needs},
+                                      {"needs_bump_maps", technique.needs_bump_maps},
                                       {"cost", technique.cost},
                                       {"fails_at", causes},
                                       {"by_nature", by_nature}});

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 Matrix whole_matrix() {
     Matrix matrix;
     for (const Technique& technique : all_techniques())
-        matrix.techniques.push_back({std::string(technique.name), technique.fails_at});
+        matrix.techniques.push_back(
+            {std::string(technique.name), technique.fails_at, !technique.needs_bump_maps});
     for (const BundledScene& scene : bundled_scenes()) matrix.scenes.emplace_back(scene.name);
     return matrix;
 }

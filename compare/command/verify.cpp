@@ -47,6 +47,14 @@ std::vector<std::string> cause_names(const Names& causes) {
     return names;
 }
 
+/// A technique that is not for such scenes is left out, unless both are named: then it says so.
+std::vector<const Technique*> techniques_for(const VerifyOptions& options, const Scene& scene) {
+    std::vector<const Technique*> chosen = options.technique.chosen();
+    const bool named = !options.scenes.empty() && !options.technique.techniques.empty();
+    if (!named) std::erase_if(chosen, [&](const Technique* one) { return !suits(*one, scene); });
+    return chosen;
+}
+
 /// What all scenes of a run share.
 struct Run {
     const VerifyOptions& options;
@@ -207,7 +215,7 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result) {
 void judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
     const VerifyOptions& options = run.options;
     const ColumnWidths widths = widths_of(options, result.name);
-    for (const Technique* technique : options.technique.chosen()) {
+    for (const Technique* technique : techniques_for(options, trial.scene)) {
         run.console.progress(fmt::format("{}: {}", result.name, technique->name));
         Cell& cell = result.cells.emplace_back(try_technique(run, trial, *technique));
         conclude_cell(run, result, cell, widths);
@@ -252,6 +260,7 @@ void verify_scene(const Run& run, const std::string& argument) {
                 SceneRequest request = run.options.scene.request();
                 request.every_light = !request.light;
                 scene = load_scene(argument, request);
+                if (techniques_for(run.options, *scene).empty()) return;
                 if (request.every_light) lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
@@ -260,6 +269,8 @@ void verify_scene(const Run& run, const std::string& argument) {
         });
         if (trial) judge_techniques(run, *trial, result);
     }
+    // Of all bundled scenes, one that none of the techniques named is for is none of this run.
+    if (scene && techniques_for(run.options, *scene).empty()) return report.scenes.resize(first);
     SceneResult& last = report.scenes.back();
     last.no_longer_provoked = stopped_provoking(report, std::span(report.scenes).subspan(first));
     if (!last.no_longer_provoked.empty())

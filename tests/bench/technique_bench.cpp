@@ -75,6 +75,7 @@ Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
     };
     for (int round = 0; asks_for_more(round); ++round)
         for (const Technique& technique : all_techniques()) {
+            if (!suits(technique, scene)) continue;
             Cost& cost = costs[technique.name];
             // What is far behind need not be known so well.
             if (round > 0 && cost.milliseconds > 4 * quickest) continue;

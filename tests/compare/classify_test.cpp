@@ -70,6 +70,7 @@ protected:
 
 TEST_P(ClassifyScene, the_predicted_counter_is_read_back_at_every_pixel_outside_the_band) {
     for (const Technique& technique : all_techniques()) {
+        if (!suits(technique, traced(GetParam()).scene)) continue;
         SCOPED_TRACE(technique.name);
         const Comparison comparison = compare(GetParam(), technique);
         EXPECT_EQ(comparison.ledger.unexplained, 0U)
@@ -171,6 +172,7 @@ TEST_P(ClassifyFault, is_caught_and_its_right_twin_is_not) {
     const Verdict verdict = judge(scene, faulty->fails_at, {}, compare(GetParam().scene, *faulty));
     EXPECT_TRUE(verdict == Verdict::defect || verdict == Verdict::unexplained) << name_of(verdict);
     for (const Technique& right : all_techniques()) {
+        if (!suits(right, scene)) continue;
         const Verdict unharmed =
             judge(scene, right.fails_at, right.by_nature, compare(GetParam().scene, right));
         EXPECT_TRUE(unharmed == Verdict::agrees || unharmed == Verdict::fails_as_predicted)

@@ -1,0 +1,31 @@
+#version 450 core
+// Lighting in eye space: the normal is perturbed there.
+#include lighting.glsl
+
+// N' = N + h_u (N x P_v) + h_v (P_u x N), turned over where the parametrization is mirrored, of a
+// height field h on the surface P; u runs along P_u, v along P_v, which is up the picture.
+vec3 perturbed(mat3 frame) {
+    vec3 p_u = frame[0];
+    vec3 p_v = frame[1];
+    vec3 normal = frame[2];
+    vec2 slope = slope();
+    float h_u = slope.x;
+    float h_v = -slope.y;
+    return normal + surface.hand * (h_u * cross(normal, p_v) + h_v * cross(p_u, normal));
+}
+
+vec3 small_normal(mat3 frame) {
+    vec3 normal = bump == bump_height_field ? perturbed(frame) : frame * mapped_normal();
+    return dot(normal, normal) > 0 ? unit(normal) : frame[2];
+}
+
+void main() {
+    if (!is_seen()) discard;
+    mat3 frame = frame();
+    vec3 to_light = unit(surface.to_light);
+    vec3 half_angle = unit(to_light - unit(surface.from_eye));
+    vec3 normal = seen_side() * frame[2];
+    vec3 small = seen_side() * small_normal(frame);
+    color = lit_color(light_from(to_light), dot(to_light, normal), dot(to_light, small),
+                      dot(half_angle, normal), dot(half_angle, small));
+}

@@ -1,0 +1,51 @@
+// What is drawn into, and reading it back.
+#pragma once
+
+#include "raster/gl.h"
+#include "scenes/camera.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// The pictures that the passes draw, of the camera's size. Only some techniques need the last
+/// four.
+struct Target {
+    int width = 0;
+    int height = 0;
+    Texture claim;          ///< R8: values of Visibility
+    Texture triangle;       ///< R32UI
+    Texture depth_stencil;  ///< D24 or D32F, and 8 bits
+    Framebuffer surface;    ///< all three
+    Framebuffer light;      ///< without `triangle`, which the light pass reads
+    Texture sum{};          ///< R32F: what faces are worth, added up; made by add_sum
+    Framebuffer adding{};   ///< `sum` and `depth_stencil`
+    Texture color{};        ///< RGBA32F: what light comes from each surface; made by add_color
+    Framebuffer lighting{}; ///< `color` and `depth_stencil`
+};
+Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
+void add_sum(const GlFunctions& gl, Target& target);
+void add_color(const GlFunctions& gl, Target& target);
+
+/// Begins a pass whose faces' worth (volume.frag) is added up in `sum`, from zero on.
+void begin_adding(const GlFunctions& gl, const Target& target);
+void end_adding(const GlFunctions& gl);
+
+/// Where faces are counted.
+enum class Counter : std::uint8_t {
+    stencil,
+    sum, ///< as colour, added up; exact to 24 bits
+};
+
+/// The pictures, rows from the top. Counting and depth model are left to the caller.
+Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
+
+/// What has been added up, rows from the top.
+Image<float> read_sum(const GlFunctions& gl, const Target& target);
+
+/// The colours, likewise.
+Image<glm::vec3> read_color(const GlFunctions& gl, const Target& target);
+
+} // namespace shadowproof

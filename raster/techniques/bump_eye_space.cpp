@@ -1,0 +1,31 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// The normal perturbed in eye space, in 32-bit floating point and with exact normalisation: by a
+/// height field's slopes, N' = N + h_u (N x P_v) + h_v (P_u x N), or by a normal map's normal,
+/// carried there. Ambient light everywhere, the rest where the stencil of zfail_reversed is zero.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.lighting = {.axes = LightingRecipe::Axes::eye,
+                       .lit = shader_file("bump_eye_space.frag")};
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique bump_eye_space_technique() {
+    return {.name = "bump_eye_space",
+            .summary = "zfail_reversed, and bumps lit in eye space, in floating point",
+            .source = "Blinn 1978; with stencil shadows: Kilgard 2001",
+            .needs = "bump maps, and blending into an RGBA32F colour buffer",
+            .cost = 1,
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .needs_bump_maps = true,
+            .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,35 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Light and half-angle vector carried into tangent space, where a normal map's normals are used as
+/// they are, in 32-bit floating point and with exact normalisation; ambient light everywhere, the
+/// rest where the stencil of zfail_reversed is zero.
+///
+/// The slides carry the vectors over at the vertices and interpolate them. A product of two things
+/// that are linear over a triangle is not: that is right only where its three frames are the same.
+/// So the frame and the vectors are interpolated, none of unit length, and multiplied by the pixel.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.lighting = {.axes = LightingRecipe::Axes::world,
+                       .lit = shader_file("bump_tangent_space.frag")};
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique bump_tangent_space_technique() {
+    return {.name = "bump_tangent_space",
+            .summary = "zfail_reversed, and bumps lit in tangent space, in floating point",
+            .source = "Peercy, Airey & Cabral 1997; with stencil shadows: Kilgard 2001",
+            .needs = "bump maps, and blending into an RGBA32F colour buffer",
+            .cost = 1,
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .needs_bump_maps = true,
+            .run = run};
+}
+
+} // namespace shadowproof
