@@ -20,9 +20,9 @@ struct Technique {
     std::string_view summary; ///< one clause: how it counts
     std::string_view source;  ///< where it is described
     std::string_view needs;   ///< what it asks of scene and driver
-    /// Time of a frame against zfail_reversed's, as the geometric mean over all bundled scenes
-    /// under each of their lights, at 512x512: as shadowproof_technique_bench measured it. 0: not
-    /// measured.
+    /// Time of a frame against zfail_reversed's, as the geometric mean over all bundled scenes that
+    /// it suits under each of their lights, at 512x512: as shadowproof_technique_bench measured it.
+    /// 0: not measured.
     double cost = 0;
     std::vector<Cause> fails_at; ///< the causes it is known to have
     /// Of those, what it has on almost any scene: no scene need declare that it provokes it.
