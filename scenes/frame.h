@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenes/image.h"
+#include "scenes/lighting_settings.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -111,6 +112,7 @@ struct Frame {
     /// Claimed colours where the technique lights bump maps, else empty: linear, neither clamped
     /// nor rounded to bytes, the floats that blending left. Background is black.
     Image<glm::vec3> color{};
+    ColorModel color_model{}; ///< how they were made
     Counting counting;
     DepthModel depth_model;
     double milliseconds = 0; ///< making the volumes, drawing and finishing, without the read-back

@@ -2,6 +2,7 @@
 // Every "not needed" is conservative: it is claimed only where it is certain.
 #pragma once
 
+#include "scenes/lighting_settings.h"
 #include "scenes/scene.h"
 
 #include <cstdint>
@@ -17,6 +18,7 @@ struct Plan {
     bool volume_meets_far = true;  ///< some volume may contain a point of the far rectangle
     /// triangles_around_light: the one thing here that, where it is said, has to be done.
     std::vector<std::uint8_t> around_light{};
+    LightingSettings lighting{}; ///< asked for by the user; nothing where all is left to techniques
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
     std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line a faulty caster
 };
