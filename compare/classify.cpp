@@ -218,6 +218,21 @@ void count_causes(Comparison& comparison) {
         }
 }
 
+/// Colours differ where they are beyond their bounds; where visibility differs, they are not
+/// judged.
+void check_colors(const JudgedFrame& judged, Comparison& comparison) {
+    comparison.colors = check_colors(judged.tracer, judged.truth, judged.frame);
+    const Image<ColorVerdict>& verdicts = comparison.colors->verdict;
+    for (int y = 0; y < verdicts.height; ++y)
+        for (int x = 0; x < verdicts.width; ++x) {
+            const ColorVerdict verdict = verdicts.at(x, y);
+            const Cause cause =
+                verdict == ColorVerdict::beyond ? Cause::shading : Cause::unexplained;
+            if (verdict == ColorVerdict::beyond || verdict == ColorVerdict::unexplained)
+                comparison.cause.at(x, y) = static_cast<std::uint8_t>(cause);
+        }
+}
+
 } // namespace
 
 Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
@@ -259,6 +274,7 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
         if (judged.differs(p))
             comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(findings[i].cause);
     }
+    if (!frame.color.pixels.empty()) check_colors(judged, comparison);
     count_causes(comparison);
     return comparison;
 }

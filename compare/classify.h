@@ -1,6 +1,7 @@
 // Each differing pixel gets its cause, and a cause is named only where it was predicted.
 #pragma once
 
+#include "compare/color_check.h"
 #include "reference/prediction.h"
 #include "reference/trace.h"
 #include "scenes/cause.h"
@@ -40,6 +41,7 @@ struct Comparison {
     /// then edge) is preferred.
     std::optional<FirstDifference> first;
     LedgerCheck ledger;
+    std::optional<ColorCheck> colors; ///< where the frame has some
 };
 
 /// All pictures must have one size (asserted). `prediction`: of how the frame counts. Where

@@ -112,22 +112,47 @@ bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double 
 // about the first corner by so much of what it climbs to the pixel. The sums at the picture's
 // corner and at the pixel round products of slopes and places: three times each, and the first
 // one's twice more.
+struct Plane {
+    double z01 = 0;
+    double z20 = 0;
+    glm::dvec2 slope{0, 0}; ///< sizes
+};
 double freedom_from(const PicturePoint& first, const PicturePoint& second,
-                    const PicturePoint& third, const glm::dvec2& pixel) {
+                    const PicturePoint& third, const glm::dvec2& pixel, const Plane& plane) {
+    const auto& [z01, z20, slope] = plane;
     const glm::dvec2 d01 = first.place - second.place;
     const glm::dvec2 d20 = third.place - first.place;
-    const double z01 = first.inverse_depth - second.inverse_depth;
-    const double z20 = third.inverse_depth - first.inverse_depth;
     const double area = std::abs(cross(d01, d20));
     const glm::dvec2 terms(std::abs(z01 * d20.y) + std::abs(z20 * d01.y),
                            std::abs(z20 * d01.x) + std::abs(z01 * d20.x));
-    const glm::dvec2 slope(std::abs(z01 * d20.y - z20 * d01.y) / area,
-                           std::abs(z20 * d01.x - z01 * d20.x) / area);
     const glm::dvec2 way = glm::abs(pixel - first.place);
     const double climb = std::max({std::abs(z01), std::abs(z20), glm::dot(slope, way)});
     const double terms_of_area = std::abs(d01.x * d20.y) + std::abs(d20.x * d01.y);
     return 5 * v * glm::dot(terms / area, way) + v * (3 * terms_of_area / area + 2) * climb +
            v * glm::dot(slope, 5.0 * glm::abs(first.place) + 3.0 * glm::abs(pixel));
+}
+
+/// Of the inverse depths' plane.
+Plane plane_of_depths(const PicturePoint& first, const PicturePoint& second,
+                      const PicturePoint& third) {
+    const glm::dvec2 d01 = first.place - second.place;
+    const glm::dvec2 d20 = third.place - first.place;
+    const double z01 = first.inverse_depth - second.inverse_depth;
+    const double z20 = third.inverse_depth - first.inverse_depth;
+    const double area = std::abs(cross(d01, d20));
+    return {z01, z20,
+            glm::abs(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area};
+}
+
+/// The steepest of anything over the depth that is nowhere larger than 1.
+Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
+                     const PicturePoint& third) {
+    const glm::dvec2 d01 = glm::abs(first.place - second.place);
+    const glm::dvec2 d20 = glm::abs(third.place - first.place);
+    const double z01 = first.inverse_depth + second.inverse_depth;
+    const double z20 = third.inverse_depth + first.inverse_depth;
+    const double area = std::abs(cross(first.place - second.place, third.place - first.place));
+    return {z01, z20, glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area};
 }
 
 /// Which corner is the first hangs on the driver: any may be. Corners are off, too, each by as much
@@ -152,29 +177,73 @@ double freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel, doub
             (std::abs(cross(along, pixel - from)) + reach * glm::length(along)) / area;
         corners += weight * (triangle[i].depth_error + slope * triangle[i].place_error);
     }
-    return corners + std::max({freedom_from(a, b, c, pixel), freedom_from(b, c, a, pixel),
-                               freedom_from(c, a, b, pixel)});
+    return corners + std::max({freedom_from(a, b, c, pixel, plane_of_depths(a, b, c)),
+                               freedom_from(b, c, a, pixel, plane_of_depths(b, c, a)),
+                               freedom_from(c, a, b, pixel, plane_of_depths(c, a, b))});
+}
+
+/// Of something over the depth that is nowhere larger than 1: corners are off by their quotient's
+/// and product's roundings, and those of the shader that made them, 8 v in all.
+double attribute_freedom_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
+    const auto& [a, b, c] = triangle;
+    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
+    if (!(area > 0)) return std::numeric_limits<double>::infinity();
+    const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
+    return 8 * v * largest + std::max({freedom_from(a, b, c, pixel, steepest_plane(a, b, c)),
+                                       freedom_from(b, c, a, pixel, steepest_plane(b, c, a)),
+                                       freedom_from(c, a, b, pixel, steepest_plane(c, a, b))});
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
+template <class Freedom>
 double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>& triangles,
-                       const CoveredPixel& pixel) {
+                       const CoveredPixel& pixel, const Freedom& freedom_of) {
     const glm::dvec2 place = project(camera, camera.eye + pixel.direction);
     double covering = -1;
     double any = 0;
     for (const PictureTriangle& triangle : triangles) {
-        const double freedom = freedom_of(triangle, place, pixel.reach);
+        const double freedom = freedom_of(triangle, place);
         any = std::max(any, freedom);
         if (may_reach(triangle, place, pixel.reach)) covering = std::max(covering, freedom);
     }
     return covering < 0 ? any : covering;
 }
 
+/// Of depths.
+double largest_freedom(const Camera& camera, const std::vector<PictureTriangle>& triangles,
+                       const CoveredPixel& pixel) {
+    return largest_freedom(camera, triangles, pixel,
+                           [&](const PictureTriangle& triangle, const glm::dvec2& place) {
+                               return freedom_of(triangle, place, pixel.reach);
+                           });
+}
+
+std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
+                                    const CoveredPixel& pixel) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    return set_up(scene.camera, {at(0), at(1), at(2)}, pixel);
+}
+
 } // namespace
 
 double setup_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
-    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-    return largest_freedom(scene.camera, set_up(scene.camera, {at(0), at(1), at(2)}, pixel), pixel);
+    return largest_freedom(scene.camera, set_up(scene, triangle, pixel), pixel);
+}
+
+// What is interpolated is q = p / r, where p is the thing over the depth and r the depth's inverse,
+// both off by up to the share of its size: q is off by (error of p + |q| error of r) / r.
+double attribute_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const double inverse_depth =
+        largest_freedom(scene.camera, set_up(scene, triangle, pixel), pixel,
+                        [](const PictureTriangle& one, const glm::dvec2& place) {
+                            return attribute_freedom_of(one, place);
+                        });
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 across =
+        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
+    const double depth =
+        std::abs(glm::dot(across, a - scene.camera.eye) / glm::dot(across, pixel.direction));
+    return 2 * inverse_depth * depth;
 }
 
 // A side is two triangles. Which diagonal parts them hangs on the order of positions: both are

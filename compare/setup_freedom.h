@@ -1,6 +1,6 @@
 // How far off a rasterizer may set up the plane of a face's depths over the picture. Fine meshes
 // throw long and thin sides, whose planes a rounding of their slopes turns far more than it would a
-// well-shaped triangle's.
+// well-shaped triangle's. So with whatever else is interpolated.
 #pragma once
 
 #include "reference/ledger.h"
@@ -29,5 +29,9 @@ double setup_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPi
 /// null where that is at infinity.
 double setup_freedom(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                      const Crossing& side, const CoveredPixel& pixel);
+
+/// Error of anything that is interpolated over a triangle, in perspective, at a pixel: as a share
+/// of its size at the corner where it is largest. Infinite where the triangle is seen edge-on.
+double attribute_freedom(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
 } // namespace shadowproof

@@ -39,6 +39,7 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<con
         return comparison.causes[static_cast<std::size_t>(cause)] > 0;
     };
     if (found(Cause::unexplained) || comparison.ledger.unexplained > 0) return Verdict::unexplained;
+    if (comparison.colors && comparison.colors->unforeseen > 0) return Verdict::unexplained;
     Verdict verdict = Verdict::agrees;
     for (const CauseWords& words : all_causes) {
         if (words.cause == Cause::edge || !found(words.cause)) continue;

@@ -1,6 +1,7 @@
 #include "reference/point_shader.h"
 
 #include "scenes/relief.h"
+#include "scenes/tangents.h"
 
 #include <algorithm>
 #include <cassert>
@@ -134,6 +135,7 @@ void PointShader::set(std::size_t lane, const glm::dvec3& direction, std::uint32
     lanes_.side[lane] = seen.side;
     looks_[lane] = look_at(seen, weights);
     looks_[lane].lit = lit;
+    looks_[lane].weights = weights;
 }
 
 PointShader::Summands PointShader::summands(std::size_t lane) const {
@@ -148,6 +150,16 @@ PointShader::Summands PointShader::summands(std::size_t lane) const {
 glm::dvec3 PointShader::color(std::size_t lane) const {
     const Summands sum = summands(lane);
     return sum.diffuse + sum.ambient + sum.specular;
+}
+
+/// T of the definition.
+glm::dvec3 PointShader::tangent(std::size_t lane) const {
+    const Material& material = *looks_[lane].material;
+    if (material.bump == Bump::none) return {0, 0, 0};
+    const glm::dvec3 normal = lanes_.side[lane] * lanes_.normal.at(lane);
+    const glm::dvec3 interpolated = lanes_.tangent.at(lane);
+    const glm::dvec3 across = interpolated - normal * glm::dot(normal, interpolated);
+    return glm::dot(across, across) > 0 ? glm::normalize(across) : any_tangent(normal);
 }
 
 Shading PointShader::terms(std::size_t lane) const {
@@ -165,6 +177,11 @@ Shading PointShader::terms(std::size_t lane) const {
             .decal = look.decal,
             .light = tables_->light_color * lanes_.strength[lane],
             .lit = look.lit,
+            .point = lanes_.point.at(lane),
+            .weights = look.weights,
+            .tangent = tangent(lane),
+            .hand = lanes_.hand[lane],
+            .side = lanes_.side[lane],
             .diffuse_color = sum.diffuse,
             .specular_color = sum.specular,
             .ambient_color = sum.ambient};

@@ -67,6 +67,7 @@ private:
         glm::dvec3 decal{0, 0, 0};
         double gloss = 1;
         bool lit = false;
+        glm::dvec3 weights{0, 0, 0};
     };
     struct Summands {
         glm::dvec3 diffuse, specular, ambient;
@@ -82,6 +83,7 @@ private:
     glm::dvec3 bump_at(const Known& known, const glm::dvec3& weights) const;
     Look look_at(const Known& known, const glm::dvec3& weights) const;
     Summands summands(std::size_t lane) const;
+    glm::dvec3 tangent(std::size_t lane) const;
 };
 
 } // namespace shadowproof

@@ -129,6 +129,31 @@ std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& directi
     return shader.terms(0);
 }
 
+struct RayShader::State {
+    ShadingTables tables;
+    PointShader shader;
+
+    explicit State(const Tracer& tracer) : tables(make_shading_tables(tracer)), shader(tables) {}
+};
+
+RayShader::RayShader(const Tracer& tracer) : state_(std::make_unique<State>(tracer)) {}
+RayShader::~RayShader() = default;
+
+void RayShader::shade(std::span<const SeenPoint> points, std::span<Shading> shadings) {
+    assert(points.size() == shadings.size());
+    PointShader& shader = state_->shader;
+    for (std::size_t first = 0; first < points.size(); first += packet_size) {
+        const std::size_t count = std::min<std::size_t>(packet_size, points.size() - first);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const SeenPoint& point = points[first + lane];
+            shader.set(lane, point.direction, point.triangle, point.lit);
+        }
+        shader.shade();
+        for (std::size_t lane = 0; lane < count; ++lane)
+            shadings[first + lane] = shader.terms(lane);
+    }
+}
+
 Supersampled shade_supersampled(const Tracer& tracer, int n) {
     const Tracer::State& state = tracer.state();
     const Camera& camera = state.scene->camera;

@@ -43,7 +43,9 @@
 #include "reference/trace.h"
 
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
+#include <span>
 
 namespace shadowproof {
 
@@ -61,6 +63,11 @@ struct Shading {
     glm::dvec3 decal{0, 0, 0};
     glm::dvec3 light{0, 0, 0}; ///< without visibility
     bool lit = false;
+    glm::dvec3 point{0, 0, 0};          ///< Q, relative to the eye
+    glm::dvec3 weights{0, 0, 0};        ///< of the triangle's corners
+    glm::dvec3 tangent{0, 0, 0};        ///< T; zero where the material has no bump map
+    double hand = 1;                    ///< w: B = w N x T, of the front
+    double side = 1;                    ///< -1 where the eye sees the back
     glm::dvec3 diffuse_color{0, 0, 0};  ///< the colour's summands
     glm::dvec3 specular_color{0, 0, 0}; ///< "
     glm::dvec3 ambient_color{0, 0, 0};  ///< "
@@ -77,6 +84,30 @@ Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth);
 
 /// What is seen along one ray, shaded; nothing where that is background.
 std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction);
+
+/// What the eye ray along `direction` sees.
+struct SeenPoint {
+    glm::dvec3 direction{0, 0, -1};
+    std::uint32_t triangle = no_triangle;
+    bool lit = false;
+};
+
+/// Shades points of triangles that are known to be seen there. For one thread.
+class RayShader {
+public:
+    explicit RayShader(const Tracer& tracer);
+    ~RayShader();
+    RayShader(const RayShader&) = delete;
+    RayShader& operator=(const RayShader&) = delete;
+
+    /// As many shadings as points, each where the ray meets its triangle's plane; past its edges,
+    /// at the nearest weights within.
+    void shade(std::span<const SeenPoint> points, std::span<Shading> shadings);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Each pixel as the mean of n x n rays (1 to 32) through the middles of as many equal squares,
 /// each with a visibility of its own: what filtering is judged by.

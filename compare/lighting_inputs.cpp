@@ -1,0 +1,317 @@
+#include "compare/lighting_inputs.h"
+
+#include "scenes/relief.h"
+
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = 0x1p-24; ///< rounding unit of float
+
+template <class T>
+using ThreeOf = std::array<T, 3>;
+
+template <class Of>
+double largest_length(const Of& of) {
+    return std::max({glm::length(of(0)), glm::length(of(1)), glm::length(of(2))});
+}
+
+const Material& material_of(const Scene& scene, std::uint32_t triangle) {
+    return scene.materials[scene.meshes[mesh_of(scene, triangle)].material];
+}
+
+const Surface& surface_of(const Scene& scene, std::uint32_t triangle, int k) {
+    return scene.surfaces[std::size_t{3} * triangle + static_cast<std::size_t>(k)];
+}
+
+/// What a corner's `of` comes to at the point.
+template <class Of>
+auto interpolated(const glm::dvec3& weights, const Of& of) {
+    return weights.x * of(0) + weights.y * of(1) + weights.z * of(2);
+}
+
+glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
+    const double length = glm::length(vector);
+    return length > 0 ? vector / length : glm::dvec3(0);
+}
+
+/// Lomont's reciprocal square root (2003): a guess by halving the exponent, then one step of Newton
+/// and Raphson; its relative error is at most 0.0017523.
+double newton_raphson_root(double square) {
+    const auto x = static_cast<float>(square);
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    const double guess = std::bit_cast<float>(0x5f3759dfU - (bits >> 1U));
+    return guess * (1.5 - 0.5 * square * guess * guess);
+}
+
+/// A vector of unit length, as the technique makes it, of one known within `radius`.
+// Roundings: of the square (3 v), its root (v), the quotient (v): 4 v of a length of 1. A lookup
+// turns with the vector, and jumps where it comes to look at another face: it is taken at the ends
+// of the radius, and what that makes of it counts twice, for what lies between.
+Intervals normalised(const LightingTables& tables, const glm::dvec3& vector, double radius) {
+    const double length = glm::length(vector);
+    if (!(length > 0)) return around(glm::dvec3(0), 1);
+    const double turn = radius / length;
+    switch (tables.model.normalisation) {
+    case Normalisation::exact:
+        break;
+    case Normalisation::newton_raphson:
+        // The step flattens what the guess makes of the length: a share of it, no more, is left.
+        return around(newton_raphson_root(length * length) * vector, 2 * turn + 8 * v);
+    case Normalisation::cube_map: {
+        const glm::dvec3 found = looked_up(tables.cube, vector);
+        Intervals all = around(found);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double sign : {-1.0, 1.0}) {
+                glm::dvec3 moved = vector;
+                moved[axis] += sign * std::max(radius, 4 * v * length);
+                all = hull(all, around(looked_up(tables.cube, moved)));
+            }
+        for (std::size_t k = 0; k < 3; ++k)
+            all[k] = widened(all[k], all[k].high - all[k].low + 8 * v);
+        return all;
+    }
+    }
+    return around(vector / length, turn + 4 * v);
+}
+
+/// The half width of the widest.
+double radius_of(const Intervals& a) {
+    double widest = 0;
+    for (const Interval& component : a) widest = std::max(widest, component.high - component.low);
+    return 0.5 * widest;
+}
+
+Intervals sum(const Intervals& a, const Intervals& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+/// T, B and N of the seen side, and how far each is off.
+struct Frame3 {
+    glm::dvec3 tangent, bitangent, normal;
+    double tangent_off = 0;
+    double normal_off = 0;
+};
+
+Frame3 frame_at(const InputPoint& point) {
+    const Shading& shading = point.shading;
+    Frame3 frame;
+    frame.normal = shading.normal;
+    frame.tangent = shading.side * shading.tangent;
+    frame.bitangent =
+        shading.side * shading.hand * glm::cross(shading.side * shading.normal, shading.tangent);
+    return frame;
+}
+
+/// Corners of unit length that point apart leave little between them, of which an error is a larger
+/// share. Roundings: 8 v for making it of unit length and, of T, at right angles to N.
+Frame3 frame_at(const Scene& scene, const InputPoint& point, double share) {
+    Frame3 frame = frame_at(point);
+    const glm::dvec3& weights = point.shading.weights;
+    const auto normal = interpolated(
+        weights, [&](int k) { return glm::dvec3(surface_of(scene, point.triangle, k).normal); });
+    const auto tangent = interpolated(weights, [&](int k) {
+        return glm::dvec3(glm::vec3(surface_of(scene, point.triangle, k).tangent));
+    });
+    frame.normal_off = share / glm::length(normal) + 8 * v;
+    const glm::dvec3 n = glm::normalize(normal);
+    const double across = glm::length(tangent - n * glm::dot(n, tangent));
+    if (across > 0) frame.tangent_off = (share + 2 * frame.normal_off + 8 * v) / across + 8 * v;
+    return frame;
+}
+
+Intervals into(const Frame3& frame, const Intervals& vector) {
+    const Intervals tangent = around(frame.tangent, frame.tangent_off);
+    const Intervals bitangent = around(frame.bitangent, frame.tangent_off + frame.normal_off);
+    const Intervals normal = around(frame.normal, frame.normal_off);
+    Intervals carried{dot(vector, tangent), dot(vector, bitangent), dot(vector, normal)};
+    if (frame.normal_off > 0)
+        for (Interval& component : carried) component = widened(component, 4 * v);
+    return carried;
+}
+
+/// What a texture's texels come to between them, as `of` decodes them.
+template <class T, class Of>
+T mixed(const TextureImage& map, const Image<glm::vec4>& texels, const glm::dvec2& at,
+        const Of& of) {
+    const Taps s = taps_at(map.wrap_s, texels.width, at.x);
+    const Taps t = taps_at(map.wrap_t, texels.height, at.y);
+    const auto along = [&](int row) {
+        const T a = of(glm::dvec4(texels.at(s.first, row)));
+        return a + s.fraction * (of(glm::dvec4(texels.at(s.second, row))) - a);
+    };
+    const T upper = along(t.first);
+    return upper + t.fraction * (along(t.second) - upper);
+}
+
+/// m of the technique: of unit length where slopes were made into it, and where lighting is in
+/// floats throughout; else as mixed.
+glm::dvec3 bump_at(const LightingTables& tables, const Material& material, const glm::dvec2& at) {
+    if (material.bump == Bump::none) return {0, 0, 1};
+    const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
+    const BumpTexels& bumps = *tables.bumps[index];
+    const TextureImage& map = tables.scene->textures[material.bump_map];
+    glm::dvec3 m(0, 0, 1);
+    bool make_unit = tables.model.arithmetic == ColorModel::Arithmetic::floating;
+    const auto from_slopes = [&](const glm::dvec2& slope) {
+        m = {-slope.x, slope.y, 1};
+        make_unit = true;
+    };
+    switch (bumps.form) {
+    case BumpForm::height_field: {
+        const Image<glm::dvec2>& slopes = tables.slopes[index];
+        from_slopes(sample<glm::dvec2>(slopes, taps_at(map.wrap_s, slopes.width, at.x),
+                                       taps_at(map.wrap_t, slopes.height, at.y)));
+        break;
+    }
+    case BumpForm::derivatives:
+        from_slopes(mixed<glm::dvec2>(map, bumps.texels, at, [&](const glm::dvec4& texel) {
+            return bumps.slope_range * (2.0 * glm::dvec2(texel) - 1.0);
+        }));
+        break;
+    case BumpForm::indexed:
+        m = mixed<glm::dvec3>(map, bumps.texels, at, [](const glm::dvec4& texel) {
+            return indexed_normal(static_cast<std::uint16_t>(texel.r));
+        });
+        break;
+    case BumpForm::as_given:
+    case BumpForm::normal_map:
+        m = mixed<glm::dvec3>(map, bumps.texels, at, [](const glm::dvec4& texel) {
+            return 2.0 * glm::dvec3(texel) - 1.0;
+        });
+        m = {bumps.scale * m.x, bumps.scale * m.y, m.z};
+        break;
+    }
+    if (!make_unit) return m;
+    return glm::dot(m, m) > 0 ? glm::normalize(m) : glm::dvec3(0, 0, 1);
+}
+
+/// A place's difference from a homogeneous point, or the way to it where that is at infinity.
+glm::dvec3 way_to(const glm::dvec4& light, const glm::dvec3& eye, const glm::dvec3& relative) {
+    return (glm::dvec3(light) - light.w * eye) - light.w * relative;
+}
+
+/// `to_light` of unit length within `turn`, the way to it `length` long.
+Intervals radiance_at(const Scene& scene, const glm::dvec3& to_light, double turn, double length) {
+    const Light& light = chosen_light(scene);
+    Interval strength = around(1);
+    if (light.kind == Light::Kind::spot) {
+        const double outer = std::cos(light.outer_cone);
+        const double scale = 1 / std::max(0.001, std::cos(light.inner_cone) - outer);
+        const Interval within = clamped(
+            scale * around(-glm::dot(to_light, light.direction) - outer, turn + 6 * v), 0, 1);
+        strength = squared(within);
+    }
+    const bool has_place = light.kind != Light::Kind::directional;
+    if (scene.inverse_square && has_place)
+        strength = 1 / (length * length) * strength * around(1, 2 * turn + 4 * v);
+    const glm::dvec3 color = scene.inverse_square ? light.color * light.intensity : light.color;
+    return {color.x * strength, color.y * strength, color.z * strength};
+}
+
+Intervals decal_at(const Scene& scene, const InputPoint& point, const Material& material,
+                   Interval& gloss) {
+    glm::dvec4 texel(1);
+    if (material.decal != no_texture) {
+        const TextureImage& map = scene.textures[material.decal];
+        const glm::dvec2 at = point.decal_off + interpolated(point.shading.weights, [&](int k) {
+                                  return glm::dvec2(surface_of(scene, point.triangle, k).decal_at);
+                              });
+        texel = mixed<glm::dvec4>(map, map.texels, at, [](const glm::dvec4& t) { return t; });
+    }
+    // Three roundings of a mixture along rows, as many between them, and the factor's two.
+    gloss = material.gloss_in_alpha ? around(texel.a, 8 * v * std::abs(texel.a)) : around(1);
+    Intervals decal;
+    for (int k = 0; k < 3; ++k) {
+        const double channel = material.color[k] * texel[k];
+        decal[static_cast<std::size_t>(k)] = around(channel, 8 * v * std::abs(channel));
+    }
+    return decal;
+}
+
+} // namespace
+
+LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model) {
+    LightingTables tables;
+    tables.scene = &scene;
+    tables.model = model;
+    for (const Material& material : scene.materials) {
+        std::optional<BumpTexels>& bumps = tables.bumps.emplace_back();
+        Image<glm::dvec2>& slopes = tables.slopes.emplace_back();
+        if (material.bump == Bump::none) continue;
+        bumps = bump_texels(scene, material, model.bump_form);
+        if (bumps->form == BumpForm::height_field)
+            slopes = slopes_of(scene.textures[material.bump_map], bumps->scale);
+    }
+    if (model.normalisation == Normalisation::cube_map) tables.cube = make_normalisation_cube();
+    return tables;
+}
+
+LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point) {
+    const Scene& scene = *tables.scene;
+    const Shading& shading = point.shading;
+    const Frame3 frame = frame_at(point);
+    LightingInputs inputs;
+    inputs.light = into(frame, around(shading.to_light));
+    inputs.half = into(frame, around(shading.half));
+    inputs.bump = into(frame, around(shading.bumped));
+    // The frame holds no tangents where there are no bumps to be told apart by them.
+    if (material_of(scene, point.triangle).bump == Bump::none) inputs.bump = around({0, 0, 1});
+    inputs.radiance = around(shading.light);
+    inputs.decal = around(shading.decal);
+    inputs.gloss = around(shading.gloss);
+    inputs.specular = material_of(scene, point.triangle).specular;
+    inputs.ambient = scene.ambient;
+    inputs.lit = shading.lit;
+    return inputs;
+}
+
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point, double share) {
+    const Scene& scene = *tables.scene;
+    const Shading& shading = point.shading;
+    const Material& material = material_of(scene, point.triangle);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const glm::dvec3& eye = scene.camera.eye;
+    const auto to_light = [&](int k) {
+        return way_to(light, eye, corner(scene, point.triangle, k) - eye);
+    };
+    const auto from_eye = [&](int k) { return corner(scene, point.triangle, k) - eye; };
+    const glm::dvec3 way = way_to(light, eye, shading.point);
+    const double way_off = share * largest_length(to_light);
+    const Intervals l = normalised(tables, way, way_off);
+    const Intervals e = normalised(tables, -shading.point, share * largest_length(from_eye));
+    const Intervals both = sum(l, e);
+    const Frame3 frame = frame_at(scene, point, share);
+    LightingInputs inputs;
+    inputs.light = into(frame, l);
+    inputs.half = into(frame, normalised(tables, middle(both), radius_of(both) + v));
+    const glm::dvec2 at = point.bump_off + interpolated(shading.weights, [&](int k) {
+                              return glm::dvec2(surface_of(scene, point.triangle, k).bump_at);
+                          });
+    inputs.bump = around(bump_at(tables, material, at), 12 * v);
+    inputs.radiance =
+        radiance_at(scene, unit_or_zero(way), way_off / glm::length(way) + 4 * v, glm::length(way));
+    inputs.decal = decal_at(scene, point, material, inputs.gloss);
+    inputs.specular = material.specular;
+    inputs.ambient = scene.ambient;
+    inputs.lit = shading.lit;
+    return inputs;
+}
+
+CoordinateFreedom coordinate_freedom(const Scene& scene, std::uint32_t triangle, double share) {
+    CoordinateFreedom freedom;
+    for (int k = 0; k < 3; ++k) {
+        const Surface& surface = surface_of(scene, triangle, k);
+        freedom.bump = glm::max(freedom.bump, glm::abs(glm::dvec2(surface.bump_at)));
+        freedom.decal = glm::max(freedom.decal, glm::abs(glm::dvec2(surface.decal_at)));
+    }
+    freedom.bump *= share + 4 * v;
+    freedom.decal *= share + 4 * v;
+    return freedom;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,52 @@
+// What stands in a bump map's texels, form by form (BumpForm): made once from what the asset has.
+// The same numbers go to OpenGL, whose shaders fetch texels and mix them bilinearly by hand.
+#pragma once
+
+#include "scenes/image.h"
+#include "scenes/lighting_settings.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace shadowproof {
+
+/// The texels of one material, and how the small normal m is had from them once they are mixed. It
+/// need not be of unit length.
+struct BumpTexels {
+    BumpForm form = BumpForm::normal_map; ///< never as_given
+    /// height_field: heights in red, whose slopes (relief.h) are mixed, m = (-s, t, 1).
+    /// normal_map: m = 2 rgb - 1, its x and y times `scale`.
+    /// derivatives: (s, t) = slope_range (2 rg - 1), m = (-s, t, 1).
+    /// indexed: in red a number, 0 to 65535; indexed_normal of each texel is mixed.
+    Image<glm::vec4> texels{};
+    double slope_range = 0; ///< of derivatives
+    double scale = 1;       ///< of a height (texels), or of a normal's x and y: else it is in them
+};
+
+/// Of a material that has a bump map.
+///
+/// Height fields become other forms by their slopes at the texels, and normals of them, as relief.h
+/// has them; normal maps become derivatives by (s, t) = (-m.x, m.y) / m.z. Bytes are rounded to the
+/// nearest. A normal map asked for as one, and what is asked for as given, is as the asset has it.
+///
+/// Throws Error, naming file and material, where a normal map is asked for as a height field, and
+/// where it has normals along the surface or into it and is asked for as derivatives.
+BumpTexels bump_texels(const Scene& scene, const Material& material, BumpForm form);
+
+/// The table of normals: (u, v) = 2 / 255 (number mod 256, number div 256) - 1 is a point of the
+/// octahedron |x| + |y| + |z| = 1, from above, with its lower half folded outwards
+/// (Meyer et al. 2010); the normal has its direction.
+glm::dvec3 indexed_normal(std::uint16_t number);
+
+/// The number of the normal that is nearest on that map: u and v each rounded to bytes. It is
+/// within octahedral_error of it.
+std::uint16_t number_of(const glm::dvec3& normal);
+
+/// Rounding moves u and v by at most 1/255 each, so a point of the octahedron by at most
+/// |(1, 1, 2)| / 255; no point of it is nearer to the centre than 1 / sqrt 3, so that unit vectors
+/// differ by at most sqrt 3 times that: 3 sqrt 2 / 255.
+inline constexpr double octahedral_error = 0.016638;
+
+} // namespace shadowproof

@@ -1,0 +1,34 @@
+// The normalisation cube map: it holds, in the direction of each of its texels, the unit vector of
+// that direction, so that a lookup makes a vector of unit length (Voorhies and Foran 1994). The
+// same texels go to OpenGL.
+#pragma once
+
+#include "scenes/image.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/gtc/type_precision.hpp>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// Faces in OpenGL's order: +x -x +y -y +z -z, each of size x size texels, the first row at t = 0
+/// (OpenGL 4.5, table 8.19). A texel is round(255 (0.5 + 0.5 n)) of the unit vector n through its
+/// centre.
+struct NormalisationCube {
+    int size = 0;
+    std::array<Image<glm::u8vec3>, 6> faces{};
+};
+NormalisationCube make_normalisation_cube(int size = 64);
+
+/// What a lookup means: 2 rgb - 1 of the face that the vector looks at, its texels mixed
+/// bilinearly, without seams being crossed. Of components of equal size x goes before y before z,
+/// where OpenGL leaves the choice to the driver. Zero where the vector is zero.
+glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
+
+/// The most that a component of a driver's lookup is off that, for the cube of 64 texels a side. Of
+/// 8-bit texels llvmpipe mixes with weights of 8 bits, and to 8 bits along each axis.
+/// Measured by NormalisationCube.a_lookup_by_opengl_is_what_is_meant.
+inline constexpr double cube_lookup_error = 4 / 255.0;
+
+} // namespace shadowproof
