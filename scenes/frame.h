@@ -109,8 +109,9 @@ struct Frame {
     Image<std::uint32_t> counter;  ///< as read back, before the light pass
     Image<float> depth;            ///< window depth in [0, 1]
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
-    /// Claimed colours where the technique lights bump maps, else empty: linear, neither clamped
-    /// nor rounded to bytes, the floats that blending left. Background is black.
+    /// Claimed colours where the technique lights bump maps, else empty: linear, as blending left
+    /// them: floats neither clamped nor rounded, or k / 255 where the buffer holds bytes.
+    /// Background is black.
     Image<glm::vec3> color{};
     ColorModel color_model{}; ///< how they were made
     Counting counting;

@@ -77,4 +77,11 @@ struct ColorModel {
     BumpForm bump_form = BumpForm::as_given;
 };
 
+/// A technique's own way, but for what was asked for.
+constexpr ColorModel with_settings(ColorModel model, const LightingSettings& settings) {
+    model.normalisation = settings.normalisation.value_or(model.normalisation);
+    model.bump_form = settings.bump_form.value_or(model.bump_form);
+    return model;
+}
+
 } // namespace shadowproof

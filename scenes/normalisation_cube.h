@@ -28,7 +28,8 @@ glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
 
 /// The most that a component of a driver's lookup is off that, for the cube of 64 texels a side. Of
 /// 8-bit texels llvmpipe mixes with weights of 8 bits, and to 8 bits along each axis.
-/// Measured by NormalisationCube.a_lookup_by_opengl_is_what_is_meant.
-inline constexpr double cube_lookup_error = 4 / 255.0;
+/// 2.01/255 by NormalisationCube.a_lookup_by_opengl_is_what_is_meant, which takes 32 places a
+/// texel.
+inline constexpr double cube_lookup_error = 2.5 / 255;
 
 } // namespace shadowproof
