@@ -90,6 +90,7 @@ struct Platform; // platform.h
     X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                               \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                 \
     X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                               \
+    X(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D)                                               \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
     X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding)                                 \
     X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat)                                   \

@@ -1,6 +1,7 @@
 #include "raster/lighting.h"
 
 #include "raster/lit_sides.h"
+#include "scenes/bump_forms.h"
 #include "scenes/error.h"
 
 #include <algorithm>
@@ -26,20 +27,45 @@ Texture upload_texels(const GlFunctions& gl, const Image<glm::vec4>& texels) {
     return texture;
 }
 
-std::vector<Texture> upload_textures(const GlFunctions& gl, const Scene& scene) {
+void require_size(const GlFunctions& gl, const Scene& scene, const TextureImage& texture) {
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    std::vector<Texture> textures;
-    for (const TextureImage& texture : scene.textures) {
-        const Image<glm::vec4>& texels = texture.texels;
-        if (texels.width > most || texels.height > most)
-            throw Error(scene.file.string() + ": " + texture.name,
-                        "the driver takes at most " + std::to_string(most) + " texels a side",
-                        "make the image smaller");
-        textures.push_back(upload_texels(gl, texels));
+    if (texture.texels.width <= most && texture.texels.height <= most) return;
+    throw Error(scene.file.string() + ": " + texture.name,
+                "the driver takes at most " + std::to_string(most) + " texels a side",
+                "make the image smaller");
+}
+
+BumpMap upload_bumps(const GlFunctions& gl, const Scene& scene, const Material& material,
+                     BumpForm form) {
+    if (material.bump == Bump::none) return {};
+    require_size(gl, scene, scene.textures[material.bump_map]);
+    const BumpTexels bumps = bump_texels(scene, material, form);
+    return {.texels = upload_texels(gl, bumps.texels),
+            .form = bumps.form,
+            .scale = static_cast<float>(bumps.scale),
+            .slope_range = static_cast<float>(bumps.slope_range)};
+}
+
+Texture upload_normal_table(const GlFunctions& gl) {
+    Image<glm::vec4> table(256, 256);
+    for (std::size_t i = 0; i < table.pixels.size(); ++i)
+        table.pixels[i] = glm::vec4(indexed_normal(static_cast<std::uint16_t>(i)), 0);
+    return upload_texels(gl, table);
+}
+
+void upload_textures(const GlFunctions& gl, const Scene& scene, BumpForm form, LightingPass& pass) {
+    pass.decals.resize(scene.textures.size());
+    for (const Material& material : scene.materials) {
+        pass.bumps.push_back(upload_bumps(gl, scene, material, form));
+        if (material.decal == no_texture) continue;
+        const TextureImage& decal = scene.textures[material.decal];
+        require_size(gl, scene, decal);
+        pass.decals[material.decal] = upload_texels(gl, decal.texels);
     }
-    textures.push_back(upload_texels(gl, Image<glm::vec4>(1, 1, glm::vec4(1))));
-    return textures;
+    pass.white = upload_texels(gl, Image<glm::vec4>(1, 1, glm::vec4(1)));
+    pass.unit_vectors = upload_cube(gl, make_normalisation_cube());
+    pass.normal_table = upload_normal_table(gl);
 }
 
 void upload_corners(const GlFunctions& gl, const Scene& scene, LightingPass& pass) {
@@ -90,15 +116,6 @@ void make_runs(const GlFunctions& gl, const Scene& scene, LightingPass& pass) {
     gl.VertexArrayElementBuffer(pass.corners.name(), pass.lit_sides.buffer.name());
 }
 
-Program link_lighting(const GlFunctions& gl, const ClipTransform& transform, const glm::mat3& axes,
-                      const ShaderText& fragment) {
-    const std::array stages{shader_file("lit.vert"), fragment};
-    Program program = link(gl, stages);
-    set_transform(gl, program, transform);
-    gl.ProgramUniformMatrix3fv(program.name(), 5, 1, GL_FALSE, glm::value_ptr(axes));
-    return program;
-}
-
 void set_color(const GlFunctions& gl, const Program& program, GLint location,
                const glm::dvec3& color) {
     const glm::vec3 rounded(color);
@@ -123,26 +140,93 @@ void set_light(const GlFunctions& gl, const Program& program, const Scene& scene
 }
 
 void set_material(const GlFunctions& gl, const Program& program, const LightingPass& pass,
-                  const Scene& scene, const Material& material) {
+                  const Scene& scene, std::uint32_t index) {
+    const Material& material = scene.materials[index];
+    const BumpMap& bumps = pass.bumps[index];
     set_color(gl, program, 6, material.color);
     set_color(gl, program, 7, material.specular);
     gl.ProgramUniform1i(program.name(), 8, material.gloss_in_alpha ? 1 : 0);
-    gl.ProgramUniform1i(program.name(), 9, static_cast<GLint>(material.bump));
-    gl.ProgramUniform1f(program.name(), 10, static_cast<float>(material.bump_scale));
-    const auto bind = [&](GLuint unit, std::uint32_t texture, GLint wrap) {
-        const bool white = texture == no_texture;
-        const Texture& bound = white ? pass.textures.back() : pass.textures[texture];
-        gl.BindTextureUnit(unit, bound.name());
-        if (white) return;
+    gl.ProgramUniform1i(program.name(), 9, static_cast<GLint>(bumps.form));
+    gl.ProgramUniform1f(program.name(), 10, bumps.scale);
+    gl.ProgramUniform1f(program.name(), 22, bumps.slope_range);
+    const auto bind = [&](GLuint unit, std::uint32_t texture, const Texture& texels, GLint wrap) {
+        gl.BindTextureUnit(unit, texels.name());
+        if (texture == no_texture) return;
         const TextureImage& image = scene.textures[texture];
         gl.ProgramUniform1i(program.name(), wrap, static_cast<GLint>(image.wrap_s));
         gl.ProgramUniform1i(program.name(), wrap + 1, static_cast<GLint>(image.wrap_t));
     };
-    bind(1, material.decal, 12);
-    bind(2, material.bump_map, 14);
+    bind(1, material.decal, material.decal == no_texture ? pass.white : pass.decals[material.decal],
+         12);
+    bind(2, material.bump_map, material.bump_map == no_texture ? pass.white : bumps.texels, 14);
+}
+
+LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
+                          const LightingRecipe& recipe, const LightingStep& step) {
+    const glm::dmat3 axes = recipe.axes == LightingRecipe::Axes::eye
+                                ? view_from_eye_relative(scene.camera)
+                                : glm::dmat3(1);
+    const std::array stages{shader_file("lit.vert"), step.fragment};
+    LightingProgram made{link(gl, stages), step.where, step.blend};
+    set_transform(gl, made.program, transform);
+    const glm::mat3 rounded(axes);
+    gl.ProgramUniformMatrix3fv(made.program.name(), 5, 1, GL_FALSE, glm::value_ptr(rounded));
+    set_light(gl, made.program, scene, axes);
+    gl.ProgramUniform1i(made.program.name(), 21, static_cast<GLint>(recipe.model.normalisation));
+    set_color(gl, made.program, 23, scene.ambient);
+    return made;
+}
+
+void set_blend(const GlFunctions& gl, LightingStep::Blend blend) {
+    set_enabled(gl, GL_BLEND, blend != LightingStep::Blend::overwrite);
+    if (blend == LightingStep::Blend::add) gl.BlendFunc(GL_ONE, GL_ONE);
+    if (blend == LightingStep::Blend::multiply) gl.BlendFunc(GL_DST_COLOR, GL_ZERO);
+}
+
+void draw_everywhere(const GlFunctions& gl, const LightingPass& pass, const Scene& scene,
+                     const Program& program) {
+    gl.StencilFunc(GL_ALWAYS, 0, ~0U);
+    for (const LitRun& run : pass.all_runs) {
+        set_material(gl, program, pass, scene, run.material);
+        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * run.first),
+                      static_cast<GLsizei>(3 * run.count));
+    }
+}
+
+void draw_where_lit(const GlFunctions& gl, const LightingPass& pass, const Scene& scene,
+                    const Program& program) {
+    for (const LitRun& run : pass.lit_runs) {
+        set_material(gl, program, pass, scene, run.material);
+        gl.StencilFunc(run.receives ? GL_EQUAL : GL_ALWAYS, 0, ~0U);
+        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
+                        reinterpret_cast<const void*>(std::size_t{3} * sizeof(GLuint) * run.first));
+    }
 }
 
 } // namespace
+
+std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit) {
+    return {
+        {.fragment = shader_file("ambient.frag")},
+        {.fragment = lit, .where = LightingStep::Where::lit, .blend = LightingStep::Blend::add}};
+}
+
+Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube) {
+    Texture texture = make_texture(gl, GL_TEXTURE_CUBE_MAP);
+    gl.TextureStorage2D(texture.name(), 1, GL_RGB8, cube.size, cube.size);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (std::size_t face = 0; face < cube.faces.size(); ++face)
+        gl.TextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(face), cube.size,
+                             cube.size, 1, GL_RGB, GL_UNSIGNED_BYTE,
+                             cube.faces[face].pixels.data());
+    constexpr GLint initial_alignment = 4;
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, initial_alignment);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        gl.TextureParameteri(texture.name(), axis, GL_CLAMP_TO_EDGE);
+    return texture;
+}
 
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe) {
@@ -150,15 +234,10 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
     LightingPass pass;
     upload_corners(gl, scene, pass);
     make_runs(gl, scene, pass);
-    pass.textures = upload_textures(gl, scene);
+    upload_textures(gl, scene, recipe.model.bump_form, pass);
     check(gl, "uploading what lighting needs");
-    const glm::dmat3 axes = recipe.axes == LightingRecipe::Axes::eye
-                                ? view_from_eye_relative(scene.camera)
-                                : glm::dmat3(1);
-    pass.ambient = link_lighting(gl, transform, glm::mat3(axes), shader_file("ambient.frag"));
-    set_color(gl, pass.ambient, 16, scene.ambient);
-    pass.lit = link_lighting(gl, transform, glm::mat3(axes), recipe.lit);
-    set_light(gl, pass.lit, scene, axes);
+    for (const LightingStep& step : recipe.steps)
+        pass.steps.push_back(make_step(gl, scene, transform, recipe, step));
     check(gl, "making the lighting pass");
     return pass;
 }
@@ -178,21 +257,18 @@ void draw_lighting(const GlFunctions& gl, const LightingPass& pass, const Scene&
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.lighting.name());
     gl.BindVertexArray(pass.corners.name());
     gl.BindTextureUnit(0, target.triangle.name());
+    gl.BindTextureUnit(3, pass.unit_vectors.name());
+    gl.BindTextureUnit(4, pass.normal_table.name());
+    gl.Disable(GL_DITHER);
+    gl.Disable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 
-    gl.Enable(GL_BLEND);
-    gl.BlendFunc(GL_ONE, GL_ONE);
-    gl.UseProgram(pass.ambient.name());
-    for (const LitRun& run : pass.all_runs) {
-        set_material(gl, pass.ambient, pass, scene, scene.materials[run.material]);
-        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * run.first),
-                      static_cast<GLsizei>(3 * run.count));
-    }
-    gl.UseProgram(pass.lit.name());
-    for (const LitRun& run : pass.lit_runs) {
-        set_material(gl, pass.lit, pass, scene, scene.materials[run.material]);
-        gl.StencilFunc(run.receives ? GL_EQUAL : GL_ALWAYS, 0, ~0U);
-        gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * run.count), GL_UNSIGNED_INT,
-                        reinterpret_cast<const void*>(std::size_t{3} * sizeof(GLuint) * run.first));
+    for (const LightingProgram& step : pass.steps) {
+        gl.UseProgram(step.program.name());
+        set_blend(gl, step.blend);
+        if (step.where == LightingStep::Where::everywhere)
+            draw_everywhere(gl, pass, scene, step.program);
+        else
+            draw_where_lit(gl, pass, scene, step.program);
     }
     gl.Disable(GL_BLEND);
     check(gl, "the lighting pass");

@@ -4,19 +4,38 @@
 
 #include "raster/passes.h"
 #include "raster/shader.h"
+#include "scenes/lighting_settings.h"
+#include "scenes/normalisation_cube.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace shadowproof {
 
+/// One pass over what is seen.
+struct LightingStep {
+    ShaderText fragment{};
+    enum class Where : std::uint8_t {
+        everywhere,
+        lit, ///< on the lit sides, where the stencil is zero or no shadows are shown
+    };
+    Where where = Where::everywhere;
+    /// What becomes of the colour that is there.
+    enum class Blend : std::uint8_t { overwrite, add, multiply };
+    Blend blend = Blend::overwrite;
+};
+
 /// All that tells one way of lighting from another.
 struct LightingRecipe {
     /// The axes that normals, tangents and the vectors to light and eye are handed over in.
     enum class Axes : std::uint8_t { world, eye };
     Axes axes = Axes::world;
-    ShaderText lit; ///< the fragment shader of what depends on the light
+    std::vector<LightingStep> steps{};
+    ColorModel model{}; ///< the colour buffer holds bytes unless all is floating
 };
+
+/// Ambient light everywhere, and added to it where it is lit what a shader says.
+std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit);
 
 /// A run of triangles that are lit alike.
 struct LitRun {
@@ -26,6 +45,21 @@ struct LitRun {
     bool receives = true;       ///< shows shadows
 };
 
+/// What the shaders read of a material's small normals.
+struct BumpMap {
+    Texture texels{};
+    BumpForm form = BumpForm::as_given; ///< where there is no map
+    float scale = 1;
+    float slope_range = 0;
+};
+
+/// A LightingStep, ready to be drawn.
+struct LightingProgram {
+    Program program{};
+    LightingStep::Where where = LightingStep::Where::everywhere;
+    LightingStep::Blend blend = LightingStep::Blend::overwrite;
+};
+
 struct LightingPass {
     Buffer positions{}; ///< three a triangle
     Buffer surfaces{};  ///< Scene::surfaces as it is
@@ -33,18 +67,23 @@ struct LightingPass {
     Triangles lit_sides{}; ///< into the corners
     std::vector<LitRun> all_runs{};
     std::vector<LitRun> lit_runs{};
-    std::vector<Texture> textures{}; ///< Scene::textures as they are; the last one is white
-    Program ambient{};
-    Program lit{};
+    std::vector<Texture> decals{}; ///< of each of Scene::textures that is one, as it is
+    std::vector<BumpMap> bumps{};  ///< of each material
+    Texture white{};               ///< a single texel
+    Texture unit_vectors{};        ///< the normalisation cube map
+    Texture normal_table{};        ///< indexed_normal, 256 a row
+    std::vector<LightingProgram> steps{};
 };
+/// GL_RGB8, filtered linearly within each face.
+Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube);
+
 /// The transform must be relative to the eye. Throws Error where a texture is larger than the
-/// driver takes.
+/// driver takes, and where a bump map cannot be had in the form that the recipe's model says.
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe);
 
-/// Draws the colours (add_color) where the depth is equal: ambient light on all that is seen, and
-/// added to it by blending, where the stencil is zero or no shadows are shown, what depends on the
-/// light on the lit sides. Writes neither stencil nor depth; leaves its own vertex array bound.
+/// Draws the colours (add_color), the recipe's steps one after the other, where the depth is equal.
+/// Writes neither stencil nor depth; leaves its own vertex array bound.
 void draw_lighting(const GlFunctions& gl, const LightingPass& pass, const Scene& scene,
                    const Target& target);
 

@@ -9,7 +9,8 @@
 
 namespace shadowproof {
 
-/// The text of a file of raster/glsl/ by its name; empty where there is none.
+/// The text of a file of raster/glsl/ by its name, with what it includes; empty where there is
+/// none.
 std::string_view glsl_source(std::string_view file);
 
 struct ShaderText {

@@ -121,7 +121,8 @@ struct Frames {
         if (with.near_plane == NearPlane::from_light)
             occluders = make_occluder_pass(gl, parts.front()->scene, geometry);
         if (with.lighting) {
-            add_color(gl, target);
+            add_color(gl, target,
+                      with.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
             lighting = make_lighting_pass(gl, drawn, transform, *with.lighting);
         }
         check(gl, "making the passes");
@@ -274,7 +275,10 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     compile_all(frames);
     const Clock::duration elapsed = quickest_frame(frames);
     Frame frame = read_back(gl, frames.target, recipe.counter);
-    if (recipe.lighting) frame.color = read_color(gl, frames.target);
+    if (recipe.lighting) {
+        frame.color = read_color(gl, frames.target);
+        frame.color_model = recipe.lighting->model;
+    }
     frame.counting = recipe.counting;
     frame.depth_model = recipe.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;

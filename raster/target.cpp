@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/gtc/type_precision.hpp>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ Texture make_picture(const GlFunctions& gl, GLenum format, int width, int height
 void require_complete(const GlFunctions& gl, const Framebuffer& framebuffer) {
     if (gl.CheckNamedFramebufferStatus(framebuffer.name(), GL_DRAW_FRAMEBUFFER) !=
         GL_FRAMEBUFFER_COMPLETE)
-        throw Error("OpenGL",
-                    "the driver cannot draw into R8, R32UI, float and depth-stencil textures",
-                    "use --gl osmesa");
+        throw Error(
+            "OpenGL",
+            "the driver cannot draw into R8, RGBA8, R32UI, float and depth-stencil textures",
+            "use --gl osmesa");
 }
 
 /// A framebuffer of one picture beside the target's depth and stencil.
@@ -59,10 +61,11 @@ Image<Value> read_picture(const GlFunctions& gl, const Target& target, GLenum fo
 
 template <class Value>
 Image<Value> read_framebuffer(const GlFunctions& gl, const Target& target,
-                              const Framebuffer& framebuffer, GLenum format) {
+                              const Framebuffer& framebuffer, GLenum format,
+                              GLenum type = GL_FLOAT) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     gl.NamedFramebufferReadBuffer(framebuffer.name(), GL_COLOR_ATTACHMENT0);
-    Image<Value> image = read_picture<Value>(gl, target, format, GL_FLOAT);
+    Image<Value> image = read_picture<Value>(gl, target, format, type);
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     return image;
 }
@@ -107,8 +110,9 @@ void add_sum(const GlFunctions& gl, Target& target) {
     target.adding = beside_depth(gl, target, target.sum);
 }
 
-void add_color(const GlFunctions& gl, Target& target) {
-    target.color = make_picture(gl, GL_RGBA32F, target.width, target.height);
+void add_color(const GlFunctions& gl, Target& target, bool in_bytes) {
+    target.color_in_bytes = in_bytes;
+    target.color = make_picture(gl, in_bytes ? GL_RGBA8 : GL_RGBA32F, target.width, target.height);
     target.lighting = beside_depth(gl, target, target.color);
 }
 
@@ -153,7 +157,13 @@ Image<float> read_sum(const GlFunctions& gl, const Target& target) {
 }
 
 Image<glm::vec3> read_color(const GlFunctions& gl, const Target& target) {
-    return read_framebuffer<glm::vec3>(gl, target, target.lighting, GL_RGB);
+    if (!target.color_in_bytes)
+        return read_framebuffer<glm::vec3>(gl, target, target.lighting, GL_RGB);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    const auto bytes =
+        read_framebuffer<glm::u8vec3>(gl, target, target.lighting, GL_RGB, GL_UNSIGNED_BYTE);
+    return converted<glm::vec3>(
+        bytes, [](const glm::u8vec3& color) { return glm::vec3(glm::dvec3(color) / 255.0); });
 }
 
 } // namespace shadowproof

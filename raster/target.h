@@ -10,24 +10,25 @@
 
 namespace shadowproof {
 
-/// The pictures that the passes draw, of the camera's size. Only some techniques need the last
-/// four.
+/// The pictures that the passes draw, of the camera's size. Only some techniques need those from
+/// `sum` on.
 struct Target {
     int width = 0;
     int height = 0;
-    Texture claim;          ///< R8: values of Visibility
-    Texture triangle;       ///< R32UI
-    Texture depth_stencil;  ///< D24 or D32F, and 8 bits
-    Framebuffer surface;    ///< all three
-    Framebuffer light;      ///< without `triangle`, which the light pass reads
-    Texture sum{};          ///< R32F: what faces are worth, added up; made by add_sum
-    Framebuffer adding{};   ///< `sum` and `depth_stencil`
-    Texture color{};        ///< RGBA32F: what light comes from each surface; made by add_color
-    Framebuffer lighting{}; ///< `color` and `depth_stencil`
+    Texture claim;               ///< R8: values of Visibility
+    Texture triangle;            ///< R32UI
+    Texture depth_stencil;       ///< D24 or D32F, and 8 bits
+    Framebuffer surface;         ///< all three
+    Framebuffer light;           ///< without `triangle`, which the light pass reads
+    Texture sum{};               ///< R32F: what faces are worth, added up; made by add_sum
+    Framebuffer adding{};        ///< `sum` and `depth_stencil`
+    Texture color{};             ///< what light comes from each surface; made by add_color
+    Framebuffer lighting{};      ///< `color` and `depth_stencil`
+    bool color_in_bytes = false; ///< RGBA8, linear; otherwise RGBA32F
 };
 Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
 void add_sum(const GlFunctions& gl, Target& target);
-void add_color(const GlFunctions& gl, Target& target);
+void add_color(const GlFunctions& gl, Target& target, bool in_bytes);
 
 /// Begins a pass whose faces' worth (volume.frag) is added up in `sum`, from zero on.
 void begin_adding(const GlFunctions& gl, const Target& target);
@@ -45,7 +46,7 @@ Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
 /// What has been added up, rows from the top.
 Image<float> read_sum(const GlFunctions& gl, const Target& target);
 
-/// The colours, likewise.
+/// The colours, likewise; k / 255, rounded to float, of bytes.
 Image<glm::vec3> read_color(const GlFunctions& gl, const Target& target);
 
 } // namespace shadowproof

@@ -4,5 +4,5 @@
 
 void main() {
     if (!is_seen()) discard;
-    color = light_color * decal().rgb;
+    color = ambient_color * decal().rgb;
 }

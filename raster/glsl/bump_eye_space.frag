@@ -15,17 +15,16 @@ vec3 perturbed(mat3 frame) {
 }
 
 vec3 small_normal(mat3 frame) {
-    vec3 normal = bump == bump_height_field ? perturbed(frame) : frame * mapped_normal();
+    vec3 normal = has_slopes() ? perturbed(frame) : frame * mapped_normal();
     return dot(normal, normal) > 0 ? unit(normal) : frame[2];
 }
 
 void main() {
     if (!is_seen()) discard;
     mat3 frame = frame();
-    vec3 to_light = unit(surface.to_light);
-    vec3 half_angle = unit(to_light - unit(surface.from_eye));
+    vec3 l = light_direction();
+    vec3 h = half_angle();
     vec3 normal = seen_side() * frame[2];
     vec3 small = seen_side() * small_normal(frame);
-    color = lit_color(light_from(to_light), dot(to_light, normal), dot(to_light, small),
-                      dot(half_angle, normal), dot(half_angle, small));
+    color = lit_color(arriving_light(), dot(l, normal), dot(l, small), dot(h, normal), dot(h, small));
 }

@@ -1,28 +1,34 @@
 // What lighting knows of surface, material and light. Of two triangles that tie in depth only the
 // one that is seen is lit.
 #include texels.glsl
+#include normalise.glsl
 
 layout(binding = 0) uniform usampler2D seen_triangle;
 layout(binding = 1) uniform sampler2D decal_map; // white where the material has none
-layout(binding = 2) uniform sampler2D bump_map;
+layout(binding = 2) uniform sampler2D bump_map; // as bump_forms.h has it
+layout(binding = 4) uniform sampler2D normal_table; // of number 256 y + x
 
 layout(location = 6) uniform vec3 material_color;
 layout(location = 7) uniform vec3 specular_color;
 layout(location = 8) uniform bool gloss_in_alpha;
-layout(location = 9) uniform int bump; // a value of Bump
+layout(location = 9) uniform int bump_form; // a value of BumpForm; bump_none without a map
 layout(location = 10) uniform float bump_scale;
 layout(location = 12) uniform int decal_wrap_s; // values of Wrap
 layout(location = 13) uniform int decal_wrap_t;
 layout(location = 14) uniform int bump_wrap_s;
 layout(location = 15) uniform int bump_wrap_t;
-layout(location = 16) uniform vec3 light_color; // of the ambient pass: the ambient light's
+layout(location = 16) uniform vec3 light_color;
 layout(location = 17) uniform vec3 cone_axis;
 layout(location = 18) uniform float cone_cosine; // of the outer cone
 layout(location = 19) uniform float cone_scale;  // 0: the light shines everywhere
 layout(location = 20) uniform bool inverse_square;
+layout(location = 22) uniform float slope_range;
+layout(location = 23) uniform vec3 ambient_color;
 
-const int bump_none = 0;
-const int bump_height_field = 2;
+const int bump_none = 0; // no map is left as given
+const int bump_height_field = 1;
+const int bump_derivatives = 3;
+const int bump_indexed = 4;
 
 in Surface {
     vec3 from_eye;
@@ -41,12 +47,6 @@ bool is_seen() {
     return texelFetch(seen_triangle, ivec2(gl_FragCoord.xy), 0).r == surface.triangle;
 }
 
-// Zero where the length is zero.
-vec3 unit(vec3 v) {
-    float square = dot(v, v);
-    return square > 0 ? v / sqrt(square) : vec3(0);
-}
-
 vec4 decal() {
     ivec2 size = textureSize(decal_map, 0);
     vec4 decal = sampled(decal_map, taps_at(decal_wrap_s, size.x, surface.decal_at.x),
@@ -54,20 +54,49 @@ vec4 decal() {
     return vec4(material_color * decal.rgb, gloss_in_alpha ? decal.a : 1);
 }
 
-// Of a height field, in heights per texel: along a row, and down the rows.
-vec2 slope() {
-    ivec2 size = textureSize(bump_map, 0);
-    return bump_scale * sampled_slope(bump_map, bump_wrap_s, bump_wrap_t,
-                                      taps_at(bump_wrap_s, size.x, surface.bump_at.x),
-                                      taps_at(bump_wrap_t, size.y, surface.bump_at.y));
+Taps bump_taps_s() {
+    return taps_at(bump_wrap_s, textureSize(bump_map, 0).x, surface.bump_at.x);
+}
+Taps bump_taps_t() {
+    return taps_at(bump_wrap_t, textureSize(bump_map, 0).y, surface.bump_at.y);
 }
 
-// Of a normal map: the normal in its texture's axes, x along a row, y up the picture.
+// Whether the map holds slopes, or heights of which slopes are made; else it holds normals.
+bool has_slopes() {
+    return bump_form == bump_height_field || bump_form == bump_derivatives;
+}
+
+// In heights per texel: along a row, and down the rows.
+vec2 slope() {
+    Taps s = bump_taps_s();
+    Taps t = bump_taps_t();
+    if (bump_form == bump_derivatives)
+        return slope_range * (2 * sampled(bump_map, s, t).rg - 1);
+    return bump_scale * sampled_slope(bump_map, bump_wrap_s, bump_wrap_t, s, t);
+}
+
+vec3 indexed_normal(int s, int t) {
+    int number = int(texelFetch(bump_map, ivec2(s, t), 0).r);
+    return texelFetch(normal_table, ivec2(number % 256, number / 256), 0).rgb;
+}
+
+// Numbers cannot be mixed, but the normals that they stand for can.
+vec3 mixed_indexed_normal(Taps s, Taps t) {
+    vec3 upper = mix(indexed_normal(s.first, t.first), indexed_normal(s.second, t.first),
+                     s.fraction);
+    vec3 lower = mix(indexed_normal(s.first, t.second), indexed_normal(s.second, t.second),
+                     s.fraction);
+    return mix(upper, lower, t.fraction);
+}
+
+// Of a map that holds normals: the normal in its texture's axes, x along a row, y up the picture,
+// as the texels were mixed, not of unit length.
 vec3 mapped_normal() {
-    if (bump == bump_none) return vec3(0, 0, 1);
-    ivec2 size = textureSize(bump_map, 0);
-    vec3 normal = 2 * sampled(bump_map, taps_at(bump_wrap_s, size.x, surface.bump_at.x),
-                              taps_at(bump_wrap_t, size.y, surface.bump_at.y)).rgb - 1;
+    if (bump_form == bump_none) return vec3(0, 0, 1);
+    Taps s = bump_taps_s();
+    Taps t = bump_taps_t();
+    if (bump_form == bump_indexed) return mixed_indexed_normal(s, t);
+    vec3 normal = 2 * sampled(bump_map, s, t).rgb - 1;
     return vec3(bump_scale * normal.xy, normal.z);
 }
 
@@ -93,20 +122,39 @@ float specular_power(float cosine) {
     return fourth * fourth;
 }
 
-// The light that arrives from a direction of unit length, without visibility.
-vec3 light_from(vec3 to_light) {
+// L, V and H, of unit length as far as normalised() makes them so.
+vec3 light_direction() {
+    return normalised(surface.to_light);
+}
+vec3 eye_direction() {
+    return normalised(-surface.from_eye);
+}
+vec3 half_angle() {
+    return normalised(light_direction() + eye_direction());
+}
+
+// The light that arrives, without visibility. Its direction is exact whatever is set.
+vec3 arriving_light() {
     vec3 light = light_color;
     if (cone_scale > 0) {
-        float within = clamp((-dot(to_light, cone_axis) - cone_cosine) * cone_scale, 0, 1);
+        float cosine = -dot(unit(surface.to_light), cone_axis);
+        float within = clamp((cosine - cone_cosine) * cone_scale, 0, 1);
         light *= within * within;
     }
     return inverse_square ? light / dot(surface.to_light, surface.to_light) : light;
 }
 
-// From the cosines of light (l) and half-angle vector (h) with the surface's and the small normal.
+// From the cosines of light (l) or half-angle vector (h) with the surface's and the small normal.
+float diffuse_term(float l_normal, float l_small) {
+    return self_shadow(l_normal) * max(0, l_small);
+}
+float specular_term(float h_normal, float h_small) {
+    return self_shadow(h_normal) * specular_power(max(0, h_small));
+}
+
 vec3 lit_color(vec3 light, float l_normal, float l_small, float h_normal, float h_small) {
-    float diffuse = self_shadow(l_normal) * max(0, l_small);
-    float specular = self_shadow(h_normal) * specular_power(max(0, h_small));
+    float diffuse = diffuse_term(l_normal, l_small);
+    float specular = specular_term(h_normal, h_small);
     vec4 decal = decal();
     return light * (diffuse * decal.rgb + specular * decal.a * specular_color);
 }

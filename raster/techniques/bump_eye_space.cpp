@@ -11,7 +11,8 @@ namespace {
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.axes = LightingRecipe::Axes::eye,
-                       .lit = shader_file("bump_eye_space.frag")};
+                       .steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
+                       .model = with_settings({}, plan.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -197,7 +197,7 @@ Frame draw_faulty(Gpu& gpu, const Lit& truth, const Fault& fault) {
     }
     StencilRecipe recipe = zfail_reversed_recipe(scene, truth.plan);
     recipe.lighting = {.axes = eye ? LightingRecipe::Axes::eye : LightingRecipe::Axes::world,
-                       .lit = {file, text}};
+                       .steps = add_lit_to_ambient({file, text})};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -1,0 +1,8 @@
+#version 450 core
+// The ambient light on what is seen, before any decal.
+#include lighting.glsl
+
+void main() {
+    if (!is_seen()) discard;
+    color = ambient_color;
+}

@@ -1,0 +1,30 @@
+// Vectors made of unit length, in the way that the technique is set to; zero where they are zero.
+
+layout(binding = 3) uniform samplerCube unit_vectors; // normalisation_cube.h
+
+layout(location = 21) uniform int normalisation; // a value of Normalisation
+
+const int normalisation_cube_map = 1;
+const int normalisation_newton_raphson = 2;
+
+vec3 unit(vec3 v) {
+    float square = dot(v, v);
+    return square > 0 ? v / sqrt(square) : vec3(0);
+}
+
+// 1 / sqrt(x): a guess by the float's bits and one step of Newton's. Its relative error is at most
+// 0.0017523 (Lomont 2003), but for the rounding of floats.
+float reciprocal_root(float x) {
+    float y = uintBitsToFloat(0x5f3759dfu - (floatBitsToUint(x) >> 1));
+    return y * (1.5 - 0.5 * x * y * y);
+}
+
+vec3 looked_up(vec3 v) {
+    return v == vec3(0) ? vec3(0) : 2 * textureLod(unit_vectors, v, 0).rgb - 1;
+}
+
+vec3 normalised(vec3 v) {
+    if (normalisation == normalisation_cube_map) return looked_up(v);
+    if (normalisation == normalisation_newton_raphson) return reciprocal_root(dot(v, v)) * v;
+    return unit(v);
+}

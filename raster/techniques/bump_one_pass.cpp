@@ -1,0 +1,42 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// Bumps as the GeForce3 lights them, by four textures and four register combiners: ambient light
+/// times the decal, and over it, where it is lit, all in one pass. Every number is kept in 8 bits
+/// and a sign. Vectors are made of unit length by a cube map, and what is mixed of the normal map
+/// not again.
+///
+/// The combiners multiply the highlight by the self-shadowing of L too, which the three passes and
+/// the truth do not.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::combiners,
+                               .normalisation = Normalisation::cube_map,
+                               .bump_form = BumpForm::normal_map};
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.lighting = {.axes = LightingRecipe::Axes::world,
+                       .steps = {{.fragment = shader_file("ambient.frag")},
+                                 {.fragment = shader_file("bump_combiners.frag"),
+                                  .where = LightingStep::Where::lit}},
+                       .model = with_settings(model, plan.lighting)};
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique bump_one_pass_technique() {
+    return {.name = "bump_one_pass",
+            .summary = "zfail_reversed, and bumps lit in one pass of register combiners",
+            .source = "Kilgard 2001 (GeForce3)",
+            .needs = "bump maps, and an RGBA8 colour buffer",
+            .cost = 4.2,
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
+            .by_nature = {Cause::shading},
+            .needs_bump_maps = true,
+            .run = run};
+}
+
+} // namespace shadowproof
