@@ -247,7 +247,8 @@ int explain(const ExplainOptions& options) {
         if (!file.empty()) check_writable(file);
     refuse_too_large(options.picture.size.width, options.picture.size.height, comparison_bytes());
     const Scene scene = load_scene(options.scene, options.picture.request());
-    const Plan plan = make_plan(scene);
+    Plan plan = make_plan(scene);
+    plan.lighting = options.technique.lighting;
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));

@@ -51,6 +51,45 @@ GlPlatform parse_platform(const std::string& text) {
     throw CLI::ValidationError("--gl", "'" + text + "' is not known; give osmesa or egl");
 }
 
+template <class Values>
+std::string names_of(const Values& values) {
+    std::string names;
+    for (const auto value : values)
+        names += (names.empty() ? "" : ", ") + std::string(name_of(value));
+    return names;
+}
+
+template <class Values>
+auto parse_setting(const Values& values, const char* flag, const std::string& text) {
+    const auto* const found = std::find_if(
+        values.begin(), values.end(), [&](const auto value) { return name_of(value) == text; });
+    if (found == values.end())
+        throw CLI::ValidationError(
+            flag, fmt::format("'{}' is not known; give one of {}", text, names_of(values)));
+    return *found;
+}
+
+void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
+    command
+        .add_option_function<std::string>(
+            "--normalise",
+            [&](const std::string& text) {
+                settings.normalisation = parse_setting(all_normalisations, "--normalise", text);
+            },
+            "How lit vectors are made of unit length: " + names_of(all_normalisations) +
+                " (each technique's own)")
+        ->type_name("HOW");
+    command
+        .add_option_function<std::string>(
+            "--bumps",
+            [&](const std::string& text) {
+                settings.bump_form = parse_setting(all_bump_forms, "--bumps", text);
+            },
+            "In which form bump maps are kept: " + names_of(all_bump_forms) +
+                " (each technique's own)")
+        ->type_name("FORM");
+}
+
 } // namespace
 
 SceneRequest SceneOptions::request() const {
@@ -117,6 +156,7 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "--gl", [&](const std::string& text) { options.platform = parse_platform(text); },
             "Where OpenGL comes from: osmesa or egl (osmesa)")
         ->type_name("PLATFORM");
+    add_lighting_flags(command, options.lighting);
 }
 
 CLI::Validator not_empty() {
@@ -137,6 +177,9 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (scene.light) add("--light", *scene.light);
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
+    const LightingSettings& lighting = technique.lighting;
+    if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
+    if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
     return words;
 }
 

@@ -5,6 +5,7 @@
 #include "raster/context.h"
 #include "raster/technique.h"
 #include "scenes/gltf.h"
+#include "scenes/lighting_settings.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -47,6 +48,7 @@ struct SceneOptions {
 struct TechniqueOptions {
     std::vector<const Technique*> techniques; ///< empty: all
     GlPlatform platform = GlPlatform::osmesa;
+    LightingSettings lighting{};
 
     std::vector<const Technique*> chosen() const;
 };

@@ -194,6 +194,7 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result) {
     result.provokes = cause_names(scene.provokes);
     result.notes = scene.notes;
     Plan plan = make_plan(scene);
+    plan.lighting = run.options.technique.lighting;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
     describe(run.console, result);
