@@ -1,6 +1,7 @@
 #include "compare/color_check.h"
 
 #include "compare/freedom.h"
+#include "compare/perceptible.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -136,8 +137,14 @@ struct RowSums {
     std::uint64_t moved = 0;
 };
 
-RowSums check_row(const ColorJudge& judge, const ColorModel& model, int y, RayShader& shader,
-                  ColorCheck& check) {
+/// Truth and claim, where they are judged; black elsewhere.
+struct JudgedColors {
+    Image<glm::vec3>& truth;
+    Image<glm::vec3>& claim;
+};
+
+RowSums check_row(const ColorJudge& judge, int y, RayShader& shader, ColorCheck& check,
+                  const JudgedColors& judged) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
     for (int x = 0; x < check.error.width; ++x)
@@ -151,7 +158,10 @@ RowSums check_row(const ColorJudge& judge, const ColorModel& model, int y, RaySh
     for (std::size_t i = 0; i < points.size(); ++i) {
         const int x = columns[i];
         const glm::dvec3 claim = judge.claim(x, y);
-        const glm::dvec3 off = 255.0 * glm::abs(claim - showable(model, shadings[i].color()));
+        const glm::dvec3 truth = showable(check.model, shadings[i].color());
+        judged.truth.at(x, y) = truth;
+        judged.claim.at(x, y) = claim;
+        const glm::dvec3 off = 255.0 * glm::abs(claim - truth);
         check.error.at(x, y) = static_cast<float>(std::max({off.x, off.y, off.z}));
         sums.squares += glm::dot(off, off);
         const double share = judge.share(x, y);
@@ -204,16 +214,20 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     const int height = frame.color.height;
     const ColorJudge judge(tracer, truth, frame);
     ColorCheck check;
+    check.model = frame.color_model;
     check.error = Image<float>(width, height);
     check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::not_judged);
+    Image<glm::vec3> shown(width, height);
+    Image<glm::vec3> claimed(width, height);
     std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
     parallel_for(height, tracer.threads(), [&](int y, int thread) {
         std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
         if (!shader) shader = std::make_unique<RayShader>(tracer);
-        rows[static_cast<std::size_t>(y)] = check_row(judge, frame.color_model, y, *shader, check);
+        rows[static_cast<std::size_t>(y)] = check_row(judge, y, *shader, check, {shown, claimed});
     });
     count(check);
+    check.perceptible = count_perceptible(shown, claimed);
     double squares = 0;
     for (const RowSums& row : rows) {
         squares += row.squares;

@@ -1,5 +1,7 @@
 #include "compare/lighting_arithmetic.h"
 
+#include "scenes/byte_blending.h"
+
 #include <glm/common.hpp>
 
 namespace shadowproof {
@@ -7,9 +9,6 @@ namespace shadowproof {
 namespace {
 
 constexpr double v = 0x1p-24; ///< rounding unit of float
-
-/// How far a driver's blending into 8 bits may be off, in steps.
-constexpr double blending_error = 1;
 
 /// How what is kept in 8 bits is rounded.
 enum class Steps : std::uint8_t {
@@ -25,17 +24,18 @@ struct Ways {
     bool clamps_early = false;         ///< colours and registers before the last
 };
 
-Interval kept(const Interval& a, Steps steps) {
-    const auto nearest = [](double x) { return std::floor(255 * x + 0.5) / 255; };
+/// `error`: by how many steps what is kept may be off, half a one for the nearest.
+Interval kept(const Interval& a, Steps steps, double error = 0.5) {
+    // What is within `error` of a number: the steps on which both ends may come to lie.
     switch (steps) {
     case Steps::none:
         return a;
     case Steps::nearest:
-        return {nearest(a.low), nearest(a.high)};
+        return {std::ceil(255 * a.low - error) / 255, std::floor(255 * a.high + error) / 255};
     case Steps::within_half:
         break;
     }
-    return widened(a, 0.5 / 255);
+    return widened(a, error / 255);
 }
 
 Interval cut(const Interval& a, const Ways& ways, double low, double high) {
@@ -81,32 +81,35 @@ Intervals in_floats(const LightingInputs& in, const Ways& ways) {
 /// Three passes over a frame buffer of 8 bits (raster/techniques/bump_three_pass.cpp).
 Intervals in_passes(const LightingInputs& in, const Ways& ways) {
     const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
-    const auto stored = [&](const Interval& a) { return kept(cut(a, ways, 0, 1), ways.steps); };
-    const double blending = ways.steps == Steps::none ? 0 : blending_error / 255;
+    const auto stored = [&](const Interval& a, double error = overwriting_error) {
+        return kept(cut(a, ways, 0, 1), ways.steps, error);
+    };
     Intervals color;
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
         const Interval light = stored(around(in.ambient[c]) + in.radiance[k] * terms.diffuse);
-        Interval sum = stored(widened(light * stored(in.decal[k]), blending));
+        Interval sum = stored(light * stored(in.decal[k]), multiplying_error);
+        // Sums of two bytes are bytes; a float's rounding may put them beside.
         if (in.lit)
-            sum = stored(widened(
-                sum + stored(rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss)),
-                blending));
+            sum = cut(widened(sum + stored(rounded(in.specular[c] * in.radiance[k] *
+                                                   terms.specular * in.gloss)),
+                              adding_error / 255),
+                      ways, 0, 1);
         color[k] = clamped(sum, 0, 1);
     }
     return color;
 }
 
-/// A register of the combiners: 8 bits and a sign.
+/// A register of the combiners: 8 bits and a sign. What goes into it was computed in floats.
 Interval in_register(const Interval& a, const Ways& ways) {
-    return cut(kept(a, ways.steps), ways, -1, 1);
+    return cut(kept(rounded(a), ways.steps), ways, -1, 1);
 }
 
 /// A vector that comes from a texture of bytes.
 Intervals in_bytes(const Intervals& vector, const Ways& ways) {
     Intervals bytes;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Interval byte = kept(0.5 * (vector[k] + around(1)), ways.steps);
+        const Interval byte = kept(rounded(0.5 * (vector[k] + around(1))), ways.steps);
         bytes[k] = 2 * cut(byte, ways, 0, 1) + around(-1);
     }
     return bytes;
@@ -115,7 +118,9 @@ Intervals in_bytes(const Intervals& vector, const Ways& ways) {
 /// Four general combiner stages and the final one (raster/glsl/combiners.glsl), after Kilgard 2001.
 Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
     const auto q = [&](const Interval& a) { return in_register(a, ways); };
-    const auto byte = [&](const Interval& a) { return kept(cut(a, ways, 0, 1), ways.steps); };
+    const auto byte = [&](const Interval& a) {
+        return kept(rounded(cut(a, ways, 0, 1)), ways.steps);
+    };
     Intervals color;
     const Interval gloss = byte(in.gloss);
     const Intervals bump = in_bytes(in.bump, ways);
@@ -139,7 +144,8 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
         const int c = static_cast<int>(k);
         const Interval decal = byte(in.decal[k]);
         if (!in.lit) {
-            color[k] = clamped(kept(around(in.ambient[c]) * in.decal[k], ways.steps), 0, 1);
+            color[k] = clamped(
+                kept(around(in.ambient[c]) * in.decal[k], ways.steps, overwriting_error), 0, 1);
             continue;
         }
         const Interval primary = q(decal * q(in.radiance[k]));
@@ -147,7 +153,7 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
         const Interval shine = q(q(in.specular[c] * in.radiance[k]) * not_negative(dimmed));
         const Interval lit = q(q(diffuse) * primary);
         const Interval sum = cut(lit + ambient, ways, 0, 1);
-        color[k] = clamped(kept(shine * highlight + sum, ways.steps), 0, 1);
+        color[k] = clamped(q(shine * highlight + sum), 0, 1);
     }
     return color;
 }

@@ -48,7 +48,8 @@ double newton_raphson_root(double square) {
     return guess * (1.5 - 0.5 * square * guess * guess);
 }
 
-/// A vector of unit length, as the technique makes it, of one known within `radius`.
+/// A vector of unit length, as the technique makes it in its own axes, of one known within
+/// `radius`.
 // Roundings: of the square (3 v), its root (v), the quotient (v): 4 v of a length of 1. A lookup
 // turns with the vector, and jumps where it comes to look at another face: it is taken at the ends
 // of the radius, and what that makes of it counts twice, for what lies between.
@@ -63,16 +64,15 @@ Intervals normalised(const LightingTables& tables, const glm::dvec3& vector, dou
         // The step flattens what the guess makes of the length: a share of it, no more, is left.
         return around(newton_raphson_root(length * length) * vector, 2 * turn + 8 * v);
     case Normalisation::cube_map: {
-        const glm::dvec3 found = looked_up(tables.cube, vector);
-        Intervals all = around(found);
+        Intervals all = around(looked_up(tables.cube, vector));
         for (int axis = 0; axis < 3; ++axis)
             for (const double sign : {-1.0, 1.0}) {
                 glm::dvec3 moved = vector;
                 moved[axis] += sign * std::max(radius, 4 * v * length);
                 all = hull(all, around(looked_up(tables.cube, moved)));
             }
-        for (std::size_t k = 0; k < 3; ++k)
-            all[k] = widened(all[k], all[k].high - all[k].low + 8 * v);
+        for (Interval& component : all)
+            component = widened(component, component.high - component.low + cube_lookup_error);
         return all;
     }
     }
@@ -121,6 +121,13 @@ Frame3 frame_at(const Scene& scene, const InputPoint& point, double share) {
     const glm::dvec3 n = glm::normalize(normal);
     const double across = glm::length(tangent - n * glm::dot(n, tangent));
     if (across > 0) frame.tangent_off = (share + 2 * frame.normal_off + 8 * v) / across + 8 * v;
+    return frame;
+}
+
+Frame3 turned(const glm::dmat3& axes, Frame3 frame) {
+    frame.tangent = axes * frame.tangent;
+    frame.bitangent = axes * frame.bitangent;
+    frame.normal = axes * frame.normal;
     return frame;
 }
 
@@ -282,10 +289,14 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     const auto from_eye = [&](int k) { return corner(scene, point.triangle, k) - eye; };
     const glm::dvec3 way = way_to(light, eye, shading.point);
     const double way_off = share * largest_length(to_light);
-    const Intervals l = normalised(tables, way, way_off);
-    const Intervals e = normalised(tables, -shading.point, share * largest_length(from_eye));
+    const glm::dmat3 axes = tables.model.axes == ColorModel::Axes::eye
+                                ? view_from_eye_relative(scene.camera)
+                                : glm::dmat3(1);
+    const Intervals l = normalised(tables, axes * way, way_off);
+    const Intervals e =
+        normalised(tables, -(axes * shading.point), share * largest_length(from_eye));
     const Intervals both = sum(l, e);
-    const Frame3 frame = frame_at(scene, point, share);
+    const Frame3 frame = turned(axes, frame_at(scene, point, share));
     LightingInputs inputs;
     inputs.light = into(frame, l);
     inputs.half = into(frame, normalised(tables, middle(both), radius_of(both) + v));

@@ -8,6 +8,7 @@
 #include "compare/since.h"
 #include "compare/unfinished.h"
 #include "compare/verdict.h"
+#include "reference/shading.h"
 #include "reference/trace.h"
 #include "scenes/frame.h"
 
@@ -56,6 +57,8 @@ struct SceneResult {
     std::vector<std::string> no_longer_provoked;
     std::string error; ///< not empty: the scene could not be traced; no cells then
     GroundTruth truth;
+    bool bump_lit = false;   ///< its colours are judged, where techniques have some
+    Image<glm::dvec3> color; ///< the true ones
     std::vector<Cell> cells;
 };
 
@@ -114,6 +117,9 @@ std::string no_longer_provoked_words(const SceneResult& scene);
 /// system and URL takes.
 std::string folder_of(const SceneResult& scene);
 
+/// "colour off by 1.04/255 at most (rmse 0.31, 99.9 % within 0.92)"
+std::string words_of(const ColorCheck& colors);
+
 /// "saved 3.1 ms and 271,004 of 800,123 volume fragments against zfail_reversed"
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments);
 
@@ -123,6 +129,7 @@ std::string picture_path(const SceneResult& scene, const Cell& cell, const std::
 
 /// The same for the picture that all cells of a scene share.
 std::string truth_path(const SceneResult& scene);
+std::string color_path(const SceneResult& scene);
 
 /// results.json of schema shadowproof/results/1.
 std::string to_json(const Report& report);

@@ -30,6 +30,20 @@ Json since_of(const Since& since) {
     return json;
 }
 
+Json color_of(const ColorCheck& colors) {
+    Json json{{"judged", colors.judged},
+              {"largest", colors.largest},
+              {"rmse", colors.rmse},
+              {"p999", colors.percentile999},
+              {"perceptible", colors.perceptible},
+              {"beyond", colors.beyond},
+              {"unforeseen", colors.unforeseen},
+              {"normalise", name_of(colors.model.normalisation)},
+              {"bumps", name_of(colors.model.bump_form)}};
+    if (colors.judged > 0) json["largest_at"] = {{"x", colors.largest_x}, {"y", colors.largest_y}};
+    return json;
+}
+
 Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     Json json{{"name", cell.technique},
               {"summary", cell.summary},
@@ -62,6 +76,11 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
                       {"unexplained", comparison.ledger.unexplained}};
     for (const char* kind : {"claim", "difference", "cause", "volumes"})
         json["images"][kind] = picture_path(scene, cell, kind);
+    if (comparison.colors) {
+        json["color"] = color_of(*comparison.colors);
+        for (const char* kind : {"color", "color_error"})
+            json["images"][kind] = picture_path(scene, cell, kind);
+    }
     json["cause_map"] = cell.cause_map;
     if (cell.since) json["since"] = since_of(*cell.since);
     return json;
@@ -94,6 +113,7 @@ Json scene_of(const Report& report, const SceneResult& scene) {
                          {"background", traced.background},
                          {"degenerate", traced.degenerate}};
     json["images"] = {{"truth", truth_path(scene)}};
+    if (scene.bump_lit) json["images"]["color"] = color_path(scene);
     json["techniques"] = Json::array();
     for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(report, scene, cell));
     return json;

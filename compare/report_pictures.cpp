@@ -1,10 +1,12 @@
 #include "compare/report_pictures.h"
 
+#include "compare/color_picture.h"
 #include "compare/report_data.h"
 #include "compare/write_file.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -91,6 +93,10 @@ std::string truth_path(const SceneResult& scene) {
     return folder_of(scene) + "/truth.png";
 }
 
+std::string color_path(const SceneResult& scene) {
+    return folder_of(scene) + "/color.png";
+}
+
 PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell) {
     return marked(
         cell, all_contradictions, [](const ContradictionWords& words) { return words.color; },
@@ -129,9 +135,54 @@ PalettePicture volume_picture(const Cell& cell) {
     return picture;
 }
 
+PalettePicture color_error_picture(const ColorCheck& colors) {
+    constexpr int shades = 128;
+    constexpr int octave = 8;
+    constexpr int least = -8; // log2 of the error of the first shade
+    constexpr std::uint8_t background = shades;
+    constexpr std::uint8_t beyond = shades + 1;
+    constexpr std::uint8_t unforeseen = shades + 2;
+    constexpr Rgb full{0xFF, 0xF4, 0xC8};
+    PalettePicture picture{Image<std::uint8_t>(colors.error.width, colors.error.height), {}};
+    for (int shade = 0; shade < shades; ++shade) {
+        Rgb color{};
+        for (std::size_t i = 0; i < color.size(); ++i)
+            color[i] = static_cast<std::uint8_t>(full[i] * shade / (shades - 1));
+        picture.palette.push_back(color);
+    }
+    picture.palette.push_back(dimmed(Visibility::background));
+    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::shading)]);
+    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::unexplained)]);
+    const auto shade_of = [](float error) {
+        if (!(error > 0)) return 0;
+        const double level = octave * (std::log2(double{error}) - least);
+        return std::clamp(static_cast<int>(std::lround(level)), 0, shades - 1);
+    };
+    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
+        switch (colors.verdict.pixels[i]) {
+        case ColorVerdict::not_judged:
+            picture.indices.pixels[i] = background;
+            break;
+        case ColorVerdict::within:
+            picture.indices.pixels[i] = static_cast<std::uint8_t>(shade_of(colors.error.pixels[i]));
+            break;
+        case ColorVerdict::beyond:
+            picture.indices.pixels[i] = beyond;
+            break;
+        case ColorVerdict::unforeseen:
+        case ColorVerdict::unexplained:
+            picture.indices.pixels[i] = unforeseen;
+            break;
+        }
+    }
+    return picture;
+}
+
 void write_scene(const SceneResult& scene, const std::filesystem::path& report) {
     std::filesystem::create_directories((report / truth_path(scene)).parent_path());
     write_png(report / truth_path(scene), scene.truth.visibility);
+    if (!scene.color.pixels.empty())
+        write_png(report / color_path(scene), color_picture(scene.color));
     write_text(report / folder_of(scene) / "scene.js", scene_script(scene));
 }
 
@@ -141,13 +192,19 @@ void write_cell(const SceneResult& scene, Cell& cell, const std::filesystem::pat
     const auto path = [&](const char* kind) { return report / picture_path(scene, cell, kind); };
     const std::filesystem::path folder = path("claim").parent_path();
     std::filesystem::create_directories(folder);
-    run_all({[&] { write_text(folder / "cell.js", cell_script(scene, cell)); },
-             [&] { cell.cause_map = packed_cause_map(cell.comparison); },
-             [&] { write_png(path("claim"), cell.frame.claim); },
-             [&] { write_png(path("difference"), difference_picture(scene.truth, cell)); },
-             [&] { write_png(path("cause"), cause_picture(cell)); },
-             [&] { write_png(path("volumes"), volume_picture(cell)); }},
-            threads);
+    std::vector<std::function<void()>> jobs{
+        [&] { write_text(folder / "cell.js", cell_script(scene, cell)); },
+        [&] { cell.cause_map = packed_cause_map(cell.comparison); },
+        [&] { write_png(path("claim"), cell.frame.claim); },
+        [&] { write_png(path("difference"), difference_picture(scene.truth, cell)); },
+        [&] { write_png(path("cause"), cause_picture(cell)); },
+        [&] { write_png(path("volumes"), volume_picture(cell)); }};
+    if (cell.comparison.colors) {
+        jobs.emplace_back([&] { write_png(path("color"), color_picture(cell.frame.color)); });
+        jobs.emplace_back(
+            [&] { write_png(path("color_error"), color_error_picture(*cell.comparison.colors)); });
+    }
+    run_all(jobs, threads);
 }
 
 } // namespace shadowproof

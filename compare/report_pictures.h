@@ -19,7 +19,11 @@ PalettePicture cause_picture(const Cell& cell);
 /// them that lie at one pixel, or six, are the full colour.
 PalettePicture volume_picture(const Cell& cell);
 
-/// Writes the truth, at truth_path, and the data that the cells share into `report`.
+/// How far colours are from the truth, the lighter the further: eight shades an octave, from a
+/// 256th of a step of 1/255 on. What is beyond its bound, or unforeseen, has its cause's colour.
+PalettePicture color_error_picture(const ColorCheck& colors);
+
+/// Writes the truth, at truth_path and color_path, and the data that the cells share into `report`.
 void write_scene(const SceneResult& scene, const std::filesystem::path& report);
 /// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
 /// threads 0: one per core.

@@ -49,8 +49,19 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
         line += fmt::format("  counter unexplained at {}, first ({},{})",
                             grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
                             comparison.ledger.first_y);
+    if (comparison.colors) line += "  " + words_of(*comparison.colors);
     if (cell.saved) line += "  " + words_of(*cell.saved, cell.volume_fragments);
     return line + fmt::format("  {:.1f} ms", cell.milliseconds);
+}
+
+std::string words_of(const ColorCheck& colors) {
+    std::string words =
+        fmt::format("colour off by {:.2f}/255 at most (rmse {:.2f}, 99.9 % within {:.2f})",
+                    colors.largest, colors.rmse, colors.percentile999);
+    if (colors.unforeseen > 0)
+        words += fmt::format(", unexplained at {}, first ({},{})", grouped(colors.unforeseen),
+                             colors.first_unforeseen_x, colors.first_unforeseen_y);
+    return words;
 }
 
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments) {
@@ -75,6 +86,8 @@ std::string why_it_fails(const Cell& cell, const Gate& gate) {
         words += fmt::format("; counter unexplained at {}, first ({},{})",
                              counted(comparison.ledger.unexplained, "pixel"),
                              comparison.ledger.first_x, comparison.ledger.first_y);
+    if (comparison.colors && comparison.colors->unforeseen > 0)
+        words += "; " + words_of(*comparison.colors);
     if (cell.since) words += "; since the baseline: " + words_of(*cell.since);
     const std::string allowed = cause_counts(pixels_allowed(cell, gate));
     return allowed.empty() ? words : words + "; allowed: " + allowed;

@@ -198,10 +198,32 @@ void causes(const Place& place) {
 }
 
 void truth_images(const Place& place) {
-    object(place, {{"truth", text}});
+    object(place, {{"truth", text}, {"color", text, Need::optional}});
 }
 void cell_images(const Place& place) {
-    object(place, {{"claim", text}, {"difference", text}, {"cause", text}, {"volumes", text}});
+    object(place, {{"claim", text},
+                   {"difference", text},
+                   {"cause", text},
+                   {"volumes", text},
+                   {"color", text, Need::optional},
+                   {"color_error", text, Need::optional}});
+}
+
+void place_in_picture(const Place& place) {
+    object(place, {{"x", count}, {"y", count}});
+}
+
+void color(const Place& place) {
+    object(place, {{"judged", count},
+                   {"largest", number},
+                   {"largest_at", place_in_picture, Need::optional},
+                   {"rmse", number},
+                   {"p999", number},
+                   {"perceptible", count},
+                   {"beyond", count},
+                   {"unforeseen", count},
+                   {"normalise", text},
+                   {"bumps", text}});
 }
 
 void saved(const Place& place) {
@@ -236,6 +258,7 @@ void cell(const Place& place) {
                    {"causes", causes},
                    {"first", first, Need::optional},
                    {"ledger", ledger},
+                   {"color", color, Need::optional},
                    {"images", cell_images},
                    {"cause_map", some_text},
                    {"since", since, Need::optional}});

@@ -89,6 +89,7 @@ struct Platform; // platform.h
     X(PFNGLSTENCILOPSEPARATEPROC, StencilOpSeparate)                                               \
     X(PFNGLTEXTUREPARAMETERIPROC, TextureParameteri)                                               \
     X(PFNGLTEXTURESTORAGE2DPROC, TextureStorage2D)                                                 \
+    X(PFNGLTEXTURESTORAGE3DPROC, TextureStorage3D)                                                 \
     X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D)                                               \
     X(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D)                                               \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \

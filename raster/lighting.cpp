@@ -163,7 +163,7 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
 
 LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
                           const LightingRecipe& recipe, const LightingStep& step) {
-    const glm::dmat3 axes = recipe.axes == LightingRecipe::Axes::eye
+    const glm::dmat3 axes = recipe.model.axes == ColorModel::Axes::eye
                                 ? view_from_eye_relative(scene.camera)
                                 : glm::dmat3(1);
     const std::array stages{shader_file("lit.vert"), step.fragment};
@@ -212,8 +212,9 @@ std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit) {
 }
 
 Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube) {
-    Texture texture = make_texture(gl, GL_TEXTURE_CUBE_MAP);
-    gl.TextureStorage2D(texture.name(), 1, GL_RGB8, cube.size, cube.size);
+    Texture texture = make_texture(gl, GL_TEXTURE_2D_ARRAY);
+    gl.TextureStorage3D(texture.name(), 1, GL_RGB8, cube.size, cube.size,
+                        static_cast<GLsizei>(cube.faces.size()));
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (std::size_t face = 0; face < cube.faces.size(); ++face)
         gl.TextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(face), cube.size,
@@ -221,10 +222,8 @@ Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube) {
                              cube.faces[face].pixels.data());
     constexpr GLint initial_alignment = 4;
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, initial_alignment);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-        gl.TextureParameteri(texture.name(), axis, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 

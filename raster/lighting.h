@@ -27,9 +27,6 @@ struct LightingStep {
 
 /// All that tells one way of lighting from another.
 struct LightingRecipe {
-    /// The axes that normals, tangents and the vectors to light and eye are handed over in.
-    enum class Axes : std::uint8_t { world, eye };
-    Axes axes = Axes::world;
     std::vector<LightingStep> steps{};
     ColorModel model{}; ///< the colour buffer holds bytes unless all is floating
 };
@@ -74,7 +71,7 @@ struct LightingPass {
     Texture normal_table{};        ///< indexed_normal, 256 a row
     std::vector<LightingProgram> steps{};
 };
-/// GL_RGB8, filtered linearly within each face.
+/// GL_RGB8, a layer a face.
 Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube);
 
 /// The transform must be relative to the eye. Throws Error where a texture is larger than the

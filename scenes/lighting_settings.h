@@ -72,7 +72,11 @@ struct ColorModel {
         three_passes, ///< floats within a pass, 8 bits a channel between them
         combiners,    ///< one pass of register combiners: 8 bits and a sign after each stage
     };
+    /// In which normals, tangents and the vectors to light and eye are handed over, and in which
+    /// those are made of unit length.
+    enum class Axes : std::uint8_t { world, eye };
     Arithmetic arithmetic = Arithmetic::floating;
+    Axes axes = Axes::world;
     Normalisation normalisation = Normalisation::exact;
     BumpForm bump_form = BumpForm::as_given;
 };

@@ -26,10 +26,10 @@ NormalisationCube make_normalisation_cube(int size = 64);
 /// where OpenGL leaves the choice to the driver. Zero where the vector is zero.
 glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
 
-/// The most that a component of a driver's lookup is off that, for the cube of 64 texels a side. Of
-/// 8-bit texels llvmpipe mixes with weights of 8 bits, and to 8 bits along each axis.
-/// 2.01/255 by NormalisationCube.a_lookup_by_opengl_is_what_is_meant, which takes 32 places a
-/// texel.
-inline constexpr double cube_lookup_error = 2.5 / 255;
+/// The most that a component of a lookup in floats is off that, of a cube of 64 texels a side: the
+/// place among the texels is rounded three times, by up to 64 units of 2^-24, and neighbours differ
+/// by 4/64 and a step of 2/255 at most; the mixture's own four roundings are of numbers up to 1.
+inline constexpr double cube_lookup_error =
+    3 * 64 * 0x1p-24 * 2 * (4 / 64.0 + 2 / 255.0) + 8 * 0x1p-24;
 
 } // namespace shadowproof

@@ -1,4 +1,4 @@
-#include "compare/command/color_picture.h"
+#include "compare/color_picture.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/truth_exr.h"

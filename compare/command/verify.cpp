@@ -161,10 +161,15 @@ void drop_pictures(Cell& cell) {
     cell.comparison.cause = {};
     cell.comparison.ledger_miss = {};
     cell.comparison.predicted = {};
+    if (cell.comparison.colors) {
+        cell.comparison.colors->error = {};
+        cell.comparison.colors->verdict = {};
+    }
 }
 void drop_truth(SceneResult& scene) {
     const TraceStatistics statistics = scene.truth.statistics;
     scene.truth = {};
+    scene.color = {};
     scene.truth.statistics = statistics;
 }
 
@@ -202,6 +207,8 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result) {
     run.console.progress(fmt::format("{}: tracing", result.name));
     Tracer tracer(scene, run.options.scene.threads);
     result.truth = trace(tracer);
+    result.bump_lit = is_bump_lit(scene);
+    if (result.bump_lit) result.color = shade(tracer, result.truth);
     ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
     Silhouette silhouette(tracer);
     return {scene,

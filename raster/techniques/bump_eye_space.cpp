@@ -10,9 +10,8 @@ namespace {
 /// carried there. Ambient light everywhere, the rest where the stencil of zfail_reversed is zero.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.axes = LightingRecipe::Axes::eye,
-                       .steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
-                       .model = with_settings({}, plan.lighting)};
+    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
+                       .model = with_settings({.axes = ColorModel::Axes::eye}, plan.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

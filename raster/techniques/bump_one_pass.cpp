@@ -17,8 +17,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map};
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.axes = LightingRecipe::Axes::world,
-                       .steps = {{.fragment = shader_file("ambient.frag")},
+    recipe.lighting = {.steps = {{.fragment = shader_file("ambient.frag")},
                                  {.fragment = shader_file("bump_combiners.frag"),
                                   .where = LightingStep::Where::lit}},
                        .model = with_settings(model, plan.lighting)};

@@ -14,8 +14,7 @@ namespace {
 /// So the frame and the vectors are interpolated, none of unit length, and multiplied by the pixel.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.axes = LightingRecipe::Axes::world,
-                       .steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
+    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
                        .model = with_settings({}, plan.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }

@@ -18,7 +18,6 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
                                .bump_form = BumpForm::normal_map};
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {
-        .axes = LightingRecipe::Axes::world,
         .steps = {{.fragment = shader_file("ambient_alone.frag")},
                   {.fragment = shader_file("bump_diffuse.frag"), .where = Step::Where::lit},
                   {.fragment = shader_file("decal.frag"), .blend = Step::Blend::multiply},

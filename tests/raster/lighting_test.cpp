@@ -196,8 +196,8 @@ Frame draw_faulty(Gpu& gpu, const Lit& truth, const Fault& fault) {
         text.replace(at, std::string(fault.right).size(), fault.wrong);
     }
     StencilRecipe recipe = zfail_reversed_recipe(scene, truth.plan);
-    recipe.lighting = {.axes = eye ? LightingRecipe::Axes::eye : LightingRecipe::Axes::world,
-                       .steps = add_lit_to_ambient({file, text})};
+    recipe.lighting = {.steps = add_lit_to_ambient({file, text}),
+                       .model = {.axes = eye ? ColorModel::Axes::eye : ColorModel::Axes::world}};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -1,4 +1,4 @@
-#include "compare/command/color_picture.h"
+#include "compare/color_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,19 @@ double srgb_from_linear(double value) {
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }
 
+Rgb pixel_of(const glm::dvec3& linear) {
+    return {byte_of(srgb_from_linear(linear.r)), byte_of(srgb_from_linear(linear.g)),
+            byte_of(srgb_from_linear(linear.b))};
+}
+
 } // namespace
 
 Image<Rgb> color_picture(const Image<glm::dvec3>& linear) {
-    return converted<Rgb>(linear, [](const glm::dvec3& color) {
-        return Rgb{byte_of(srgb_from_linear(color.r)), byte_of(srgb_from_linear(color.g)),
-                   byte_of(srgb_from_linear(color.b))};
-    });
+    return converted<Rgb>(linear, pixel_of);
+}
+
+Image<Rgb> color_picture(const Image<glm::vec3>& linear) {
+    return converted<Rgb>(linear, [](const glm::vec3& color) { return pixel_of(color); });
 }
 
 Image<Rgb> normal_picture(const Image<Shading>& shadings) {

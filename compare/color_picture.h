@@ -8,6 +8,7 @@ namespace shadowproof {
 
 /// Linear to sRGB (IEC 61966-2-1), clamped to what 8 bits hold.
 Image<Rgb> color_picture(const Image<glm::dvec3>& linear);
+Image<Rgb> color_picture(const Image<glm::vec3>& linear);
 
 /// The bumped normals as normal maps show them, in world space: 0.5 + 0.5 n. Background is black.
 Image<Rgb> normal_picture(const Image<Shading>& shadings);
