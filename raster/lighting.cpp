@@ -54,11 +54,27 @@ Texture upload_normal_table(const GlFunctions& gl) {
     return upload_texels(gl, table);
 }
 
+/// Whether two materials read the same of their small normals.
+bool have_same_bumps(const Material& a, const Material& b) {
+    return a.bump == b.bump && a.bump_map == b.bump_map && a.bump_scale == b.bump_scale;
+}
+
+/// Of the materials that are drawn: an unused one may have bumps that cannot be had in the form.
 void upload_textures(const GlFunctions& gl, const Scene& scene, BumpForm form, LightingPass& pass) {
     pass.decals.resize(scene.textures.size());
-    for (const Material& material : scene.materials) {
-        pass.bumps.push_back(upload_bumps(gl, scene, material, form));
-        if (material.decal == no_texture) continue;
+    pass.bumps_of.resize(scene.materials.size());
+    std::vector<std::uint32_t> made_of; // the material that each of pass.bumps was made of
+    for (const LitRun& run : pass.all_runs) {
+        const Material& material = scene.materials[run.material];
+        const auto same = std::ranges::find_if(made_of, [&](std::uint32_t other) {
+            return have_same_bumps(material, scene.materials[other]);
+        });
+        pass.bumps_of[run.material] = static_cast<std::size_t>(same - made_of.begin());
+        if (same == made_of.end()) {
+            pass.bumps.push_back(upload_bumps(gl, scene, material, form));
+            made_of.push_back(run.material);
+        }
+        if (material.decal == no_texture || pass.decals[material.decal].name() != 0) continue;
         const TextureImage& decal = scene.textures[material.decal];
         require_size(gl, scene, decal);
         pass.decals[material.decal] = upload_texels(gl, decal.texels);
@@ -142,7 +158,7 @@ void set_light(const GlFunctions& gl, const Program& program, const Scene& scene
 void set_material(const GlFunctions& gl, const Program& program, const LightingPass& pass,
                   const Scene& scene, std::uint32_t index) {
     const Material& material = scene.materials[index];
-    const BumpMap& bumps = pass.bumps[index];
+    const BumpMap& bumps = pass.bumps[pass.bumps_of[index]];
     set_color(gl, program, 6, material.color);
     set_color(gl, program, 7, material.specular);
     gl.ProgramUniform1i(program.name(), 8, material.gloss_in_alpha ? 1 : 0);

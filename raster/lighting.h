@@ -7,6 +7,7 @@
 #include "scenes/lighting_settings.h"
 #include "scenes/normalisation_cube.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -64,11 +65,12 @@ struct LightingPass {
     Triangles lit_sides{}; ///< into the corners
     std::vector<LitRun> all_runs{};
     std::vector<LitRun> lit_runs{};
-    std::vector<Texture> decals{}; ///< of each of Scene::textures that is one, as it is
-    std::vector<BumpMap> bumps{};  ///< of each material
-    Texture white{};               ///< a single texel
-    Texture unit_vectors{};        ///< the normalisation cube map
-    Texture normal_table{};        ///< indexed_normal, 256 a row
+    std::vector<Texture> decals{};       ///< of each of Scene::textures that is one, as it is
+    std::vector<BumpMap> bumps{};        ///< materials that read the same share it
+    std::vector<std::size_t> bumps_of{}; ///< index into `bumps`, of each material
+    Texture white{};                     ///< a single texel
+    Texture unit_vectors{};              ///< the normalisation cube map
+    Texture normal_table{};              ///< indexed_normal, 256 a row
     std::vector<LightingProgram> steps{};
 };
 /// GL_RGB8, a layer a face.

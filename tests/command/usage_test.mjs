@@ -17,6 +17,8 @@ const wrongUsage = [
   [['verify', '--size', '512x512x'], /WIDTHxHEIGHT/],
   [['verify', '--size', '99999999999x1'], /WIDTHxHEIGHT/],
   [['verify', '--gl', 'vulkan'], /osmesa or egl/],
+  [['verify', '--normalise', 'twice'], /'twice'.*exact, cube-map, newton-raphson/],
+  [['verify', '--bumps', 'pits'], /'pits'.*as-given, height-field, normal-map, derivatives, indexed/],
   [['verify', '--gate', 'open'], /defects or differences/],
   [['verify', '--time', 'noon'], /seconds/],
   [['verify', '--time', 'nan'], /seconds/],
