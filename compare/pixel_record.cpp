@@ -1,5 +1,6 @@
 #include "compare/pixel_record.h"
 
+#include "compare/color_words.h"
 #include "compare/light_json.h"
 
 #include <algorithm>
@@ -114,6 +115,7 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
               {"statuses", Json::array()},
               {"dark_cap", name_of(technique.dark_caps)},
               {"dark_caps", technique.dark_cap_count}};
+    if (technique.color) json["color"] = to_json(*technique.color);
     for (const Tally tally : technique.tallies) json["statuses"].push_back(name_of(tally));
     if (!technique.tests.empty()) {
         json["tests"] = Json::array();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/classify.h"
+#include "compare/color_check.h"
 #include "compare/pixel_ledger.h"
 #include "reference/tally.h"
 
@@ -34,7 +35,8 @@ struct TechniqueAtPixel {
     /// One a crossing, where the technique does not count all casters alike; else empty.
     std::vector<Counting::Test> tests;
     Tally dark_caps = Tally::beyond;
-    std::int64_t dark_cap_count = 0; ///< at infinity
+    std::int64_t dark_cap_count = 0;   ///< at infinity
+    std::optional<ColorAccount> color; ///< where it lights bump maps
 };
 
 struct PixelRecord {

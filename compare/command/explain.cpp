@@ -1,4 +1,5 @@
 #include "compare/blank.h"
+#include "compare/color_words.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/drawing.h"
@@ -81,8 +82,12 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, cons
         refuse_blank(technique.name, truth, frame);
         const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
                                     frame.depth_model);
-        return technique_at(record, prediction, std::string(technique.name), frame,
-                            classify(tracer, silhouette, truth, depths, frame, prediction));
+        TechniqueAtPixel at_pixel =
+            technique_at(record, prediction, std::string(technique.name), frame,
+                         classify(tracer, silhouette, truth, depths, frame, prediction));
+        if (!frame.color.pixels.empty())
+            at_pixel.color = account_for_color(tracer, truth, frame, record.x, record.y);
+        return at_pixel;
     } catch (const std::bad_alloc&) {
         return failed(std::string(technique.name) + ": " + out_of_memory);
     } catch (const std::runtime_error& error) {
@@ -220,6 +225,8 @@ std::string techniques_text(const PixelRecord& record) {
     }
     for (const TechniqueAtPixel& technique : record.techniques)
         if (meets_other_volumes(record, technique)) text += other_volumes_words(technique);
+    for (const TechniqueAtPixel& technique : record.techniques)
+        if (technique.color) text += to_text(*technique.color, technique.name);
     return text;
 }
 
@@ -255,9 +262,11 @@ int explain(const ExplainOptions& options) {
     PixelRecord record = record_pixel(tracer, truth, depths, options.pixel.x, options.pixel.y);
     const Silhouette silhouette(tracer);
     Gpu gpu(options.technique.platform);
-    for (const Technique* technique : options.technique.chosen())
+    for (const Technique* technique : options.technique.chosen()) {
+        if (options.technique.techniques.empty() && !suits(*technique, scene)) continue;
         record.techniques.push_back(
             ask(*technique, record, tracer, silhouette, truth, depths, plan, gpu));
+    }
     if (!options.quiet) fmt::print("{}", as_text(scene, record));
     for (const TechniqueAtPixel& technique : record.techniques)
         if (options.quiet && !technique.error.empty()) complain(technique.error);

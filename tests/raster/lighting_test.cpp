@@ -4,6 +4,7 @@
 #include "reference/shading.h"
 #include "scenes/catalog.h"
 #include "scenes/error.h"
+#include "tests/raster/faulty_lighting.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
@@ -134,74 +135,7 @@ TEST_P(Lighting, far_from_the_origin_is_as_near_to_the_truth) {
     }
 }
 
-/// What renderers get wrong: in the scene that is drawn, or in the fragment shader, of which one
-/// piece is replaced by another.
-struct Fault {
-    const char* name;
-    const char* technique = "bump_tangent_space"; // or the eye's
-    void (*in_scene)(Scene& scene) = nullptr;
-    const char* right = nullptr;
-    const char* wrong = nullptr;
-};
-
-std::ostream& operator<<(std::ostream& out, const Fault& fault) {
-    return out << fault.name;
-}
-
-void flip_hands(Scene& scene) {
-    for (Surface& surface : scene.surfaces) surface.tangent.w = -surface.tangent.w;
-}
-
-void invert_green(Scene& scene) {
-    for (const Material& material : scene.materials) {
-        if (material.bump != Bump::normal_map) continue;
-        for (glm::vec4& texel : scene.textures[material.bump_map].texels.pixels)
-            texel.g = 1 - texel.g;
-        return; // mirrored_skin and the others have one map
-    }
-}
-
-constexpr Fault faults[]{
-    {.name = "none"},
-    {.name = "flipped_hand", .in_scene = flip_hands},
-    {.name = "inverted_green", .in_scene = invert_green},
-    {.name = "exponent_9",
-     .right = "return fourth * fourth;",
-     .wrong = "return fourth * fourth * cosine;"},
-    {.name = "no_self_shadow", .right = "return clamp(8 * cosine, 0, 1);", .wrong = "return 1;"},
-    {.name = "normal_map_not_of_unit_length",
-     .right = "return dot(normal, normal) > 0 ? unit(normal) : vec3(0, 0, 1);",
-     .wrong = "return normal;"},
-    {.name = "interpolated_normal_not_of_unit_length",
-     .right = "vec3 normal = unit(surface.normal);",
-     .wrong = "vec3 normal = surface.normal;"},
-    {.name = "no_gloss", .right = "gloss_in_alpha ? decal.a : 1", .wrong = "1"},
-    // As the slides on bump mapping in hardware print it, with u and v exchanged.
-    {.name = "printed_formula",
-     .technique = "bump_eye_space",
-     .right = "h_u * cross(normal, p_v) + h_v * cross(p_u, normal)",
-     .wrong = "h_u * cross(normal, p_u) + h_v * cross(p_v, normal)"},
-};
-
-/// A technique with a fault, drawn from the parts of the right one.
-Frame draw_faulty(Gpu& gpu, const Lit& truth, const Fault& fault) {
-    Scene scene = truth.scene;
-    if (fault.in_scene != nullptr) fault.in_scene(scene);
-    const bool eye = fault.technique == std::string("bump_eye_space");
-    const std::string file = fault.technique + std::string(".frag");
-    std::string text(glsl_source(file));
-    if (fault.right != nullptr) {
-        const std::size_t at = text.find(fault.right);
-        EXPECT_NE(at, std::string::npos) << "the shader no longer says " << fault.right;
-        text.replace(at, std::string(fault.right).size(), fault.wrong);
-    }
-    StencilRecipe recipe = zfail_reversed_recipe(scene, truth.plan);
-    recipe.lighting = {.steps = add_lit_to_ambient({file, text}),
-                       .model = {.axes = eye ? ColorModel::Axes::eye : ColorModel::Axes::world}};
-    return draw_stencil_shadows(gpu, scene, recipe);
-}
-
-class FaultyLighting : public testing::TestWithParam<Fault> {
+class FaultyLighting : public testing::TestWithParam<LightingFault> {
 protected:
     Gpu gpu{GlPlatform::osmesa};
 };
@@ -209,8 +143,9 @@ protected:
 TEST_P(FaultyLighting, shows_on_a_bundled_scene) {
     double largest = 0;
     for (const std::string& name : bump_lit_scenes())
-        largest = std::max(largest,
-                           difference(lit(name), draw_faulty(gpu, lit(name), GetParam())).largest);
+        largest = std::max(largest, difference(lit(name), draw_faulty(gpu, lit(name).scene,
+                                                                      lit(name).plan, GetParam()))
+                                        .largest);
     if (GetParam().name == std::string("none"))
         EXPECT_LT(largest, 1 / 255.0);
     else
@@ -234,7 +169,8 @@ TEST(LightingOf, a_scene_without_bump_maps_is_refused_and_says_so) {
 
 INSTANTIATE_TEST_SUITE_P(Bundled, Lighting, testing::ValuesIn(bump_lit_scenes()),
                          [](const auto& scene) { return scene.param; });
-INSTANTIATE_TEST_SUITE_P(Injected, FaultyLighting, testing::ValuesIn(faults),
+INSTANTIATE_TEST_SUITE_P(Injected, FaultyLighting,
+                         testing::ValuesIn(lighting_faults().begin(), lighting_faults().end()),
                          [](const auto& fault) { return std::string(fault.param.name); });
 
 } // namespace

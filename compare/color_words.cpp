@@ -1,0 +1,94 @@
+#include "compare/color_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string words_of(const glm::dvec3& color) {
+    return fmt::format("{:.4f} {:.4f} {:.4f}", color.x, color.y, color.z);
+}
+
+std::string words_of(const Intervals& color) {
+    return fmt::format("{:.4f}..{:.4f} {:.4f}..{:.4f} {:.4f}..{:.4f}", color[0].low, color[0].high,
+                       color[1].low, color[1].high, color[2].low, color[2].high);
+}
+
+std::string_view meaning_of(ColorVerdict verdict) {
+    switch (verdict) {
+    case ColorVerdict::not_judged:
+        return "not judged: surface or visibility are not the truth's";
+    case ColorVerdict::within:
+        return "within the bound of what rounding explains";
+    case ColorVerdict::beyond:
+        return "beyond the bound of what rounding explains, as its arithmetic foresees";
+    case ColorVerdict::unforeseen:
+        return "not what its arithmetic foresees";
+    case ColorVerdict::unexplained:
+        break;
+    }
+    return "beyond the bound of what rounding explains, and not what its arithmetic foresees";
+}
+
+Json color_json(const glm::dvec3& color) {
+    return {color.x, color.y, color.z};
+}
+
+Json ends_json(const Intervals& color) {
+    Json channels = Json::array();
+    for (const Interval& channel : color) channels.push_back({channel.low, channel.high});
+    return channels;
+}
+
+} // namespace
+
+std::string_view name_of(ColorVerdict verdict) {
+    switch (verdict) {
+    case ColorVerdict::not_judged:
+        return "not_judged";
+    case ColorVerdict::within:
+        return "within";
+    case ColorVerdict::beyond:
+        return "beyond";
+    case ColorVerdict::unforeseen:
+        return "unforeseen";
+    case ColorVerdict::unexplained:
+        break;
+    }
+    return "unexplained";
+}
+
+std::string to_text(const ColorAccount& account, const std::string& technique) {
+    if (account.verdict == ColorVerdict::not_judged)
+        return fmt::format("  colour of {}: {}\n", technique, meaning_of(account.verdict));
+    std::string text =
+        fmt::format("  colour of {}: {}\n    true      {}\n    claimed   {}\n    bound     {}\n"
+                    "    foreseen  {}\n    moved by ",
+                    technique, meaning_of(account.verdict), words_of(account.showable),
+                    words_of(account.claim), words_of(account.bound), words_of(account.foreseen));
+    for (const ColorTerm term : all_color_terms)
+        text += fmt::format("{} {} {:.2f}/255", term == all_color_terms.front() ? "" : ",",
+                            name_of(term), account.weights[static_cast<std::size_t>(term)]);
+    return text + "\n";
+}
+
+nlohmann::ordered_json to_json(const ColorAccount& account) {
+    Json json{{"verdict", name_of(account.verdict)},
+              {"true", color_json(account.showable)},
+              {"claimed", color_json(account.claim)}};
+    if (account.verdict == ColorVerdict::not_judged) return json;
+    json["bound"] = ends_json(account.bound);
+    json["foreseen"] = ends_json(account.foreseen);
+    for (const ColorTerm term : all_color_terms)
+        json["moved_by"][std::string(name_of(term))] =
+            account.weights[static_cast<std::size_t>(term)];
+    return json;
+}
+
+} // namespace shadowproof

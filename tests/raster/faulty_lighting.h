@@ -1,0 +1,30 @@
+// What renderers get wrong when they light bump maps, one fault each: in the scene that is drawn,
+// or in a fragment shader, of which one piece is replaced by another. What they say of themselves
+// is what the right ones say.
+#pragma once
+
+#include "raster/context.h"
+#include "raster/technique.h"
+
+#include <ostream>
+#include <span>
+
+namespace shadowproof::tests {
+
+struct LightingFault {
+    const char* name;
+    const char* technique = "bump_tangent_space"; ///< pieces are replaced in it or in the eye's
+    void (*in_scene)(Scene& scene) = nullptr;
+    const char* right = nullptr; ///< a piece of the shader, and what stands in its stead
+    const char* wrong = nullptr;
+};
+
+std::ostream& operator<<(std::ostream& out, const LightingFault& fault);
+
+/// The first has none.
+std::span<const LightingFault> lighting_faults();
+
+/// Throws std::logic_error where the shader no longer holds the piece that is to be replaced.
+Frame draw_faulty(Gpu& gpu, const Scene& scene, const Plan& plan, const LightingFault& fault);
+
+} // namespace shadowproof::tests
