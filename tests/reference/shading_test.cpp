@@ -286,6 +286,59 @@ TEST(shading, has_the_same_bits_for_any_number_of_threads_and_any_instruction_se
     }
 }
 
+/// Of the lit pixels, the share that is so.
+template <class Predicate>
+double share_of_lit(const std::string& name, const Predicate& is_so) {
+    const Scene scene = picture_of(name, 128, 128);
+    const Tracer tracer(scene);
+    const GroundTruth truth = trace(tracer);
+    int lit = 0;
+    int so = 0;
+    for (const Shading& shading : shade_terms(tracer, truth).pixels) {
+        lit += shading.lit;
+        so += shading.lit && is_so(shading);
+    }
+    return static_cast<double>(so) / lit;
+}
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+TEST(shading, of_the_scene_under_a_grazing_light_has_self_shadow_between_0_and_1_in_most_places) {
+    EXPECT_GT(share_of_lit("grazing_light",
+                           [](const Shading& s) {
+                               return s.self_shadow_light > 0.05 && s.self_shadow_light < 0.95;
+                           }),
+              0.5);
+}
+
+TEST(shading, near_the_terminator_has_highlights_that_another_self_shadow_would_dim) {
+    EXPECT_GT(share_of_lit("terminator_highlight",
+                           [](const Shading& s) {
+                               const double dimmed = 1 - s.self_shadow_light;
+                               return dimmed * largest(s.specular_color) > 4 / 255.0;
+                           }),
+              0.2);
+}
+
+TEST(shading, of_the_bright_scene_is_above_1_before_the_decal_and_below_behind_it) {
+    const auto light = [](const Shading& s) {
+        return largest(s.light) * s.diffuse + 0.57; // the least of the ambient's channels
+    };
+    EXPECT_GT(share_of_lit("bright_light", [&](const Shading& s) { return light(s) > 1.05; }), 0.3);
+    EXPECT_EQ(share_of_lit("bright_light", [](const Shading& s) { return largest(s.color()) > 1; }),
+              0);
+}
+
+TEST(shading, under_the_light_that_fades_with_distance_stays_between_0_and_1) {
+    EXPECT_EQ(share_of_lit("fine_relief", [](const Shading& s) { return largest(s.color()) > 1; }),
+              0);
+    EXPECT_GT(
+        share_of_lit("fine_relief", [](const Shading& s) { return largest(s.color()) > 0.5; }),
+        0.1);
+}
+
 TEST(supersampling, with_one_ray_a_pixel_is_the_truth_at_its_centre) {
     const Scene scene = picture_of("mirrored_skin", 64, 64);
     const Tracer tracer(scene);

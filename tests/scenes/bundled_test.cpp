@@ -189,7 +189,8 @@ TEST(bundled, every_caster_is_closed_and_manifold_but_those_that_are_to_be_fault
 
 TEST(bundled, only_a_choice_of_time_or_light_is_noted) {
     for (const BundledScene& each : bundled_scenes()) {
-        const bool chooses = each.name == "moving_light" || each.name == "many_lights";
+        const bool chooses = each.name == "moving_light" || each.name == "many_lights" ||
+                             each.name == "walking_figure";
         EXPECT_EQ(bundled(each.name).notes.size(), chooses ? 1U : 0U) << each.name;
     }
 }
@@ -341,6 +342,59 @@ TEST(bundled, each_of_many_lights_is_chosen_by_its_name) {
         const Scene scene = load_scene("many_lights", request);
         EXPECT_EQ(chosen_light(scene).name, name);
         EXPECT_EQ(scene.lights.size(), 3U);
+    }
+}
+
+/// The walking figure's lowest height under its left or its right half, as the root joint has
+/// them: its left is across from where it heads.
+double lowest_of_figure(double time, bool left) {
+    SceneRequest request;
+    request.time = time;
+    const Scene scene = load_scene("walking_figure", request);
+    const std::vector<glm::dvec3> legs = corners_of(scene, "legs");
+    glm::dvec3 middle(0);
+    for (const glm::dvec3& point : legs) middle += point / static_cast<double>(legs.size());
+    constexpr double heading = 0.9371; // radians from +z towards +x
+    const glm::dvec3 to_left(std::cos(heading), 0, -std::sin(heading));
+    double lowest = 99;
+    for (const glm::dvec3& point : legs)
+        if ((glm::dot(point - middle, to_left) > 0) == left) lowest = std::min(lowest, point.y);
+    return lowest;
+}
+
+TEST(bundled, the_figure_never_sinks_into_the_floor_and_lifts_its_feet_in_turn) {
+    bool lifted[2]{};
+    for (int i = 0; i < 32; ++i) {
+        const double left = lowest_of_figure(i / 16.0, true);
+        const double right = lowest_of_figure(i / 16.0, false);
+        EXPECT_GT(std::min(left, right), 0) << i;
+        EXPECT_LT(std::min(left, right), 0.05) << i; // one foot is down, but for its clearance
+        lifted[0] = lifted[0] || left > 0.1;
+        lifted[1] = lifted[1] || right > 0.1;
+    }
+    EXPECT_TRUE(lifted[0] && lifted[1]);
+}
+
+TEST(bundled, the_figure_is_posed_by_morph_targets_and_by_joints_within_two_seconds) {
+    const auto part_at = [](double time, const char* part) {
+        SceneRequest request;
+        request.time = time;
+        std::vector<glm::dvec3> corners = corners_of(load_scene("walking_figure", request), part);
+        const glm::dvec3 first = corners.front(); // so that the way it goes does not count
+        for (glm::dvec3& corner : corners) corner -= first;
+        return corners;
+    };
+    const auto furthest = [](const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+        double most = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, glm::distance(a[i], b[i]));
+        return most;
+    };
+    for (const char* part : {"trunk", "arms", "legs"}) {
+        SCOPED_TRACE(part);
+        EXPECT_GT(furthest(part_at(0.5, part), part_at(1.5, part)), 0.1);
+        // A stride later, and ever after, it stands as at first; but for rounding to float.
+        EXPECT_LT(furthest(part_at(0, part), part_at(2, part)), 1e-5);
+        EXPECT_EQ(part_at(2, part), part_at(7, part));
     }
 }
 

@@ -1,22 +1,9 @@
 #include "scenes/bundled/author/parts.h"
 #include "scenes/bundled/author/textures.h"
 
-#include <utility>
-
 namespace shadowproof::author {
 
 namespace {
-
-/// A floor to throw shadows on, and a light from the left that the eye sees half of things lit by.
-Stage lit_from_the_left(std::string name, std::string title) {
-    Stage stage = looking_along_floor(std::move(name), std::move(title));
-    stage.ambient = {0.11, 0.12, 0.14};
-    stage.light.position = {-5.471, 8.877, 4.683};
-    stage.target = {0.141, 1.041, 0.013};
-    stage.yfov = 0.4237;
-    stage.things[0].look.specular = glm::dvec3(0);
-    return stage;
-}
 
 /// The sphere has no tangents of its own: they are made by MikkTSpace's rule.
 Stage bumpy_sphere() {

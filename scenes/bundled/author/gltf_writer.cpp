@@ -16,6 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Numbers of the glTF 2.0 specification.
+constexpr int component_unsigned_byte = 5121;
 constexpr int component_unsigned_short = 5123;
 constexpr int component_float = 5126;
 constexpr int target_vertices = 34962;
@@ -100,13 +101,48 @@ std::size_t add_vectors(Buffer& buffer, const std::vector<Vector>& vectors) {
     return buffer.accessors.size() - 1;
 }
 
-Json attributes_of(Buffer& buffer, const Shape& shape) {
+/// JOINTS_0, in bytes.
+std::size_t add_joints(Buffer& buffer, const std::vector<Influence>& influences) {
+    const std::size_t offset = buffer.bytes.size();
+    for (const Influence& influence : influences)
+        for (int k = 0; k < 4; ++k) buffer.append(influence.joints[k], 1);
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
+                                {"componentType", component_unsigned_byte},
+                                {"count", influences.size()},
+                                {"type", "VEC4"}});
+    return buffer.accessors.size() - 1;
+}
+
+std::size_t add_weights(Buffer& buffer, const std::vector<Influence>& influences) {
+    std::vector<glm::dvec4> weights;
+    weights.reserve(influences.size());
+    for (const Influence& influence : influences) weights.push_back(influence.weights);
+    return add_vectors(buffer, weights);
+}
+
+Json attributes_of(Buffer& buffer, const Placed& thing) {
+    const Shape& shape = thing.shape;
     Json attributes{{"POSITION", add_positions(buffer, shape.vertices)}};
     if (!shape.normals.empty()) attributes["NORMAL"] = add_vectors(buffer, shape.normals);
     if (!shape.tangents.empty()) attributes["TANGENT"] = add_vectors(buffer, shape.tangents);
     if (!shape.coordinates.empty())
         attributes["TEXCOORD_0"] = add_vectors(buffer, shape.coordinates);
+    if (!thing.influences.empty()) {
+        attributes["JOINTS_0"] = add_joints(buffer, thing.influences);
+        attributes["WEIGHTS_0"] = add_weights(buffer, thing.influences);
+    }
     return attributes;
+}
+
+Json targets_of(Buffer& buffer, const std::vector<Morph>& morphs) {
+    Json targets = Json::array();
+    for (const Morph& morph : morphs) {
+        Json target{{"POSITION", add_positions(buffer, morph.vertices)}};
+        if (!morph.normals.empty()) target["NORMAL"] = add_vectors(buffer, morph.normals);
+        if (!morph.tangents.empty()) target["TANGENT"] = add_vectors(buffer, morph.tangents);
+        targets.push_back(target);
+    }
+    return targets;
 }
 
 std::size_t add_indices(Buffer& buffer, const std::vector<glm::uvec3>& triangles) {
@@ -158,10 +194,73 @@ Json material_of(const Placed& thing) {
 }
 
 Json node_of(const Placed& thing, std::size_t mesh) {
+    if (!thing.influences.empty()) return {{"name", thing.name}, {"mesh", mesh}, {"skin", 0}};
     return {{"name", thing.name},
             {"mesh", mesh},
             {"translation", array(thing.position)},
             {"rotation", array(glm::angleAxis(thing.turn, glm::normalize(thing.turn_axis)))}};
+}
+
+Json mesh_of(Buffer& buffer, const Placed& thing, std::size_t material) {
+    const Json attributes = attributes_of(buffer, thing);
+    const std::size_t indices = add_indices(buffer, thing.shape.triangles);
+    Json primitive{{"attributes", attributes}, {"indices", indices}, {"material", material}};
+    Json mesh{{"name", thing.name}};
+    if (!thing.morphs.empty()) {
+        primitive["targets"] = targets_of(buffer, thing.morphs);
+        mesh["weights"] = std::vector<double>(thing.morphs.size(), 0);
+    }
+    mesh["primitives"] = Json::array({primitive});
+    return mesh;
+}
+
+/// The nodes of the joints, which are to stand behind those of all things.
+Json joint_nodes(const Stage& stage) {
+    const std::size_t first = stage.things.size();
+    Json nodes = Json::array();
+    for (std::size_t i = 0; i < stage.joints.size(); ++i) {
+        const Joint& joint = stage.joints[i];
+        Json node{{"name", joint.name}, {"translation", array(joint.position)}};
+        if (joint.turn != 0)
+            node["rotation"] = array(glm::angleAxis(joint.turn, glm::dvec3(0, 1, 0)));
+        for (std::size_t k = 0; k < stage.joints.size(); ++k)
+            if (stage.joints[k].parent == i) node["children"].push_back(first + k);
+        for (std::size_t k = 0; k < stage.things.size(); ++k)
+            if (stage.things[k].joint == i) node["children"].push_back(k);
+        nodes.push_back(node);
+    }
+    return nodes;
+}
+
+/// Where a joint is in the root joint's space, in which shapes are modelled.
+glm::dvec3 place_in_model(const Stage& stage, std::size_t joint) {
+    glm::dvec3 place(0);
+    while (stage.joints[joint].parent) {
+        place += stage.joints[joint].position;
+        joint = *stage.joints[joint].parent;
+    }
+    return place;
+}
+
+/// The one skin, of all joints.
+Json skins_of(Buffer& buffer, const Stage& stage) {
+    const std::size_t offset = buffer.bytes.size();
+    Json joints = Json::array();
+    for (std::size_t i = 0; i < stage.joints.size(); ++i) {
+        const glm::dvec3 place = place_in_model(stage, i);
+        const glm::dmat4 inverse_bind(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -place.x, -place.y,
+                                      -place.z, 1);
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                buffer.append(
+                    std::bit_cast<std::uint32_t>(static_cast<float>(inverse_bind[column][row])), 4);
+        joints.push_back(stage.things.size() + i);
+    }
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, std::nullopt)},
+                                {"componentType", component_float},
+                                {"count", stage.joints.size()},
+                                {"type", "MAT4"}});
+    return {{{"inverseBindMatrices", buffer.accessors.size() - 1}, {"joints", joints}}};
 }
 
 /// Of a node that looks or shines down its own -z, y up.
@@ -202,6 +301,38 @@ Json animations_of(Buffer& buffer, const Lamp& lamp, std::size_t node) {
          {"samplers", {{{"input", times}, {"interpolation", "LINEAR"}, {"output", places}}}}}};
 }
 
+/// Index of the new accessor.
+std::size_t add_key_values(Buffer& buffer, const Track& track) {
+    const std::size_t offset = buffer.bytes.size();
+    for (const double value : track.values)
+        buffer.append(std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
+    const std::size_t width =
+        track.path == "weights" ? 1 : track.values.size() / track.times.size();
+    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, std::nullopt)},
+                                {"componentType", component_float},
+                                {"count", track.values.size() / width},
+                                {"type", width == 1 ? "SCALAR" : "VEC" + std::to_string(width)}});
+    return buffer.accessors.size() - 1;
+}
+
+/// All tracks as the one animation of the file.
+Json animations_of(Buffer& buffer, const std::vector<Track>& tracks, const Json& nodes) {
+    Json channels = Json::array();
+    Json samplers = Json::array();
+    for (const Track& track : tracks) {
+        const auto node = std::find_if(nodes.begin(), nodes.end(), [&](const Json& each) {
+            return each["name"] == track.node;
+        });
+        channels.push_back({{"sampler", samplers.size()},
+                            {"target", {{"node", node - nodes.begin()}, {"path", track.path}}}});
+        const std::size_t times = add_times(buffer, track.times);
+        samplers.push_back({{"input", times},
+                            {"interpolation", "LINEAR"},
+                            {"output", add_key_values(buffer, track)}});
+    }
+    return {{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}}};
+}
+
 Json cameras_of(const Stage& stage) {
     return {
         {{"name", "camera"},
@@ -213,6 +344,7 @@ Json lights_of(const Stage& stage) {
     Json lights = Json::array();
     for (const Lamp& lamp : lamps_of(stage)) {
         Json light{{"name", lamp.name}, {"type", lamp.type}, {"intensity", lamp.intensity}};
+        if (lamp.color != glm::dvec3(1)) light["color"] = array(lamp.color);
         if (lamp.type == "spot")
             light["spot"] = {{"innerConeAngle", 0.8 * lamp.outer_cone},
                              {"outerConeAngle", lamp.outer_cone}};
@@ -238,6 +370,19 @@ void add_textures(Buffer& buffer, const Stage& stage, Json& gltf) {
             {{"name", painting.name}, {"mimeType", "image/png"}, {"bufferView", view}});
     }
     gltf["extras"]["shadowproof"]["ambient"] = array(stage.ambient);
+    if (stage.inverse_square) gltf["extras"]["shadowproof"]["inverseSquare"] = true;
+}
+
+/// Indices of the nodes that are no other's children.
+Json roots_of(const Json& nodes) {
+    std::vector<bool> is_child(nodes.size());
+    for (const Json& node : nodes)
+        for (const Json& child : node.value("children", Json::array()))
+            is_child[child.get<std::size_t>()] = true;
+    Json roots = Json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (!is_child[i]) roots.push_back(i);
+    return roots;
 }
 
 } // namespace
@@ -248,22 +393,16 @@ std::string write_gltf(const Stage& stage) {
     Json meshes = Json::array();
     Json materials = Json::array();
     for (const Placed& thing : stage.things) {
-        const Json attributes = attributes_of(buffer, thing.shape);
-        const std::size_t indices = add_indices(buffer, thing.shape.triangles);
         nodes.push_back(node_of(thing, meshes.size()));
-        meshes.push_back({{"name", thing.name},
-                          {"primitives",
-                           {{{"attributes", attributes},
-                             {"indices", indices},
-                             {"material", materials.size()}}}}});
+        meshes.push_back(mesh_of(buffer, thing, materials.size()));
         materials.push_back(material_of(thing));
     }
+    for (const Json& node : joint_nodes(stage)) nodes.push_back(node);
     nodes.push_back(camera_node(stage));
     const std::size_t first_light = nodes.size();
     const std::vector<Lamp> lamps = lamps_of(stage);
     for (std::size_t i = 0; i < lamps.size(); ++i) nodes.push_back(light_node(lamps[i], i));
-    Json roots = Json::array();
-    for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+    const Json roots = roots_of(nodes);
 
     Json gltf;
     gltf["asset"] = {{"version", "2.0"},
@@ -279,7 +418,9 @@ std::string write_gltf(const Stage& stage) {
     gltf["meshes"] = meshes;
     gltf["materials"] = materials;
     add_textures(buffer, stage, gltf);
+    if (!stage.joints.empty()) gltf["skins"] = skins_of(buffer, stage);
     if (stage.light.moves_to) gltf["animations"] = animations_of(buffer, stage.light, first_light);
+    if (!stage.tracks.empty()) gltf["animations"] = animations_of(buffer, stage.tracks, nodes);
     gltf["accessors"] = buffer.accessors;
     gltf["bufferViews"] = buffer.views;
     gltf["buffers"] = {{{"byteLength", buffer.bytes.size()},

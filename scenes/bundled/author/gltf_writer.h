@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,20 @@ struct Look {
     std::optional<glm::dvec3> specular{};
 };
 
+/// How a morph target at weight 1 moves each vertex; of normals and tangents where the shape has
+/// some.
+struct Morph {
+    std::vector<glm::dvec3> vertices;
+    std::vector<glm::dvec3> normals;
+    std::vector<glm::dvec3> tangents;
+};
+
+/// The joints that move a vertex, by index into Stage::joints, and how much each does; sum 1.
+struct Influence {
+    glm::uvec4 joints{0, 0, 0, 0};
+    glm::dvec4 weights{1, 0, 0, 0};
+};
+
 struct Placed {
     std::string name;
     Shape shape;
@@ -31,11 +46,33 @@ struct Placed {
     double turn = 0; ///< radians about turn_axis
     bool double_sided = false;
     Look look{};
+    std::vector<Morph> morphs{};
+    std::vector<Influence> influences{}; ///< one a vertex: joints place the thing, and no other
+                                         ///< place or turn
+    std::optional<std::size_t> joint{};  ///< that carries it: place and turn are relative to it
+};
+
+/// A node that skinned things follow and others hang on. Shapes are modelled in the space of the
+/// root joint, with all joints but that unturned.
+struct Joint {
+    std::string name;
+    std::optional<std::size_t> parent{}; ///< an earlier one; none: the root
+    glm::dvec3 position{0, 0, 0};        ///< relative to the parent
+    double turn = 0;                     ///< radians about y, of the root
+};
+
+/// Key frames of one property of a node, linear between them.
+struct Track {
+    std::string node;
+    std::string path;           ///< as glTF says it: "translation", "rotation", "weights"
+    std::vector<float> times;   ///< seconds
+    std::vector<double> values; ///< as many a key as the property has
 };
 
 // Wrap modes by their numbers in glTF.
 inline constexpr int wrap_repeat = 10497;
 inline constexpr int wrap_mirrored_repeat = 33648;
+inline constexpr int wrap_clamp_to_edge = 33071;
 
 struct Painting {
     std::string name;
@@ -48,6 +85,7 @@ struct Lamp {
     std::string type = "point"; ///< as KHR_lights_punctual says it
     glm::dvec3 position{0, 10, 0};
     glm::dvec3 target{0, 0, 0};         ///< where a spot or a directional light shines to
+    glm::dvec3 color{1, 1, 1};          ///< linear
     double intensity = 2000;            ///< candela, or lux of a directional light
     double outer_cone = 0.785;          ///< of a spot, radians
     std::optional<glm::dvec3> moves_to; ///< where it is after four seconds, by a straight way
@@ -58,8 +96,11 @@ struct Stage {
     std::string title;                 ///< for asset.extras, one sentence
     std::vector<std::string> provokes; ///< cause names
     std::vector<Placed> things;
+    std::vector<Joint> joints{};
+    std::vector<Track> tracks{};
     std::vector<Painting> textures{};
     glm::dvec3 ambient{0, 0, 0};
+    bool inverse_square = false; ///< the light's intensity counts, and its distance
     glm::dvec3 eye{0, 0, 5};
     glm::dvec3 target{0, 0, 0};
     double yfov = 0.6; ///< radians

@@ -30,6 +30,16 @@ Stage looking_along_floor(std::string name, std::string title, std::vector<std::
     return stage;
 }
 
+Stage lit_from_the_left(std::string name, std::string title) {
+    Stage stage = looking_along_floor(std::move(name), std::move(title));
+    stage.ambient = {0.11, 0.12, 0.14};
+    stage.light.position = {-5.471, 8.877, 4.683};
+    stage.target = {0.141, 1.041, 0.013};
+    stage.yfov = 0.4237;
+    stage.things[0].look.specular = glm::dvec3(0);
+    return stage;
+}
+
 void add(Stage& stage, std::vector<Placed> things) {
     stage.things.insert(stage.things.end(), things.begin(), things.end());
 }

@@ -26,6 +26,10 @@ Placed floor(double radius);
 Stage looking_along_floor(std::string name, std::string title,
                           std::vector<std::string> provokes = {});
 
+/// The same for bump-mapped things: the light from the left, so that the eye sees half of what it
+/// lights, and a floor without highlights.
+Stage lit_from_the_left(std::string name, std::string title);
+
 void add(Stage& stage, std::vector<Placed> things);
 
 /// A round rod from one point to another.
@@ -40,5 +44,7 @@ std::vector<Stage> stages_of_planes();  ///< the near plane, the far plane and t
 std::vector<Stage> stages_of_lights();  ///< where the light stands, and how many there are
 std::vector<Stage> stages_of_casters(); ///< how often, how closed and how wound
 std::vector<Stage> stages_of_bumps();   ///< lighting by bump maps
+std::vector<Stage> stages_of_glare();   ///< light that lighting in few steps or bits fails under
+std::vector<Stage> stages_of_figures(); ///< bump-mapped models that move
 
 } // namespace shadowproof::author

@@ -2,6 +2,7 @@
 // boxes whose faces are not split alike.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -51,6 +52,39 @@ Shape textured_torus(double ring_radius, double tube_radius, unsigned ring, unsi
 
 /// As box, the texture once on every face; flat normals, without tangents.
 Shape textured_box(const glm::dvec3& half_size, unsigned segments);
+
+/// A ring of a body of revolution around y.
+struct Ring {
+    double radius = 0;
+    double height = 0;
+};
+
+/// Rings from the top to the bottom, the first and the last of radius 0, around `depth` times as
+/// deep (z) as wide; the texture as on a ball, along the outline from end to end. Tangents where it
+/// goes around: worn mirrored, the halves' tangents part at vertices that they share.
+Shape textured_lathe(const std::vector<Ring>& rings, double depth, unsigned around, Wearing wearing,
+                     const glm::dvec2& repeats);
+
+/// Half spheres of `cap_rings` rings each, and a length of cylinder between, for textured_lathe.
+std::vector<Ring> capsule(double radius, double half_length, unsigned cap_rings);
+
+/// Height and slopes along x and z at (x, z).
+using Ground = std::function<glm::dvec3(double x, double z)>;
+
+/// A block whose top, `segments` squares each way, lies `ground` above half_size.y, with smooth
+/// normals, without tangents; the texture from above, once over the top and `border` (a share of
+/// its width) past it on all sides.
+Shape textured_ground(const glm::dvec3& half_size, unsigned segments, const Ground& ground,
+                      double border);
+
+/// Mirrored at x = 0, still counter-clockwise from outside; the texture coordinates stay, so that
+/// the picture is mirrored too.
+Shape mirrored(const Shape& shape);
+
+Shape moved(const Shape& shape, const glm::dvec3& way);
+
+/// Several as one; all textured alike.
+Shape joined(const std::vector<Shape>& shapes);
 
 /// The same with equal points made one vertex.
 Shape welded(const Shape& shape);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -71,6 +72,21 @@ Relief ripples() {
         const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * 6.5 * from_middle);
         return 0.7 * wave * (1 - rise(0.31, 0.47, from_middle)) +
                0.3 * rise(0.43, 0.49, u + 0.2 * v);
+    };
+}
+
+Relief gravel(unsigned columns) {
+    return [=](double u, double v) {
+        const auto x = static_cast<std::uint32_t>(u * columns) % columns;
+        const auto y = static_cast<std::uint32_t>(v * columns) % columns;
+        // T. Wang's integer hash: neighbours have nothing in common.
+        std::uint32_t hash = y * columns + x;
+        hash = (hash ^ 61U) ^ (hash >> 16U);
+        hash *= 9U;
+        hash ^= hash >> 4U;
+        hash *= 0x27d4eb2dU;
+        hash ^= hash >> 15U;
+        return static_cast<double>(hash & 0xffffU) / 0xffff;
     };
 }
 

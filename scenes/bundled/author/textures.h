@@ -21,6 +21,9 @@ Relief hook();
 /// Ripples around the middle, and a step across them.
 Relief ripples();
 
+/// Squares of random heights, `columns` each way; repeats.
+Relief gravel(unsigned columns);
+
 /// Gray of 16 bits.
 Raster height_map(unsigned width, unsigned height, const Relief& relief);
 
