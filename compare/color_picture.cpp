@@ -20,6 +20,12 @@ Rgb pixel_of(const glm::dvec3& linear) {
             byte_of(srgb_from_linear(linear.b))};
 }
 
+/// Of a unit vector; 0 is black.
+Rgb direction_color(const glm::dvec3& v) {
+    if (v == glm::dvec3(0)) return {};
+    return {byte_of(0.5 + 0.5 * v.x), byte_of(0.5 + 0.5 * v.y), byte_of(0.5 + 0.5 * v.z)};
+}
+
 } // namespace
 
 Image<Rgb> color_picture(const Image<glm::dvec3>& linear) {
@@ -31,11 +37,13 @@ Image<Rgb> color_picture(const Image<glm::vec3>& linear) {
 }
 
 Image<Rgb> normal_picture(const Image<Shading>& shadings) {
-    return converted<Rgb>(shadings, [](const Shading& shading) {
-        const glm::dvec3& n = shading.bumped;
-        if (n == glm::dvec3(0)) return Rgb{};
-        return Rgb{byte_of(0.5 + 0.5 * n.x), byte_of(0.5 + 0.5 * n.y), byte_of(0.5 + 0.5 * n.z)};
-    });
+    return converted<Rgb>(shadings,
+                          [](const Shading& shading) { return direction_color(shading.bumped); });
+}
+
+Image<Rgb> tangent_picture(const Image<Shading>& shadings) {
+    return converted<Rgb>(shadings,
+                          [](const Shading& shading) { return direction_color(shading.tangent); });
 }
 
 } // namespace shadowproof

@@ -147,6 +147,17 @@ PointShader::Summands PointShader::summands(std::size_t lane) const {
             light * (lanes_.specular[lane] * look.gloss) * look.material->specular, ambient};
 }
 
+/// T of the definition, step 2. By squares of components as lighting_lanes.cpp has it, which keeps
+/// T to itself: the pictures that most ask for need none. N's sign does not matter to it.
+glm::dvec3 PointShader::tangent(std::size_t lane) const {
+    if (looks_[lane].material->bump == Bump::none) return glm::dvec3(0);
+    const glm::dvec3 normal = lanes_.normal.at(lane);
+    const glm::dvec3 interpolated = lanes_.tangent.at(lane);
+    const glm::dvec3 across = interpolated - normal * glm::dot(normal, interpolated);
+    const double square = glm::dot(across, across);
+    return square > 0 ? across * (1 / std::sqrt(square)) : any_tangent(normal);
+}
+
 glm::dvec3 PointShader::color(std::size_t lane) const {
     const Summands sum = summands(lane);
     return sum.diffuse + sum.ambient + sum.specular;
@@ -166,6 +177,7 @@ Shading PointShader::terms(std::size_t lane) const {
     const Look& look = looks_[lane];
     const Summands sum = summands(lane);
     return {.normal = lanes_.normal.at(lane),
+            .tangent = tangent(lane),
             .bumped = lanes_.bumped.at(lane),
             .to_light = lanes_.to_light.at(lane),
             .half = lanes_.half.at(lane),

@@ -51,8 +51,9 @@ namespace shadowproof {
 
 /// One point's terms, by the names of the definition.
 struct Shading {
-    glm::dvec3 normal{0, 0, 0}; ///< N, towards the seen side
-    glm::dvec3 bumped{0, 0, 0}; ///< N', likewise
+    glm::dvec3 normal{0, 0, 0};  ///< N, towards the seen side
+    glm::dvec3 tangent{0, 0, 0}; ///< T; 0 without a bump map
+    glm::dvec3 bumped{0, 0, 0};  ///< N', likewise
     glm::dvec3 to_light{0, 0, 0};
     glm::dvec3 half{0, 0, 0}; ///< H
     double self_shadow_light = 0;

@@ -29,9 +29,14 @@ bool is_exr(const RenderOptions& options) {
     return extension_of(options.output) == ".exr";
 }
 
+/// Whether a .png shows more of lighting than its colour.
+bool wants_terms(const RenderOptions& options) {
+    return options.aov == "normal" || options.aov == "tangent";
+}
+
 /// Whether lighting is asked for, and what to say where it cannot be had.
 bool wants_lighting(const RenderOptions& options, const Scene& scene) {
-    const bool asked = options.aov == "color" || options.aov == "normal";
+    const bool asked = options.aov == "color" || wants_terms(options);
     if (asked && !is_bump_lit(scene))
         throw Error(scene.file.string(), "has no bump map, so its colours are not judged",
                     "render --aov visibility, or give a material a normalTexture");
@@ -40,12 +45,13 @@ bool wants_lighting(const RenderOptions& options, const Scene& scene) {
 
 /// Bytes a pixel of what lighting adds, at most.
 std::size_t lighting_bytes(const RenderOptions& options) {
-    return is_exr(options) || options.aov == "normal" ? sizeof(Shading) : sizeof(glm::dvec3);
+    return is_exr(options) || wants_terms(options) ? sizeof(Shading) : sizeof(glm::dvec3);
 }
 
 Image<Rgb> lit_picture(const RenderOptions& options, const Tracer& tracer,
                        const GroundTruth& truth) {
     if (options.aov == "normal") return normal_picture(shade_terms(tracer, truth));
+    if (options.aov == "tangent") return tangent_picture(shade_terms(tracer, truth));
     return color_picture(options.samples > 1 ? shade_supersampled(tracer, options.samples).color
                                              : shade(tracer, truth));
 }
@@ -114,9 +120,9 @@ Work add_render(CLI::App& app) {
     command
         ->add_option("--aov", options->aov,
                      "What a .png shows: visibility (the class map), or, of scenes with bump maps, "
-                     "color (sRGB) or normal (the bumped ones, world space)")
+                     "color (sRGB), normal (the bumped ones, world space) or tangent (likewise)")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"visibility", "color", "normal"}));
+        ->check(CLI::IsMember({"visibility", "color", "normal", "tangent"}));
     command
         ->add_option("--samples", options->samples,
                      "Rays along each side of a pixel, 1 to 32, whose mean is its colour (1)")

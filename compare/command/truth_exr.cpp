@@ -31,8 +31,9 @@ struct LitPixel {
     float ambient[3];
     float albedo[3];
     float bumped[3];
+    float tangent[3];
 };
-static_assert(sizeof(LitPixel) == 40 + 72);
+static_assert(sizeof(LitPixel) == 40 + 84);
 
 OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
     using OIIO::TypeDesc;
@@ -45,7 +46,8 @@ OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
     if (lit) {
         for (const std::string group : {"", "diffuse.", "specular.", "ambient.", "Albedo."})
             for (const char* name : {"R", "G", "B"}) spec.channelnames.push_back(group + name);
-        for (const char* name : {"Ns.X", "Ns.Y", "Ns.Z"}) spec.channelnames.emplace_back(name);
+        for (const char* name : {"Ns.X", "Ns.Y", "Ns.Z", "T.X", "T.Y", "T.Z"})
+            spec.channelnames.emplace_back(name);
         spec.nchannels = static_cast<int>(spec.channelnames.size());
         spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
     }
@@ -94,6 +96,7 @@ LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
     put(lit.ambient, shading.ambient_color);
     put(lit.albedo, shading.decal);
     put(lit.bumped, shading.bumped);
+    put(lit.tangent, shading.tangent);
     return lit;
 }
 

@@ -39,6 +39,39 @@ test('normals of the floor point up, and those of the torus all ways', () => {
   assert.notDeepEqual(picture.at(20, 20), picture.at(40, 20));
 });
 
+test('tangents are unit vectors of a bump-mapped surface, and none of the floor', () => {
+  rendered('bumpy_torus', 't.png', ['--aov', 'tangent']);
+  const picture = readPng(join(scratch, 't.png'));
+  assert.deepEqual(picture.at(32, 46), [0, 0, 0]);
+  assert.deepEqual(picture.at(0, 0), [0, 0, 0]);
+  let seen = 0;
+  for (let y = 0; y < 48; ++y)
+    for (let x = 0; x < 64; ++x) {
+      if (picture.at(x, y).join() === '0,0,0') continue;
+      ++seen;
+      const length = Math.hypot(...picture.at(x, y).map((byte) => byte / 127.5 - 1));
+      assert.ok(Math.abs(length - 1) < 0.01, `${x}, ${y}: ${length}`); // a step of 8 bits
+    }
+  assert.ok(seen > 200, `${seen}`);
+});
+
+/** The largest step of any channel between neighbours along a row, both of a bump-mapped surface. */
+function largestStep(picture) {
+  let largest = 0;
+  for (let y = 0; y < picture.height; ++y)
+    for (let x = 1; x < picture.width; ++x) {
+      const [a, b] = [picture.at(x - 1, y), picture.at(x, y)];
+      if (a.join() === '0,0,0' || b.join() === '0,0,0') continue;
+      largest = Math.max(largest, ...a.map((value, k) => Math.abs(value - b[k])));
+    }
+  return largest;
+}
+
+test('tangents jump where mirrored halves meet', () => {
+  rendered('mirrored_skin', 't.png', ['--aov', 'tangent']);
+  assert.ok(largestStep(readPng(join(scratch, 't.png'))) > 200);
+});
+
 test('more rays a pixel smooth silhouettes, and leave the inside of the floor as it was', () => {
   rendered('bumpy_sphere', 'one.png', ['--aov', 'color']);
   rendered('bumpy_sphere', 'many.png', ['--aov', 'color', '--samples', '4']);
@@ -52,7 +85,7 @@ test('more rays a pixel smooth silhouettes, and leave the inside of the floor as
 });
 
 test('the EXR has colours where the scene has bump maps, and none elsewhere', () => {
-  const channels = ['Albedo.R', 'Ns.X', 'diffuse.G', 'specular.B', 'ambient.R'];
+  const channels = ['Albedo.R', 'Ns.X', 'T.Y', 'diffuse.G', 'specular.B', 'ambient.R'];
   const lit = rendered('bumpy_sphere', 'lit.exr').toString('latin1', 0, 2000);
   const plain = rendered('ordinary', 'plain.exr').toString('latin1', 0, 2000);
   for (const channel of channels) {
