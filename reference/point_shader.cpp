@@ -163,22 +163,12 @@ glm::dvec3 PointShader::color(std::size_t lane) const {
     return sum.diffuse + sum.ambient + sum.specular;
 }
 
-/// T of the definition.
-glm::dvec3 PointShader::tangent(std::size_t lane) const {
-    const Material& material = *looks_[lane].material;
-    if (material.bump == Bump::none) return {0, 0, 0};
-    const glm::dvec3 normal = lanes_.side[lane] * lanes_.normal.at(lane);
-    const glm::dvec3 interpolated = lanes_.tangent.at(lane);
-    const glm::dvec3 across = interpolated - normal * glm::dot(normal, interpolated);
-    return glm::dot(across, across) > 0 ? glm::normalize(across) : any_tangent(normal);
-}
-
 Shading PointShader::terms(std::size_t lane) const {
     const Look& look = looks_[lane];
     const Summands sum = summands(lane);
     return {.normal = lanes_.normal.at(lane),
-            .tangent = tangent(lane),
             .bumped = lanes_.bumped.at(lane),
+            .tangent = tangent(lane),
             .to_light = lanes_.to_light.at(lane),
             .half = lanes_.half.at(lane),
             .self_shadow_light = lanes_.self_shadow_light[lane],
@@ -191,7 +181,6 @@ Shading PointShader::terms(std::size_t lane) const {
             .lit = look.lit,
             .point = lanes_.point.at(lane),
             .weights = look.weights,
-            .tangent = tangent(lane),
             .hand = lanes_.hand[lane],
             .side = lanes_.side[lane],
             .diffuse_color = sum.diffuse,

@@ -66,7 +66,6 @@ struct Shading {
     bool lit = false;
     glm::dvec3 point{0, 0, 0};          ///< Q, relative to the eye
     glm::dvec3 weights{0, 0, 0};        ///< of the triangle's corners
-    glm::dvec3 tangent{0, 0, 0};        ///< T; zero where the material has no bump map
     double hand = 1;                    ///< w: B = w N x T, of the front
     double side = 1;                    ///< -1 where the eye sees the back
     glm::dvec3 diffuse_color{0, 0, 0};  ///< the colour's summands

@@ -1,6 +1,8 @@
 #include "scenes/catalog.h"
 
 #include "scenes/error.h"
+#include "scenes/gltf.h"
+#include "scenes/md2.h"
 
 #include <fmt/format.h>
 
@@ -80,6 +82,14 @@ std::string listed_names() {
     return names;
 }
 
+/// By its extension, in either case; its own reader looks at what is in it.
+bool is_md2(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return extension == ".md2";
+}
+
 } // namespace
 
 std::filesystem::path bundled_folder() {
@@ -102,8 +112,9 @@ Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
         return load_gltf(bundled_folder() / (name_or_path + ".gltf"), request);
     if (!std::filesystem::exists(name_or_path))
         throw Error(name_or_path, "is neither a bundled scene nor a file",
-                    "use a path to .gltf or .glb, or one of " + listed_names());
-    return load_gltf(name_or_path, request);
+                    "use a path to .gltf, .glb or .md2, or one of " + listed_names());
+    return is_md2(name_or_path) ? load_md2(name_or_path, request)
+                                : load_gltf(name_or_path, request);
 }
 
 } // namespace shadowproof

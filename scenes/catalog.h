@@ -1,7 +1,8 @@
 // The bundled scenes by name.
 #pragma once
 
-#include "scenes/gltf.h"
+#include "scenes/scene.h"
+#include "scenes/scene_request.h"
 
 #include <filesystem>
 #include <string>
@@ -24,8 +25,8 @@ bool is_bundled(std::string_view name);
 /// source tree. Throws Error when none of them holds the scenes.
 std::filesystem::path bundled_folder();
 
-/// A SCENE argument: a bundled name or a path to .gltf/.glb. Throws Error with the bundled names
-/// when it is neither.
+/// A SCENE argument: a bundled name or a path to .gltf, .glb or .md2. Throws Error with the bundled
+/// names when it is neither.
 Scene load_scene(const std::string& name_or_path, const SceneRequest& request);
 
 } // namespace shadowproof

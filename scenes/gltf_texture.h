@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/gltf_file.h"
-#include "scenes/texture.h"
+#include "scenes/texels.h"
 
 #include <cstdint>
 #include <map>
@@ -11,12 +11,6 @@
 #include <vector>
 
 namespace shadowproof::gltf {
-
-/// How the colour channels of a picture are meant (alpha is always a plain number).
-enum class Encoding : std::uint8_t {
-    srgb,  ///< colours, IEC 61966-2-1
-    plain, ///< numbers: normals, heights
-};
 
 /// Fills a scene's textures as they are asked for, each once.
 class TextureReader {

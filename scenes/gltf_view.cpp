@@ -1,5 +1,6 @@
 #include "scenes/gltf_view.h"
 
+#include "scenes/default_view.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>
@@ -15,52 +16,6 @@
 namespace shadowproof::gltf {
 
 namespace {
-
-struct Sphere {
-    glm::dvec3 centre{0, 0, 0};
-    double radius = 0;
-};
-
-/// Around the bounding box's centre; the radius reaches the furthest vertex.
-Sphere bounding_sphere(const Scene& scene) {
-    glm::dvec3 low = scene.positions.front();
-    glm::dvec3 high = low;
-    for (const glm::dvec3 position : scene.positions) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-    }
-    Sphere sphere{low * 0.5 + high * 0.5, 0};
-    for (const glm::dvec3 position : scene.positions)
-        sphere.radius = std::max(sphere.radius, glm::distance(sphere.centre, position));
-    if (!(sphere.radius > 0))
-        throw Error(scene.file.string(), "all vertices lie at one point, so nothing can be framed",
-                    "add a camera and a light");
-    return sphere;
-}
-
-/// Sets right, up and forward from a view direction and some up direction; nothing where they
-/// are parallel, zero or not finite.
-bool orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
-    camera.forward = glm::normalize(forward);
-    camera.right = glm::normalize(glm::cross(camera.forward, glm::normalize(up)));
-    camera.up = glm::cross(camera.right, camera.forward);
-    return std::isfinite(glm::dot(camera.up, camera.up));
-}
-
-Camera default_camera(const Scene& scene, const SceneRequest& request) {
-    const Sphere sphere = bounding_sphere(scene);
-    const glm::dvec3 toward_eye = glm::normalize(glm::dvec3(0.5, 0.4, 1));
-    Camera camera;
-    camera.width = request.width;
-    camera.height = request.height;
-    camera.tan_half_height = std::tan(std::numbers::pi / 8);
-    const glm::dvec2 half = half_extent(camera);
-    const double distance = sphere.radius / std::sin(std::atan(std::min(half.x, half.y)));
-    camera.eye = sphere.centre + distance * toward_eye;
-    camera.near = (distance - sphere.radius) / 2;
-    orient(camera, -toward_eye, {0, 1, 0});
-    return camera;
-}
 
 /// A node that carries a camera or a light, with the names it answers to.
 struct Carrier {
@@ -197,16 +152,6 @@ Light read_light(const Document& document, const NodeGraph& graph, const Carrier
     return light;
 }
 
-Light default_light(const Scene& scene) {
-    const Sphere sphere = bounding_sphere(scene);
-    const glm::dvec3 toward_light =
-        glm::normalize(scene.camera.up - 0.5 * scene.camera.right - 0.6 * scene.camera.forward);
-    Light light;
-    light.name = "default";
-    light.position = sphere.centre + 3 * sphere.radius * toward_light;
-    return light;
-}
-
 } // namespace
 
 Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
@@ -216,11 +161,7 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
         return read_camera(
             document, graph,
             cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request);
-    if (cameras.empty()) {
-        scene.notes.push_back("no camera in the file: default framing from the front, right and "
-                              "above, 45 degrees, no far plane");
-        return default_camera(scene, request);
-    }
+    if (cameras.empty()) return default_camera(request, scene);
     const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
         return document.model.cameras[carrier.index].type == "perspective";
     });
@@ -244,11 +185,7 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
             !light.name.empty() && place_of(lights, graph, light.name) == number;
         light.choice = is_told_by_name ? light.name : std::to_string(number);
     }
-    if (lights.empty()) {
-        scene.notes.push_back("no light in the file: a point light above and to the left of the "
-                              "camera");
-        scene.lights.push_back(default_light(scene));
-    }
+    if (lights.empty()) add_default_light(scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));

@@ -4,8 +4,8 @@
 #include "compare/report.h"
 #include "raster/context.h"
 #include "raster/technique.h"
-#include "scenes/gltf.h"
 #include "scenes/lighting_settings.h"
+#include "scenes/scene_request.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

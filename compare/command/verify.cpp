@@ -332,7 +332,7 @@ Work add_verify(CLI::App& app) {
     const auto options = std::make_shared<VerifyOptions>();
     command
         ->add_option("SCENE", options->scenes,
-                     "Bundled names, or paths to .gltf or .glb (all bundled scenes)")
+                     "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
         ->check(not_empty());
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->scene);

@@ -339,6 +339,25 @@ TEST(shading, under_the_light_that_fades_with_distance_stays_between_0_and_1) {
         0.1);
 }
 
+TEST(shading, has_a_unit_tangent_at_right_angles_to_the_normal_where_there_is_a_bump_map) {
+    const Scene scene = picture_of("bumpy_sphere", 96, 96);
+    const Tracer tracer(scene);
+    const GroundTruth truth = trace(tracer);
+    const Image<Shading> terms = shade_terms(tracer, truth);
+    int tangents = 0;
+    for (std::size_t i = 0; i < terms.pixels.size(); ++i) {
+        const Shading& shading = terms.pixels[i];
+        const std::uint32_t triangle = truth.triangle.pixels[i];
+        const bool bumpy =
+            triangle != no_triangle &&
+            scene.materials[scene.meshes[mesh_of(scene, triangle)].material].bump != Bump::none;
+        EXPECT_NEAR(glm::length(shading.tangent), bumpy ? 1 : 0, rounding);
+        EXPECT_NEAR(glm::dot(shading.tangent, shading.normal), 0, rounding);
+        tangents += bumpy;
+    }
+    EXPECT_GT(tangents, 1000);
+}
+
 TEST(supersampling, with_one_ray_a_pixel_is_the_truth_at_its_centre) {
     const Scene scene = picture_of("mirrored_skin", 64, 64);
     const Tracer tracer(scene);

@@ -33,8 +33,8 @@ Stage coarse_curve() {
 glm::dvec3 swells(double x, double z) {
     constexpr glm::dvec2 long_wave(1.13, 0.37); // radians a unit
     constexpr glm::dvec2 short_wave(0.71, -1.67);
-    constexpr double high = 0.071;
-    constexpr double low = 0.037;
+    constexpr double high = 0.051;
+    constexpr double low = 0.029;
     const double a = long_wave.x * x + long_wave.y * z;
     const double b = short_wave.x * x + short_wave.y * z;
     const glm::dvec2 slope = high * std::cos(a) * long_wave + low * std::cos(b) * short_wave;
@@ -124,7 +124,7 @@ Stage fine_relief() {
     Stage stage = lit_from_the_left(
         "fine_relief", "A height field as fine as pixels, under a light that fades with distance.");
     stage.inverse_square = true;
-    stage.light.intensity = 83; // candela; the light is some nine units away
+    stage.light.intensity = 78; // candela; the light is some nine units away
     stage.textures = {{"gravel", png_of(height_map(128, 128, gravel(64)))}};
     Shape slab = textured_box({1.713, 1.213, 0.613}, 4);
     for (glm::dvec2& at : slab.coordinates) at *= 2.3;

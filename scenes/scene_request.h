@@ -1,0 +1,20 @@
+// What a scene is asked for, whatever its file's format.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace shadowproof {
+
+/// What to take from a file that offers several.
+struct SceneRequest {
+    std::optional<std::string> camera; ///< name or index of a camera node; else the first
+    std::optional<std::string> light;  ///< name or index of a light; else the first
+    bool every_light = false;          ///< all lights are judged, each by itself: the first is not
+                                       ///< said to be the one
+    double time = 0;                   ///< seconds: animations, skins and morphs are posed here
+    int width = 512;                   ///< pixels
+    int height = 512;                  ///< pixels
+};
+
+} // namespace shadowproof
