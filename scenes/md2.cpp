@@ -83,6 +83,8 @@ void dress(const Model& model, Scene& scene) {
     material.bump_map = read_texture(beside / map, Encoding::plain, scene);
     if (material.bump_map != no_texture) {
         material.bump = Bump::normal_map;
+        material.specular = glm::dvec3(0.25);
+        scene.ambient = glm::dvec3(0.125);
         material.decal = read_texture(beside / skin, Encoding::srgb, scene);
         scene.notes.push_back(material.decal != no_texture
                                   ? fmt::format("wears {} and {}", map, skin)

@@ -19,7 +19,8 @@ namespace shadowproof {
 /// - Skins are in id's .pcx; what counts is a PNG beside the model, with the stem of the first
 ///   skin's name (without skins, of the model's): STEM_normal.png, a normal map as glTF has it,
 ///   makes the model bump-lit, and STEM.png is then its decal, else white is its colour. The notes
-///   say what was there.
+///   say what was there. The ambient light is then 1/8, the specular colour 1/4: the file says
+///   nothing of either.
 ///
 /// Throws Error naming the file, the thing and the remedy.
 Scene load_md2(const std::filesystem::path& file, const SceneRequest& request);
