@@ -32,7 +32,7 @@ glm::dvec3 y_up(const glm::dvec3& v) {
 /// All vertices at a time, and a note of what they lie between.
 std::vector<glm::dvec3> pose(const Model& model, double time, std::vector<std::string>& notes) {
     const double last = model.frame_count - 1;
-    const double at = std::clamp(time * frames_a_second, 0.0, last);
+    const double at = std::max(0.0, std::min(last, time * frames_a_second)); // NaN: last
     const auto first = static_cast<std::uint32_t>(at);
     const double share = at - first;
     const Frame from = read_frame(model, first);

@@ -65,6 +65,7 @@ TEST(md2, is_posed_between_key_frames_ten_a_second_and_holds_the_first_and_the_l
     EXPECT_EQ(ahead_at(0.05), 20);
     EXPECT_EQ(ahead_at(0.1), 30);
     EXPECT_EQ(ahead_at(1e300), 30);
+    EXPECT_EQ(ahead_at(std::numeric_limits<double>::quiet_NaN()), 30);
     EXPECT_TRUE(
         says(pose_of(tetrahedron(), 0.05), "0.5 of the way from frame 0 \"run1\" to frame 1"));
     EXPECT_TRUE(says(pose_of(tetrahedron(), 2), "frame 1 \"run2\" (2 frames, 10 a second)"));
