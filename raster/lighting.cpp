@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
+#include <string_view>
 
 namespace shadowproof {
 
@@ -177,18 +178,33 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
     bind(2, material.bump_map, material.bump_map == no_texture ? pass.white : bumps.texels, 14);
 }
 
+/// A fragment shader with what holds for all that it draws put in front of it as constants:
+/// llvmpipe runs both sides of a branch, whichever is taken.
+std::string with_constants(const ShaderText& fragment, const LightingPass& pass,
+                           Normalisation normalisation) {
+    constexpr std::string_view version = "#version 450 core\n";
+    assert(fragment.text.starts_with(version));
+    unsigned forms = 0;
+    for (const BumpMap& bumps : pass.bumps) forms |= 1U << static_cast<unsigned>(bumps.form);
+    return std::string(version) +
+           "const int normalisation = " + std::to_string(static_cast<int>(normalisation)) +
+           ";\nconst int forms_in_use = " + std::to_string(forms) + ";\n#line 2\n" +
+           std::string(fragment.text.substr(version.size()));
+}
+
 LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
-                          const LightingRecipe& recipe, const LightingStep& step) {
+                          const LightingRecipe& recipe, const LightingPass& pass,
+                          const LightingStep& step) {
     const glm::dmat3 axes = recipe.model.axes == ColorModel::Axes::eye
                                 ? view_from_eye_relative(scene.camera)
                                 : glm::dmat3(1);
-    const std::array stages{shader_file("lit.vert"), step.fragment};
+    const std::string fragment = with_constants(step.fragment, pass, recipe.model.normalisation);
+    const std::array stages{shader_file("lit.vert"), ShaderText{step.fragment.file, fragment}};
     LightingProgram made{link(gl, stages), step.where, step.blend};
     set_transform(gl, made.program, transform);
     const glm::mat3 rounded(axes);
     gl.ProgramUniformMatrix3fv(made.program.name(), 5, 1, GL_FALSE, glm::value_ptr(rounded));
     set_light(gl, made.program, scene, axes);
-    gl.ProgramUniform1i(made.program.name(), 21, static_cast<GLint>(recipe.model.normalisation));
     set_color(gl, made.program, 23, scene.ambient);
     return made;
 }
@@ -252,7 +268,7 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
     upload_textures(gl, scene, recipe.model.bump_form, pass);
     check(gl, "uploading what lighting needs");
     for (const LightingStep& step : recipe.steps)
-        pass.steps.push_back(make_step(gl, scene, transform, recipe, step));
+        pass.steps.push_back(make_step(gl, scene, transform, recipe, pass, step));
     check(gl, "making the lighting pass");
     return pass;
 }

@@ -1,5 +1,6 @@
 // What lighting knows of surface, material and light. Of two triangles that tie in depth only the
-// one that is seen is lit.
+// one that is seen is lit. `forms_in_use` is defined in front of this: bit k where some material's
+// bump_form is k.
 #include texels.glsl
 #include normalise.glsl
 
@@ -11,7 +12,7 @@ layout(binding = 4) uniform sampler2D normal_table; // of number 256 y + x
 layout(location = 6) uniform vec3 material_color;
 layout(location = 7) uniform vec3 specular_color;
 layout(location = 8) uniform bool gloss_in_alpha;
-layout(location = 9) uniform int bump_form; // a value of BumpForm; bump_none without a map
+layout(location = 9) uniform int bump_form; // a value of BumpForm; 0 without a map
 layout(location = 10) uniform float bump_scale;
 layout(location = 12) uniform int decal_wrap_s; // values of Wrap
 layout(location = 13) uniform int decal_wrap_t;
@@ -25,8 +26,8 @@ layout(location = 20) uniform bool inverse_square;
 layout(location = 22) uniform float slope_range;
 layout(location = 23) uniform vec3 ambient_color;
 
-const int bump_none = 0; // no map is left as given
 const int bump_height_field = 1;
+const int bump_normal_map = 2;
 const int bump_derivatives = 3;
 const int bump_indexed = 4;
 
@@ -61,18 +62,24 @@ Taps bump_taps_t() {
     return taps_at(bump_wrap_t, textureSize(bump_map, 0).y, surface.bump_at.y);
 }
 
+bool holds(int form) {
+    return (forms_in_use & 1 << form) != 0 && bump_form == form;
+}
+
 // Whether the map holds slopes, or heights of which slopes are made; else it holds normals.
 bool has_slopes() {
-    return bump_form == bump_height_field || bump_form == bump_derivatives;
+    return holds(bump_height_field) || holds(bump_derivatives);
 }
 
 // In heights per texel: along a row, and down the rows.
 vec2 slope() {
     Taps s = bump_taps_s();
     Taps t = bump_taps_t();
-    if (bump_form == bump_derivatives)
+    if (holds(bump_derivatives))
         return slope_range * (2 * sampled(bump_map, s, t).rg - 1);
-    return bump_scale * sampled_slope(bump_map, bump_wrap_s, bump_wrap_t, s, t);
+    if (holds(bump_height_field))
+        return bump_scale * sampled_slope(bump_map, bump_wrap_s, bump_wrap_t, s, t);
+    return vec2(0);
 }
 
 vec3 indexed_normal(int s, int t) {
@@ -92,10 +99,10 @@ vec3 mixed_indexed_normal(Taps s, Taps t) {
 // Of a map that holds normals: the normal in its texture's axes, x along a row, y up the picture,
 // as the texels were mixed, not of unit length.
 vec3 mapped_normal() {
-    if (bump_form == bump_none) return vec3(0, 0, 1);
     Taps s = bump_taps_s();
     Taps t = bump_taps_t();
-    if (bump_form == bump_indexed) return mixed_indexed_normal(s, t);
+    if (holds(bump_indexed)) return mixed_indexed_normal(s, t);
+    if (!holds(bump_normal_map)) return vec3(0, 0, 1);
     vec3 normal = 2 * sampled(bump_map, s, t).rgb - 1;
     return vec3(bump_scale * normal.xy, normal.z);
 }

@@ -2,7 +2,7 @@
 
 layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h, a face a layer
 
-layout(location = 21) uniform int normalisation; // a value of Normalisation
+// `normalisation`, a value of Normalisation, is defined in front of this.
 
 const int normalisation_cube_map = 1;
 const int normalisation_newton_raphson = 2;

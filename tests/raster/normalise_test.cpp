@@ -22,7 +22,7 @@ namespace {
 
 /// normalise.glsl and the main function of a fragment shader.
 std::string with_normalise(const std::string& main) {
-    return std::string(glsl_source("normalise.glsl")) + main;
+    return "const int normalisation = 0;\n" + std::string(glsl_source("normalise.glsl")) + main;
 }
 
 /// The directions that a shader makes of a pixel's place: x and y run over a face, six rows after
