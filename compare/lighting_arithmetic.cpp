@@ -196,7 +196,9 @@ std::string_view name_of(ColorTerm term) {
 }
 
 Intervals foreseen_color(const ColorModel& model, const LightingInputs& claimed) {
-    return color_of(model.arithmetic, claimed, ways_of(model.arithmetic));
+    Intervals color = color_of(model.arithmetic, claimed, ways_of(model.arithmetic));
+    for (Interval& channel : color) channel = widened(channel, v); // a claim is read as floats
+    return color;
 }
 
 Intervals color_bound(const ColorModel& model, const LightingInputs& truth,

@@ -167,8 +167,8 @@ Shading PointShader::terms(std::size_t lane) const {
     const Look& look = looks_[lane];
     const Summands sum = summands(lane);
     return {.normal = lanes_.normal.at(lane),
-            .bumped = lanes_.bumped.at(lane),
             .tangent = tangent(lane),
+            .bumped = lanes_.bumped.at(lane),
             .to_light = lanes_.to_light.at(lane),
             .half = lanes_.half.at(lane),
             .self_shadow_light = lanes_.self_shadow_light[lane],
