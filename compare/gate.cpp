@@ -61,7 +61,9 @@ CausePixels pixels_allowed(const Cell& cell, const Gate& gate) {
 }
 
 bool fails(const Cell& cell, const Gate& gate) {
-    if (!cell.error.empty() || cell.comparison.ledger.unexplained > 0) return true;
+    const Comparison& comparison = cell.comparison;
+    if (!cell.error.empty() || comparison.ledger.unexplained > 0) return true;
+    if (comparison.colors && comparison.colors->unforeseen > 0) return true;
     const CausePixels pixels = pixels_that_fail(cell, gate);
     return std::any_of(pixels.begin(), pixels.end(), [](std::uint64_t n) { return n > 0; });
 }

@@ -246,10 +246,14 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
     LightingTables tables;
     tables.scene = &scene;
     tables.model = model;
-    for (const Material& material : scene.materials) {
-        std::optional<BumpTexels>& bumps = tables.bumps.emplace_back();
-        Image<glm::dvec2>& slopes = tables.slopes.emplace_back();
-        if (material.bump == Bump::none) continue;
+    tables.bumps.resize(scene.materials.size());
+    tables.slopes.resize(scene.materials.size());
+    // Of the materials that are drawn: an unused one may have bumps that cannot be had in the form.
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[mesh.material];
+        std::optional<BumpTexels>& bumps = tables.bumps[mesh.material];
+        Image<glm::dvec2>& slopes = tables.slopes[mesh.material];
+        if (material.bump == Bump::none || bumps) continue;
         bumps = bump_texels(scene, material, model.bump_form);
         if (bumps->form == BumpForm::height_field)
             slopes = slopes_of(scene.textures[material.bump_map], bumps->scale);

@@ -35,6 +35,7 @@ struct LightingTables {
     const Scene* scene = nullptr;
     ColorModel model;
     std::vector<std::optional<BumpTexels>> bumps; ///< a material; none where it has no bump map
+                                                  ///< or is not drawn
     std::vector<Image<glm::dvec2>> slopes;        ///< a material; where those are heights
     NormalisationCube cube;                       ///< where the model asks for one
 };

@@ -54,6 +54,9 @@ Row row_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     if (cell.comparison.ledger.unexplained > 0)
         row.causes += fmt::format("{}counter unexplained at {}", row.causes.empty() ? "" : "; ",
                                   counted(cell.comparison.ledger.unexplained, "pixel"));
+    if (cell.comparison.colors && cell.comparison.colors->unforeseen > 0)
+        row.causes += fmt::format("{}colour unexplained at {}", row.causes.empty() ? "" : "; ",
+                                  counted(cell.comparison.colors->unforeseen, "pixel"));
     if (cell.since) row.causes += "; since the baseline: " + words_of(*cell.since);
     row.first = first_words(cell);
     return row;

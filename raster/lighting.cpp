@@ -61,7 +61,8 @@ bool have_same_bumps(const Material& a, const Material& b) {
 }
 
 /// Of the materials that are drawn: an unused one may have bumps that cannot be had in the form.
-void upload_textures(const GlFunctions& gl, const Scene& scene, BumpForm form, LightingPass& pass) {
+void upload_textures(const GlFunctions& gl, const Scene& scene, const ColorModel& model,
+                     LightingPass& pass) {
     pass.decals.resize(scene.textures.size());
     pass.bumps_of.resize(scene.materials.size());
     std::vector<std::uint32_t> made_of; // the material that each of pass.bumps was made of
@@ -72,7 +73,7 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, BumpForm form, L
         });
         pass.bumps_of[run.material] = static_cast<std::size_t>(same - made_of.begin());
         if (same == made_of.end()) {
-            pass.bumps.push_back(upload_bumps(gl, scene, material, form));
+            pass.bumps.push_back(upload_bumps(gl, scene, material, model.bump_form));
             made_of.push_back(run.material);
         }
         if (material.decal == no_texture || pass.decals[material.decal].name() != 0) continue;
@@ -81,8 +82,9 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, BumpForm form, L
         pass.decals[material.decal] = upload_texels(gl, decal.texels);
     }
     pass.white = upload_texels(gl, Image<glm::vec4>(1, 1, glm::vec4(1)));
-    pass.unit_vectors = upload_cube(gl, make_normalisation_cube());
-    pass.normal_table = upload_normal_table(gl);
+    if (model.normalisation == Normalisation::cube_map)
+        pass.unit_vectors = upload_cube(gl, make_normalisation_cube());
+    if (model.bump_form == BumpForm::indexed) pass.normal_table = upload_normal_table(gl);
 }
 
 void upload_corners(const GlFunctions& gl, const Scene& scene, LightingPass& pass) {
@@ -265,7 +267,7 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
     LightingPass pass;
     upload_corners(gl, scene, pass);
     make_runs(gl, scene, pass);
-    upload_textures(gl, scene, recipe.model.bump_form, pass);
+    upload_textures(gl, scene, recipe.model, pass);
     check(gl, "uploading what lighting needs");
     for (const LightingStep& step : recipe.steps)
         pass.steps.push_back(make_step(gl, scene, transform, recipe, pass, step));
