@@ -135,7 +135,20 @@ ColorVerdict verdict_of(const Limits& limits, const glm::dvec3& claim) {
 struct RowSums {
     double squares = 0;
     std::uint64_t moved = 0;
+    std::uint64_t unforeseen = 0;
 };
+
+/// How closely pixels are looked at.
+enum class Scrutiny : std::uint8_t { band, centre };
+
+/// Rows that are looked at together. Once so many pixels of those above are beyond explanation, the
+/// verdict is beyond doubt: the others are looked at in their centres only.
+constexpr int rows_at_once = 16;
+constexpr std::uint64_t hopeless = 2048;
+
+bool is_unforeseen(ColorVerdict verdict) {
+    return verdict == ColorVerdict::unforeseen || verdict == ColorVerdict::unexplained;
+}
 
 /// Truth and claim, where they are judged; black elsewhere.
 struct JudgedColors {
@@ -143,8 +156,8 @@ struct JudgedColors {
     Image<glm::vec3>& claim;
 };
 
-RowSums check_row(const ColorJudge& judge, int y, RayShader& shader, ColorCheck& check,
-                  const JudgedColors& judged) {
+RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& shader,
+                  ColorCheck& check, const JudgedColors& judged) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
     for (int x = 0; x < check.error.width; ++x)
@@ -164,13 +177,19 @@ RowSums check_row(const ColorJudge& judge, int y, RayShader& shader, ColorCheck&
         const glm::dvec3 off = 255.0 * glm::abs(claim - truth);
         check.error.at(x, y) = static_cast<float>(std::max({off.x, off.y, off.z}));
         sums.squares += glm::dot(off, off);
-        const double share = judge.share(x, y);
-        const Limits limits = judge.limits({shadings[i], points[i].triangle}, share);
-        ColorVerdict verdict = verdict_of(limits, claim);
+        // What holds without the roundings of what is interpolated holds with them, too.
+        const InputPoint at{shadings[i], points[i].triangle};
+        ColorVerdict verdict = verdict_of(judge.limits(at, 0), claim);
         if (verdict != ColorVerdict::within) {
-            verdict = verdict_of(judge.freed(limits, x, y, share, shader), claim);
-            if (verdict == ColorVerdict::within) ++sums.moved;
+            const double share = judge.share(x, y);
+            const Limits limits = judge.limits(at, share);
+            verdict = verdict_of(limits, claim);
+            if (verdict != ColorVerdict::within && scrutiny == Scrutiny::band) {
+                verdict = verdict_of(judge.freed(limits, x, y, share, shader), claim);
+                if (verdict == ColorVerdict::within) ++sums.moved;
+            }
         }
+        sums.unforeseen += is_unforeseen(verdict) ? 1 : 0;
         check.verdict.at(x, y) = verdict;
     }
     return sums;
@@ -191,8 +210,7 @@ void count(ColorCheck& check) {
                 check.largest_y = y;
             }
             if (verdict == ColorVerdict::beyond) ++check.beyond;
-            if (verdict != ColorVerdict::unforeseen && verdict != ColorVerdict::unexplained)
-                continue;
+            if (!is_unforeseen(verdict)) continue;
             if (check.unforeseen++ > 0) continue;
             check.first_unforeseen_x = x;
             check.first_unforeseen_y = y;
@@ -221,11 +239,20 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     Image<glm::vec3> claimed(width, height);
     std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
-    parallel_for(height, tracer.threads(), [&](int y, int thread) {
-        std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
-        if (!shader) shader = std::make_unique<RayShader>(tracer);
-        rows[static_cast<std::size_t>(y)] = check_row(judge, y, *shader, check, {shown, claimed});
-    });
+    std::uint64_t unforeseen = 0;
+    for (int first = 0; first < height; first += rows_at_once) {
+        const int count = std::min(rows_at_once, height - first);
+        const Scrutiny scrutiny = unforeseen < hopeless ? Scrutiny::band : Scrutiny::centre;
+        parallel_for(count, tracer.threads(), [&](int i, int thread) {
+            std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
+            if (!shader) shader = std::make_unique<RayShader>(tracer);
+            const int y = first + i;
+            rows[static_cast<std::size_t>(y)] =
+                check_row(judge, y, scrutiny, *shader, check, {shown, claimed});
+        });
+        for (int i = 0; i < count; ++i)
+            unforeseen += rows[static_cast<std::size_t>(first + i)].unforeseen;
+    }
     count(check);
     check.perceptible = count_perceptible(shown, claimed);
     double squares = 0;

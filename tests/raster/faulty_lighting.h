@@ -13,6 +13,7 @@ namespace shadowproof::tests {
 
 struct LightingFault {
     const char* name;
+    const char* scene;                            ///< a bundled one on which it shows
     const char* technique = "bump_tangent_space"; ///< pieces are replaced in it or in the eye's
     void (*in_scene)(Scene& scene) = nullptr;
     const char* right = nullptr; ///< a piece of the shader, and what stands in its stead
@@ -21,7 +22,6 @@ struct LightingFault {
 
 std::ostream& operator<<(std::ostream& out, const LightingFault& fault);
 
-/// The first has none.
 std::span<const LightingFault> lighting_faults();
 
 /// Throws std::logic_error where the shader no longer holds the piece that is to be replaced.

@@ -141,15 +141,9 @@ protected:
 };
 
 TEST_P(FaultyLighting, shows_on_a_bundled_scene) {
-    double largest = 0;
-    for (const std::string& name : bump_lit_scenes())
-        largest = std::max(largest, difference(lit(name), draw_faulty(gpu, lit(name).scene,
-                                                                      lit(name).plan, GetParam()))
-                                        .largest);
-    if (GetParam().name == std::string("none"))
-        EXPECT_LT(largest, 1 / 255.0);
-    else
-        EXPECT_GT(largest, 4 / 255.0); // far beyond one step of 8 bits
+    const Lit& there = lit(GetParam().scene);
+    const Frame frame = draw_faulty(gpu, there.scene, there.plan, GetParam());
+    EXPECT_GT(difference(there, frame).largest, 4 / 255.0); // far beyond one step of 8 bits
 }
 
 TEST(LightingOf, a_scene_without_bump_maps_is_refused_and_says_so) {
