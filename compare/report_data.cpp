@@ -1,6 +1,7 @@
 #include "compare/report_data.h"
 
 #include "compare/blocks.h"
+#include "compare/color_picture.h"
 #include "compare/light_json.h"
 
 #include <fmt/format.h>
@@ -19,9 +20,11 @@ Json vector_json(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
 }
 
+using Blocks = std::vector<std::pair<std::string_view, std::string>>;
+
 /// A line of script that hands the viewer an object by its name: what `header` says, and blocks.
 std::string script(std::string_view function, const std::string& name, const Json& header,
-                   const std::vector<std::pair<std::string_view, std::string>>& blocks) {
+                   const Blocks& blocks) {
     std::string text = fmt::format("shadowproof.{}(\"{}\", ", function, name);
     text += header.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.back() = ',';
@@ -35,6 +38,11 @@ std::string script(std::string_view function, const std::string& name, const Jso
 /// Visibility's values are bytes already.
 std::string picture_block(const Image<Visibility>& picture) {
     return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
+}
+
+/// Three bytes a pixel: those of the .png, whose pixels a page opened from disk may not read.
+std::string picture_block(const Image<Rgb>& picture) {
+    return block("u8", 3 * picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
 }
 
 /// In bytes where a counter fits into one.
@@ -78,8 +86,10 @@ std::string scene_script(const SceneResult& scene) {
     for (const Mesh& mesh : scene.meshes)
         header["meshes"].push_back(
             {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
-    return script("scene", folder_of(scene), header,
-                  {{"visibility", picture_block(scene.truth.visibility)}});
+    Blocks blocks{{"visibility", picture_block(scene.truth.visibility)}};
+    if (!scene.color.pixels.empty())
+        blocks.emplace_back("color", picture_block(color_picture(scene.color)));
+    return script("scene", folder_of(scene), header, blocks);
 }
 
 std::string cell_script(const SceneResult& scene, const Cell& cell) {
@@ -105,25 +115,31 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
             tests.push_back(name_of(counting.caster(mesh.first_triangle).test));
     }
     const LedgerTable& ledgers = cell.ledgers;
-    return script("cell", folder_of(scene) + "/" + cell.technique, header,
-                  {{"claim", picture_block(cell.frame.claim)},
-                   {"predicted", counter_block(cell.comparison.predicted, counting)},
-                   {"read_back", counter_block(cell.frame.counter, counting)},
-                   {"faces", block(cell.frame.volumes.pixels)},
-                   {"seen", block(ledgers.seen)},
-                   {"shown", block(ledgers.shown)},
-                   {"exactness", block(ledgers.exactness)},
-                   {"ledger", block(ledgers.ledger)},
-                   {"ledger_start", block(ledgers.start)},
-                   {"ledger_counts", block(ledgers.counts)},
-                   {"ledger_exact", block(ledgers.adds_up)},
-                   {"ledger_predicted", block(ledgers.predicted)},
-                   {"crossing_face", block(ledgers.crossing_face)},
-                   {"crossing_change", block(ledgers.crossing_change)},
-                   {"crossing_status", block(ledgers.crossing_tally)},
-                   {"face", block(ledgers.face)},
-                   {"triangle", block(ledgers.triangle)},
-                   {"vertex", block(ledgers.vertex)}});
+    Blocks blocks{{"claim", picture_block(cell.frame.claim)},
+                  {"predicted", counter_block(cell.comparison.predicted, counting)},
+                  {"read_back", counter_block(cell.frame.counter, counting)},
+                  {"faces", block(cell.frame.volumes.pixels)},
+                  {"seen", block(ledgers.seen)},
+                  {"shown", block(ledgers.shown)},
+                  {"exactness", block(ledgers.exactness)},
+                  {"ledger", block(ledgers.ledger)},
+                  {"ledger_start", block(ledgers.start)},
+                  {"ledger_counts", block(ledgers.counts)},
+                  {"ledger_exact", block(ledgers.adds_up)},
+                  {"ledger_predicted", block(ledgers.predicted)},
+                  {"crossing_face", block(ledgers.crossing_face)},
+                  {"crossing_change", block(ledgers.crossing_change)},
+                  {"crossing_status", block(ledgers.crossing_tally)},
+                  {"face", block(ledgers.face)},
+                  {"triangle", block(ledgers.triangle)},
+                  {"vertex", block(ledgers.vertex)}};
+    if (cell.comparison.colors) {
+        const Image<ColorVerdict>& verdicts = cell.comparison.colors->verdict;
+        blocks.emplace_back("color", picture_block(color_picture(cell.frame.color)));
+        blocks.emplace_back("color_verdict", block("u8", verdicts.pixels.size(),
+                                                   std::as_bytes(std::span(verdicts.pixels))));
+    }
+    return script("cell", folder_of(scene) + "/" + cell.technique, header, blocks);
 }
 
 std::string results_script(const std::string& results_json) {

@@ -8,10 +8,12 @@
 
 namespace shadowproof {
 
-/// FOLDER/scene.js: camera, light, meshes and the truth, for all cells of a scene.
+/// FOLDER/scene.js: camera, light, meshes and the truth, for all cells of a scene; of bump-lit
+/// scenes with the true colours.
 std::string scene_script(const SceneResult& scene);
 
-/// FOLDER/TECHNIQUE/cell.js: claim and counters of all pixels, ledgers of those that differ.
+/// FOLDER/TECHNIQUE/cell.js: claim and counters of all pixels, ledgers of those that differ;
+/// where the technique has colours, those too, with their verdicts.
 std::string cell_script(const SceneResult& scene, const Cell& cell);
 
 /// results.js: the results as a script. Beside results.json the only file with times.

@@ -10,6 +10,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace shadowproof {
@@ -31,20 +32,19 @@ std::uint8_t dimmed_index(Visibility claim) {
     return dimmed_background;
 }
 
-/// The dimmed claim, and where it differs the colour number mark(i) of `marks`.
+/// The dimmed claim, and where mark(i) is a number that colour of `marks`.
 template <class Colors, class ColorOf, class Mark>
 PalettePicture marked(const Cell& cell, const Colors& marks, ColorOf color_of, Mark mark) {
     const Image<Visibility>& claim = cell.frame.claim;
-    const Image<std::uint8_t>& cause = cell.comparison.cause;
     PalettePicture picture{
         Image<std::uint8_t>(claim.width, claim.height),
         {dimmed(Visibility::lit), dimmed(Visibility::shadowed), dimmed(Visibility::background)}};
     for (const auto& each : marks) picture.palette.push_back(color_of(each));
-    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i)
-        picture.indices.pixels[i] =
-            cause.pixels[i] == no_difference
-                ? dimmed_index(claim.pixels[i])
-                : static_cast<std::uint8_t>(dimmed_count + static_cast<int>(mark(i)));
+    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
+        const std::optional<int> number = mark(i);
+        picture.indices.pixels[i] = number ? static_cast<std::uint8_t>(dimmed_count + *number)
+                                           : dimmed_index(claim.pixels[i]);
+    }
     return picture;
 }
 
@@ -100,15 +100,21 @@ std::string color_path(const SceneResult& scene) {
 PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell) {
     return marked(
         cell, all_contradictions, [](const ContradictionWords& words) { return words.color; },
-        [&](std::size_t i) {
-            return contradiction(truth.visibility.pixels[i], cell.frame.claim.pixels[i]);
+        [&](std::size_t i) -> std::optional<int> {
+            const Visibility right = truth.visibility.pixels[i];
+            const Visibility claim = cell.frame.claim.pixels[i];
+            if (right == claim) return std::nullopt; // though colours may differ
+            return static_cast<int>(contradiction(right, claim));
         });
 }
 
 PalettePicture cause_picture(const Cell& cell) {
     return marked(
         cell, cause_colors, [](const Rgb& color) { return color; },
-        [&](std::size_t i) { return cell.comparison.cause.pixels[i]; });
+        [&](std::size_t i) -> std::optional<int> {
+            const std::uint8_t cause = cell.comparison.cause.pixels[i];
+            return cause == no_difference ? std::nullopt : std::optional<int>(cause);
+        });
 }
 
 PalettePicture volume_picture(const Cell& cell) {

@@ -9,7 +9,7 @@
 
 namespace shadowproof {
 
-/// The dimmed claim with each differing pixel in the colour of its contradiction.
+/// The dimmed claim with each pixel that contradicts the truth in the colour of its contradiction.
 PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell);
 
 /// The dimmed claim with each differing pixel in the colour of its cause.

@@ -5,14 +5,15 @@ const viewTitles = { side: 'Side by side', slide: 'Slide', blend: 'Blend', toggl
 
 /** What the cell's page shows of it: all that a link restores. */
 function lookOf(params, opened) {
-  const of = (params.get('of') ?? '').split(',').filter((name) => pictureNames.includes(name));
+  const names = picturesOf(opened.cell);
+  const of = (params.get('of') ?? '').split(',').filter((name) => names.includes(name));
   const pixel = pairOf(params.get('pixel'));
   const first = opened.cell.first ? [opened.cell.first.x, opened.cell.first.y] : null;
   const zoom = Number(params.get('zoom')) || null;
   const shown = pixel && isInside(pixel, opened) ? pixel.map(Math.floor) : first;
   return {
     view: views.includes(params.get('view')) ? params.get('view') : 'side',
-    of: of.length === 2 ? of : ['truth', 'claim'],
+    of: of.length === 2 ? of : comparedFirst(opened.cell),
     at: params.has('at') ? Math.min(1, Math.max(0, Number(params.get('at')) || 0)) : 0.5,
     flipped: params.get('flipped') === '1',
     zoom,
@@ -50,7 +51,7 @@ function pictureChoice(page, side, label) {
   return element('label', {}, `${label} `, element('select', {
     id: `choose-${side}`,
     onchange: (event) => { page.look.of[side] = event.target.value; page.update(); },
-  }, pictureNames.map((name) => element('option', {
+  }, picturesOf(page.opened.cell).map((name) => element('option', {
     value: name, selected: page.look.of[side] === name }, pictureTitles[name]))));
 }
 
@@ -130,7 +131,8 @@ function hoverWords(opened, point) {
   const claim = opened.claim ? visibilityNames[opened.claim[pixel]] : 'unknown';
   const cause = opened.causes && opened.causes[pixel] !== noDifference
     ? `, ${received.legend.causes[opened.causes[pixel]].name}` : '';
-  return `(${x}, ${y})  truth ${truth}, claim ${claim}${cause}`;
+  const colors = opened.cell.color ? `; ${colorWords(opened, pixel)}` : '';
+  return `(${x}, ${y})  truth ${truth}, claim ${claim}${cause}${colors}`;
 }
 
 function causeRows(page) {
@@ -200,6 +202,7 @@ const legends = (page) => element('div', { class: 'legends' },
   legendTable('Why pixels differ', ['Cause', 'Pixels', 'Meaning'], causeRows(page)),
   legendTable('How the claim contradicts', ['Difference', 'Pixels', 'Meaning'],
               contradictionRows(page.opened)),
+  legendTable('Colour error', ['Colour', 'Pixels', 'Meaning'], colorErrorRows(page.opened.cell)),
   legendTable('Values', ['Class', 'Truth', 'Claim'], valueRows(page.opened)),
   legendTable('Counter', ['Value', 'Predicted', 'Read back'], counterRows(page.opened)));
 
@@ -236,9 +239,10 @@ function howMade(results, { scene, cell }) {
     madeWith(results));
 }
 
-/** What must be said before any picture: damage, blank truth, unexplained counters. */
-function warnings({ scene, cell, problems }) {
-  const said = [...problems];
+/** What must be said before any picture: damage, blank truth, unexplained counters and colours. */
+function warnings(opened) {
+  const { scene, cell, problems } = opened;
+  const said = [unforeseenWords(opened), ...problems].filter(Boolean);
   if (scene.reference && scene.reference.lit + scene.reference.shadowed === 0)
     said.unshift('The truth is blank: no pixel sees a surface.');
   if (cell.ledger?.unexplained > 0) {
@@ -269,5 +273,6 @@ function cellHead(results, scene, cell) {
     cell.error ? null : element('p', {},
       element('b', {}, `${grouped(cell.differing)} of ${counted(cell.pixels, 'pixel')} differ. `),
       reasonOf(cell)),
+    colorLine(scene, cell) ?? '',
     sinceLine(scene, cell) ?? '');
 }

@@ -42,7 +42,7 @@ function makePage(opened, pictures, look) {
     page.compare.replaceChildren(compareControls(page) ?? '');
     page.stage.className = look.view === 'side' ? 'stage side' : 'stage';
     page.stage.replaceChildren(...(look.view === 'side'
-      ? pictureNames.map((name) => pane(page, name)) : [pane(page, null)]));
+      ? picturesOf(opened.cell).map((name) => pane(page, name)) : [pane(page, null)]));
     if (focused) found(focused)?.focus();
     page.repaint();
   };
@@ -69,8 +69,8 @@ function makePage(opened, pictures, look) {
     page.update();
   };
   page.choose = (side) => {
-    const next = (pictureNames.indexOf(look.of[side]) + 1) % pictureNames.length;
-    look.of[side] = pictureNames[next];
+    const names = picturesOf(opened.cell);
+    look.of[side] = names[(names.indexOf(look.of[side]) + 1) % names.length];
     page.update();
     announce(pictureTitles[look.of[side]]);
   };

@@ -144,6 +144,7 @@ function differingPixel(page, record) {
   return [
     verdictLine(record.truth, technique.claim, technique.cause),
     element('p', { class: 'why' }, `${technique.cause}: ${causeLegend(technique.cause).meaning}.`),
+    ...pixelColors(page.opened, record.y * page.opened.width + record.x),
     element('div', { id: 'cutaway', class: 'scroll', tabindex: '0', role: 'region',
                      'aria-label': 'Side view along the eye ray' }),
     element('div', { class: 'ledger-head' }, element('h3', { id: 'ledger-title' }, 'Ledger'),
@@ -165,8 +166,10 @@ function otherPixel({ opened }, pixel) {
   const counters = predicted && readBack;
   return [
     verdictLine(truth, said, null),
-    agrees ? element('p', { class: 'why' }, 'Truth and claim agree here.')
+    agrees ? element('p', { class: 'why' }, isUnforeseen(opened.colorVerdict?.[pixel])
+      ? 'Truth and claim agree here on visibility.' : 'Truth and claim agree here.')
            : alertLine('Truth and claim differ here, and the results have no cause for it.'),
+    ...pixelColors(opened, pixel),
     counters ? element('p', { class: predicted[pixel] === readBack[pixel] ? 'counter'
                                                                           : 'counter unequal' },
       'Stored counter: predicted ',
@@ -185,7 +188,8 @@ function pixelBody(page, x, y) {
   try {
     return differingPixel(page, pixelRecord(opened, x, y));
   } catch (error) {
-    return [alertLine(`This pixel differs, and its ledger cannot be shown: ${error.message}.`)];
+    return [alertLine(`This pixel differs, and its ledger cannot be shown: ${error.message}.`),
+            ...pixelColors(opened, pixel)];
   }
 }
 

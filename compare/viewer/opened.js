@@ -78,6 +78,19 @@ const lengthsOfCell = (pixels, n) => ({
   face: null, triangle: null, vertex: null,
 });
 
+/** The blocks of the colours, of cells that have some; their damage costs no ledger. */
+async function openColors({ scene, cell, id, sceneFile, cellFile, problems }) {
+  if (!cell.color) return {};
+  const pixels = scene.width * scene.height;
+  const [truth, claim] = await Promise.all([
+    sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
+                               { color: 3 * pixels }, problems),
+    cellFile && decodedBlocks(`${id}/cell.js`, cellFile.blocks,
+                              { color: 3 * pixels, color_verdict: pixels }, problems)]);
+  return { trueColor: truth?.color ?? null, claimedColor: claim?.color ?? null,
+           colorVerdict: claim?.color_verdict ?? null };
+}
+
 async function openCell(scene, cell) {
   const problems = [];
   const id = `${scene.folder}/${cell.name}`;
@@ -101,8 +114,10 @@ async function openCell(scene, cell) {
     faces: blocks?.faces ?? null,
     blocks,
     bits: cellFile?.counting?.bits ?? 8,
+    ...await openColors({ scene, cell, id, sceneFile, cellFile, problems }),
   };
   if (opened.visibility) checkTruth(opened);
   if (causes) checkCell(opened);
+  if (opened.colorVerdict) checkColors(opened);
   return opened;
 }

@@ -1,11 +1,22 @@
-// The pictures of a cell: seven panes that zoom and pan as one, or two in one pane that slide, blend
-// or toggle. A pane is a canvas that shows the picture's pixels as they are, by nearest sampling.
+// The pictures of a cell: seven panes, and three of colours where the technique has some, that zoom
+// and pan as one, or two in one pane that slide, blend or toggle. A pane is a canvas that shows the
+// picture's pixels as they are, by nearest sampling.
 
 const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back',
                       'volumes'];
-const pictureTitles = { truth: 'Truth', claim: 'Claim', difference: 'Difference', cause: 'Cause',
-                        predicted: 'Counter predicted', read_back: 'Counter read back',
-                        volumes: 'Volumes' };
+const colorPictureNames = ['true_color', 'claimed_color', 'color_error'];
+const pictureTitles = { true_color: 'True colour', claimed_color: 'Claimed colour',
+                        color_error: 'Colour error', truth: 'Truth', claim: 'Claim',
+                        difference: 'Difference', cause: 'Cause', predicted: 'Counter predicted',
+                        read_back: 'Counter read back', volumes: 'Volumes' };
+
+/** The names of a cell's pictures, colours first. */
+const picturesOf = (cell) => [...(cell.color ? colorPictureNames : []), ...pictureNames];
+
+/** The two that are compared until others are chosen. */
+const comparedFirst = (cell) =>
+  (cell.color ? ['true_color', 'claimed_color'] : ['truth', 'claim']);
+
 const zooms = [0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
 const valueNames = { 0: 'none', 64: 'dark', 255: 'lit' };
 
@@ -46,8 +57,13 @@ function counterPicture(values, width, height, bits) {
 
 /** What a picture says of one pixel, in a word that fits into it. */
 function pixelWord(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack, faces } = opened;
+  const { visibility, claim, causes, predicted, readBack, faces, trueColor, claimedColor,
+          colorVerdict } = opened;
   switch (name) {
+  case 'true_color': return trueColor ? bytesAt(trueColor, pixel).join(' ') : '';
+  case 'claimed_color': return claimedColor ? bytesAt(claimedColor, pixel).join(' ') : '';
+  case 'color_error': return !colorVerdict || colorVerdict[pixel] < colorBeyond ? ''
+    : isUnforeseen(colorVerdict[pixel]) ? 'unforeseen' : 'beyond';
   case 'truth': return visibility ? valueNames[visibility[pixel]] : '';
   case 'claim': return claim ? valueNames[claim[pixel]] : '';
   case 'predicted': return predicted ? String(predicted[pixel]) : '';
@@ -65,8 +81,13 @@ const colorBytes = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at 
 
 /** Black or white, whichever is read on the pixel's own colour. */
 function pixelInk(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack, faces, bits } = opened;
+  const { visibility, claim, causes, predicted, readBack, faces, bits, trueColor, claimedColor,
+          colorVerdict } = opened;
   const colors = {
+    true_color: () => bytesAt(trueColor, pixel),
+    claimed_color: () => bytesAt(claimedColor, pixel),
+    color_error: () => colorBytes(
+      causeLegend(isUnforeseen(colorVerdict[pixel]) ? 'unexplained' : 'shading').color),
     truth: () => [visibility[pixel], visibility[pixel], visibility[pixel]],
     claim: () => [claim[pixel], claim[pixel], claim[pixel]],
     predicted: () => counterColor(asCount(predicted[pixel], bits)),
@@ -81,11 +102,13 @@ function pixelInk(opened, name, pixel) {
 
 async function loadedPictures(opened) {
   const { scene, cell, width, height } = opened;
-  const paths = { truth: scene.images?.truth, ...cell.images };
+  const paths = { ...cell.images, truth: scene.images?.truth, true_color: scene.images?.color,
+                  claimed_color: cell.images?.color };
   const pictures = {};
-  await Promise.all(['truth', 'claim', 'difference', 'cause', 'volumes'].map(async (name) => {
+  const fromFiles = picturesOf(cell).filter((name) => !['predicted', 'read_back'].includes(name));
+  await Promise.all(fromFiles.map(async (name) => {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
-                                 : { problem: `the results name no picture of the ${name}` };
+      : { problem: `the results name no picture of the ${pictureTitles[name].toLowerCase()}` };
   }));
   for (const [name, values] of [['predicted', opened.predicted], ['read_back', opened.readBack]])
     pictures[name] = values ? { image: counterPicture(values, width, height, opened.bits) }

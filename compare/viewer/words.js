@@ -41,6 +41,10 @@ function reasonOf(cell) {
   const said = [];
   if (counters > 0)
     said.push(`The counter read back is not the one predicted at ${counted(counters, 'pixel')}`);
+  const colors = cell.color?.unforeseen ?? 0;
+  if (colors > 0)
+    said.push(`The colour is not what the technique’s arithmetic foresees at ` +
+              counted(colors, 'pixel'));
   if (worst && worst[0] !== 'edge')
     said.push(`${worst[0]} at ${counted(worst[1], 'pixel')}: ${causeLegend(worst[0]).meaning}`);
   if (said.length === 0)

@@ -1,0 +1,98 @@
+// Colours, of cells whose technique lights bump maps: how far off they are, and what one pixel has.
+// The bytes are those of the pictures; the figures are of linear light, in steps of 1/255.
+
+/** By the values of the block color_verdict. */
+const colorVerdictWords = [
+  'not judged, as surface or visibility are not the truth’s',
+  'within the bound of what rounding explains',
+  'beyond the bound of what rounding explains, as the technique’s arithmetic foresees',
+  'not what the technique’s arithmetic foresees',
+  'beyond the bound of what rounding explains, and not what the technique’s arithmetic foresees',
+];
+const colorBeyond = 2;
+const isUnforeseen = (verdict) => verdict > colorBeyond;
+
+/** "0.03", "24": steps of 1/255 where there is room for few digits. */
+const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
+
+const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pixel + 3));
+
+function modelWords({ normalise, bumps }) {
+  return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}`}, ` +
+    `bumps as ${bumps === 'as-given' ? 'given' : bumps}`;
+}
+
+/** How far the colours of a cell are off; null where it has none. */
+function colorLine(scene, cell) {
+  const { color } = cell;
+  if (!color) return null;
+  const { largest, largest_at: at, rmse, p999, perceptible } = color;
+  const told = perceptible === 0 ? 'no pixel' : counted(perceptible, 'pixel');
+  return element('p', { class: 'colors' }, element('b', {}, 'Colours: '),
+    !at ? 'none is judged, as surface or visibility are nowhere the truth’s; '
+        : [`off by at most ${largest.toFixed(2)}/255 at `,
+           element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
+                   `(${at.x}, ${at.y})`),
+           `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}, ` +
+           `${told} a person would tell apart; `],
+    `${modelWords(color)}.`);
+}
+
+/** The alarm where colours are not as foreseen; null where they are. */
+function unforeseenWords({ cell, colorVerdict, width }) {
+  const count = cell.color?.unforeseen ?? 0;
+  if (count === 0) return null;
+  const first = colorVerdict ? colorVerdict.findIndex(isUnforeseen) : -1;
+  return `The colour is not what the technique’s arithmetic foresees at ${counted(count, 'pixel')}` +
+    `${first < 0 ? '' : `; the first is (${first % width}, ${Math.floor(first / width)})`}.`;
+}
+
+/** Files of two runs must not be taken for one. */
+function checkColors({ cell, id, colorVerdict, problems }) {
+  const counts = tallied(colorVerdict);
+  const { judged, beyond, unforeseen } = cell.color;
+  if (colorVerdict.length - counts[0] !== judged || counts[colorBeyond] !== beyond ||
+      counts[3] + counts[4] !== unforeseen)
+    problems.push(`${id}/cell.js does not belong to results.js: ` +
+                  'its colours were judged otherwise there');
+}
+
+/** The colours of a pixel in a few words: "true colour 12 34 56, claimed 12 34 57". */
+function colorWords({ trueColor, claimedColor }, pixel) {
+  const words = (colors) => (colors ? bytesAt(colors, pixel).join(' ') : 'unknown');
+  return `true colour ${words(trueColor)}, claimed ${words(claimedColor)}`;
+}
+
+/** True and claimed colour of a pixel, their difference, and how it is judged. */
+function pixelColors({ cell, trueColor, claimedColor, colorVerdict }, pixel) {
+  if (!cell.color) return [];
+  if (!trueColor || !claimedColor) return [alertLine('The colours cannot be shown.')];
+  const right = bytesAt(trueColor, pixel);
+  const claimed = bytesAt(claimedColor, pixel);
+  const verdict = colorVerdict?.[pixel];
+  const judged = colorVerdictWords[verdict];
+  return [
+    element('p', { class: 'values colors' },
+      valueChip('true colour', right.join(' '), `rgb(${right})`),
+      valueChip('claimed', claimed.join(' '), `rgb(${claimed})`),
+      element('span', { class: 'value' }, 'difference ',
+              element('b', {}, claimed.map((byte, i) => signed(byte - right[i])).join(' ')))),
+    element('p', { class: isUnforeseen(verdict) ? 'counter unequal' : 'quiet' },
+      `8-bit sRGB, as the pictures have them${judged ? `. In linear light ${judged}` : ''}.`)];
+}
+
+/** What the shades of the colour error mean, with the pixels of each kind. */
+function colorErrorRows({ color }) {
+  if (!color) return [];
+  const row = (name, mark, pixels, meaning) => (pixels === 0 ? null : element('tr', {},
+    element('th', { scope: 'row' }, swatch(mark), name),
+    element('td', { class: 'number' }, grouped(pixels)), element('td', {}, meaning)));
+  return [
+    row('within', 'linear-gradient(90deg, #000000, #fff4c8)',
+        color.judged - color.beyond - color.unforeseen,
+        'what rounding explains; the lighter, the further off'),
+    row('beyond', causeLegend('shading').color, color.beyond,
+        'what rounding explains, as the technique’s arithmetic foresees'),
+    row('unforeseen', causeLegend('unexplained').color, color.unforeseen,
+        'by the technique’s arithmetic')];
+}
