@@ -155,6 +155,8 @@ function matrixEntry(scene, cell, filter, compact) {
       element('b', {}, mark,
               compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
       element('span', {}, why || ' '),
+      cell.color && !compact
+        ? element('span', {}, `colour ${fewSteps(cell.color.largest)}/255`) : null,
       since ? element('span', { class: 'since' }, `Δ ${since}`) : null,
       element('i', { class: 'unseen' }, `, ${scene.name}, ${cell.name}`)));
 }
