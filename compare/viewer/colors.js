@@ -75,10 +75,10 @@ function pixelColors({ cell, trueColor, claimedColor, colorVerdict }, pixel) {
     element('p', { class: 'values colors' },
       valueChip('true colour', right.join(' '), `rgb(${right})`),
       valueChip('claimed', claimed.join(' '), `rgb(${claimed})`),
-      element('span', { class: 'value' }, 'difference ',
+      element('span', { class: 'value' }, 'off by ',
               element('b', {}, claimed.map((byte, i) => signed(byte - right[i])).join(' ')))),
     element('p', { class: isUnforeseen(verdict) ? 'counter unequal' : 'quiet' },
-      `8-bit sRGB, as the pictures have them${judged ? `. In linear light ${judged}` : ''}.`)];
+      `8-bit sRGB, as the pictures have them${judged ? `. In linear light: ${judged}` : ''}.`)];
 }
 
 /** What the shades of the colour error mean, with the pixels of each kind. */

@@ -149,14 +149,14 @@ function matrixEntry(scene, cell, filter, compact) {
   const beyond = beyondEdges(cell);
   const pixels = beyond || cell.differing || 0;
   const why = pixels > 0 ? `${grouped(pixels)}${compact ? '' : ` ${worst[0]}`}` : '';
+  const color = cell.color && !compact ? `colour ${fewSteps(cell.color.largest)}/255` : '';
   const since = sinceWords(cell);
   return element('td', { class: `${verdict}${isFailing(cell) ? ' failing' : ''}` },
     element('a', { href: cellLink(scene, cell), title: `${scene.name} / ${cell.name}: ${words}` },
       element('b', {}, mark,
               compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
-      element('span', {}, why || ' '),
-      cell.color && !compact
-        ? element('span', {}, `colour ${fewSteps(cell.color.largest)}/255`) : null,
+      element('span', {}, why || color || ' '),
+      why && color ? element('span', {}, color) : null,
       since ? element('span', { class: 'since' }, `Δ ${since}`) : null,
       element('i', { class: 'unseen' }, `, ${scene.name}, ${cell.name}`)));
 }

@@ -187,7 +187,7 @@ function paintGrid(context, view) {
 function paintWord(context, view, word, x, y) {
   const lines = word.split(/[_ ]/);
   const longest = Math.max(3, ...lines.map((line) => line.length));
-  const size = Math.min(13, view.zoom * 0.88 / (0.64 * longest), view.zoom * 0.8 / lines.length);
+  const size = Math.min(13, view.zoom * 0.88 / (0.64 * longest), view.zoom * 0.74 / lines.length);
   if (size < 6) return;
   context.font = `600 ${size * view.ratio}px system-ui, sans-serif`;
   lines.forEach((line, i) => context.fillText(line, view.toX(x + 0.5),

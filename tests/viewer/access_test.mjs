@@ -10,6 +10,8 @@ const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 
 let folder;
 let failing;
+let colors;
+let unforeseen;
 before(() => {
   folder = writeReport('report', ['near_plane', 'far_plane']);
   failing = copyOfReport(folder, 'failing');
@@ -22,6 +24,13 @@ before(() => {
   results.scenes[1].techniques[4] = { name: 'zfail_reversed', error: 'no glClipControl', fails: true };
   results.scenes.push({ name: 'torn', file: 'torn.gltf', error: 'torn.gltf: ends early' });
   writeFileSync(join(failing, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+  colors = writeReport('colors', ['bumpy_torus'], undefined, ['bump_three_pass']);
+  unforeseen = copyOfReport(colors, 'unforeseen');
+  const strange = resultsOf(unforeseen);
+  const [cell] = strange.scenes[0].techniques;
+  Object.assign(cell, { verdict: 'unexplained', fails: true });
+  cell.color.unforeseen = 7;
+  writeFileSync(join(unforeseen, 'results.js'), `shadowproof.results(${JSON.stringify(strange)});`);
 });
 
 /** In words: the rule, and the elements that break it. */
@@ -43,6 +52,10 @@ const states = [
   ['toggle', () => folder, '#near_plane/zpass?view=toggle&zoom=32'],
   ['cell that could not run', () => failing, '#far_plane/zfail_reversed'],
   ['unexplained cell', () => failing, '#near_plane/zpass'],
+  ['overview of colours', () => colors, ''],
+  ['colours', () => colors, '#bumpy_torus/bump_three_pass'],
+  ['compared colours', () => colors, '#bumpy_torus/bump_three_pass?view=blend'],
+  ['unforeseen colours', () => unforeseen, '#bumpy_torus/bump_three_pass?pixel=80,120'],
 ];
 
 for (const theme of ['light', 'dark'])

@@ -1,0 +1,231 @@
+// Colours: where a technique has some, its cell shows and tells them; other cells show nothing new.
+import assert from 'node:assert/strict';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { before, test } from 'node:test';
+import { deflateSync, inflateSync } from 'node:zlib';
+import { cellsOf, copyOfReport, emptyPage, keepScreenshot, openReport, resultsOf, settledLink, shown,
+         text, writeReport } from './browser.mjs';
+import { randomNumbers, seed } from './random.mjs';
+
+const techniques = ['bump_three_pass', 'bump_tangent_space', 'zfail_reversed'];
+const colorPanes = ['true_color', 'claimed_color', 'color_error'];
+const otherPanes = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back', 'volumes'];
+const link = '#bumpy_torus/bump_three_pass';
+const cellFile = 'bumpy_torus/bump_three_pass/cell.js';
+
+let folder;
+let cells;
+let copies = 0;
+before(() => {
+  folder = writeReport('report', ['bumpy_torus'], undefined, techniques);
+  cells = cellsOf(resultsOf(folder));
+});
+
+const cellOf = (name) => cells.find(({ cell }) => cell.name === name).cell;
+const panes = (page) => page.locator('canvas.pane').evaluateAll((all) =>
+  all.map((canvas) => canvas.dataset.picture));
+const alerts = async (page) => (await page.locator('.alert, .broken').allInnerTexts()).join('\n');
+const plain = (words) => words.replace(/\s+/g, ' ').trim();
+
+/** A copy of the report after `damage(path)` was done to it, opened at the cell with colours. */
+async function opened(damage, hash = link) {
+  const copy = copyOfReport(folder, `copy-${++copies}`);
+  damage((path) => join(copy, path));
+  return openReport(copy, { hash });
+}
+
+/** Changes a block of a cell's script: `change` gets its bytes. */
+function changeBlock(path, name, change) {
+  const old = readFileSync(path, 'utf8');
+  const block = new RegExp(`("${name}":\\s*\\{[^}]*"data":\\s*")([^"]*)`);
+  const bytes = inflateSync(Buffer.from(block.exec(old)[2], 'base64'));
+  change(bytes);
+  writeFileSync(path, old.replace(block, `$1${deflateSync(bytes).toString('base64')}`));
+}
+
+function changeResults(path, change) {
+  const results = JSON.parse(readFileSync(path('results.json'), 'utf8'));
+  change(results.scenes[0].techniques[0], results);
+  writeFileSync(path('results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+}
+
+/** [red, green, blue] of every pixel of a PNG, as the browser decodes it. */
+async function pixelsOf(page, path) {
+  const bytes = await page.evaluate(async (url) => {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    Object.assign(canvas, { width: image.naturalWidth, height: image.naturalHeight });
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(0, 0, canvas.width, canvas.height).data];
+  }, `data:image/png;base64,${readFileSync(join(folder, path)).toString('base64')}`);
+  return Array.from({ length: bytes.length / 4 }, (_, i) => bytes.slice(4 * i, 4 * i + 3));
+}
+
+test('a cell with colours shows them before its other pictures', async () => {
+  const { page, open, said, asked } = await openReport(folder, { hash: link });
+  assert.deepEqual(await panes(page), [...colorPanes, ...otherPanes]);
+  assert.deepEqual((await page.locator('figcaption').allInnerTexts()).slice(0, 3),
+                   ['True colour', 'Claimed colour', 'Colour error']);
+  await keepScreenshot(page, 'colors', { fullPage: true });
+  await open(`${link}?zoom=48`);
+  await keepScreenshot(page, 'colors-zoom');
+  assert.deepEqual(said, []);
+  assert.deepEqual(asked, []);
+});
+
+test('a cell without colours shows nothing new, though its scene has some', async () => {
+  const { page, said } = await openReport(folder, { hash: '#bumpy_torus/zfail_reversed?pixel=80,80' });
+  assert.deepEqual(await panes(page), otherPanes);
+  assert.doesNotMatch(await text(page, 'main'), /colour/i);
+  await page.locator('#view-slide').click();
+  assert.doesNotMatch(await text(page, '#choose-0'), /colour/i);
+  assert.equal(await text(page, '.stage figcaption'), 'Truth | Claim');
+  await keepScreenshot(page, 'no-colors', { fullPage: true });
+  assert.deepEqual(said, []);
+});
+
+test(`the inspector has the bytes of both pictures (seed ${seed})`, async () => {
+  const random = randomNumbers(seed);
+  const decoder = await emptyPage();
+  const { page, open, said } = await openReport(folder);
+  for (const { id, scene, cell } of cells.filter((each) => each.cell.color)) {
+    const right = await pixelsOf(decoder, scene.images.color);
+    const claimed = await pixelsOf(decoder, cell.images.color);
+    const { x, y } = cell.color.largest_at;
+    const pixels = [y * scene.width + x, ...Array.from({ length: 8 },
+                                                       () => Math.floor(random() * right.length))];
+    for (const pixel of pixels) {
+      await open(`#${id}?pixel=${pixel % scene.width},${Math.floor(pixel / scene.width)}`);
+      const off = claimed[pixel].map((byte, i) => byte - right[pixel][i])
+        .map((by) => (by > 0 ? `+${by}` : String(by)));
+      assert.equal(plain(await text(page, '.values.colors')),
+                   `true colour ${right[pixel].join(' ')} claimed ${claimed[pixel].join(' ')} ` +
+                   `off by ${off.join(' ')}`);
+      assert.match(await text(page, '.inspector'), /8-bit sRGB, as the pictures have them\. In linear light: /);
+    }
+  }
+  assert.deepEqual(said, []);
+});
+
+test('the cell tells how far its colours are off, with a link to the pixel that is furthest', async () => {
+  const { page } = await openReport(folder, { hash: link });
+  const { color } = cellOf('bump_three_pass');
+  const { x, y } = color.largest_at;
+  const words = plain(await text(page, '.cell-head .colors'));
+  assert.ok(words.startsWith(`Colours: off by at most ${color.largest.toFixed(2)}/255 at (${x}, ${y}), ` +
+                             `rmse ${color.rmse.toFixed(2)}, 99.9 % within ${color.p999.toFixed(2)}, `));
+  assert.match(words, /(no pixel|[\d,]+ pixels?) a person would tell apart; normalised by cube-map, bumps as normal-map\.$/);
+  await page.locator('.cell-head .colors a').focus();
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => location.hash.includes('zoom=16'));
+  await shown(page);
+  assert.equal(await text(page, '.inspector h2'), `Pixel (${x}, ${y})`);
+});
+
+test('the arithmetic’s forms that are exact are told in words', async () => {
+  const { page } = await openReport(folder, { hash: '#bumpy_torus/bump_tangent_space' });
+  assert.match(await text(page, '.cell-head .colors'), /normalised exactly, bumps as given\.$/);
+});
+
+test('where no colour is judged, none is said to be right', async () => {
+  const { page } = await opened((path) => changeResults(path, ({ color }) => {
+    Object.assign(color, { judged: 0, largest: 0, rmse: 0, p999: 0, beyond: 0 });
+    delete color.largest_at;
+  }));
+  assert.match(await text(page, '.cell-head .colors'), /^Colours: none is judged/);
+});
+
+test('slide, blend and toggle compare the true with the claimed colour; keys choose others', async () => {
+  const { page, said } = await openReport(folder, { hash: link });
+  for (const [key, caption] of [['2', 'True colour | Claimed colour'],
+                                ['3', 'True colour, then Claimed colour'], ['4', 'True colour']]) {
+    await page.keyboard.press(key);
+    assert.equal(await text(page, '.stage figcaption'), caption);
+  }
+  await page.keyboard.press('x');
+  assert.equal(await text(page, '.stage figcaption'), 'Claimed colour');
+  await page.keyboard.press('b');
+  assert.equal(await text(page, '.stage figcaption'), 'Colour error');
+  await page.keyboard.press('b');
+  assert.equal(await text(page, '.stage figcaption'), 'Truth');
+  assert.match(await settledLink(page), /of=true_color,truth/);
+  assert.deepEqual(said, []);
+});
+
+test('the overview has the largest error of each cell with colours', async () => {
+  const { page } = await openReport(folder);
+  const entry = (name) => text(page, `.matrix a[href="#bumpy_torus/${name}"]`);
+  assert.ok((await entry('bump_three_pass'))
+    .includes(`colour ${cellOf('bump_three_pass').color.largest.toFixed(0)}/255`));
+  assert.ok((await entry('bump_tangent_space'))
+    .includes(`colour ${cellOf('bump_tangent_space').color.largest.toFixed(2)}/255`));
+  assert.doesNotMatch(await entry('zfail_reversed'), /colour/);
+});
+
+test('the difference marks nothing where colours alone differ; the cause does', async () => {
+  const { cell } = cells[0];
+  const decoder = await emptyPage();
+  const difference = await pixelsOf(decoder, cell.images.difference);
+  const causes = await pixelsOf(decoder, cell.images.cause);
+  const shading = [...causes.keys()].filter((i) => causes[i].every((byte) => byte === 255)); // white
+  assert.equal(shading.length, cell.causes.shading);
+  const dimmed = ['88,88,92', '40,40,44']; // a claim of light, and one of shadow
+  assert.ok(shading.every((i) => dimmed.includes(difference[i].join())));
+});
+
+test('a colour that nothing foresees is an alarm, and its pixel does not simply agree', async () => {
+  const changed = (path) => {
+    changeBlock(path('bumpy_torus/bump_tangent_space/cell.js'), 'color_verdict',
+                (verdicts) => { verdicts[120 * 160 + 80] = 3; });
+    changeResults(path, (first, results) => {
+      const cell = results.scenes[0].techniques.find(({ name }) => name === 'bump_tangent_space');
+      Object.assign(cell, { verdict: 'unexplained', fails: true });
+      cell.color.unforeseen = 1;
+    });
+  };
+  const { page, open } = await opened(changed, '');
+  const words = /The colour is not what the technique’s arithmetic foresees at 1 pixel/;
+  assert.match(await text(page, '.failures'), words);
+  await open('#bumpy_torus/bump_tangent_space?pixel=80,120');
+  assert.match(await alerts(page), new RegExp(`${words.source}; the first is \\(80, 120\\)\\.`));
+  assert.doesNotMatch(await alerts(page), /does not belong/);
+  const inspector = await text(page, '.inspector');
+  assert.match(inspector, /agree here on visibility\./);
+  assert.match(inspector, /not what the technique’s arithmetic foresees\./);
+  assert.match(await text(page, '.legends'), /unforeseen\s+1\s/);
+});
+
+for (const path of ['bumpy_torus/color.png', 'bumpy_torus/bump_three_pass/color.png',
+                    'bumpy_torus/bump_three_pass/color_error.png'])
+  test(`a picture that is missing is named: ${path}`, async () => {
+    const { page } = await opened((file) => rmSync(file(path)));
+    assert.match(await text(page, '.stage .broken'), new RegExp(`^${path} is missing or damaged$`));
+    assert.equal((await panes(page)).length, 9);
+  });
+
+test('results that name no picture of the colours are told so', async () => {
+  const { page } = await opened((path) =>
+    changeResults(path, ({ images }) => { delete images.color_error; }));
+  assert.equal(await text(page, '.stage .broken'), 'the results name no picture of the colour error');
+});
+
+test('damaged colours are named, shown as unknown, and cost no ledger', async () => {
+  const { page } = await opened((path) => {
+    const old = readFileSync(path(cellFile), 'utf8');
+    writeFileSync(path(cellFile), old.replace(/("color":\s*\{[^}]*"data":\s*")..../, '$1AAAA'));
+  });
+  assert.match(await alerts(page), /cell\.js: block color is damaged/);
+  assert.match(await alerts(page), /The colours cannot be shown\./);
+  assert.equal(await page.locator('.values.colors').count(), 0);
+  assert.equal(await page.locator('.ledger').count(), 1);
+});
+
+test('colours of another run are not taken for those of this', async () => {
+  const { page } = await opened((path) => changeBlock(path(cellFile), 'color_verdict',
+                                                      (verdicts) => verdicts.fill(1)));
+  assert.match(await alerts(page), /cell\.js does not belong to results\.js: its colours were judged otherwise/);
+});
