@@ -43,8 +43,9 @@ function unforeseenWords({ cell, colorVerdict, width }) {
   const count = cell.color?.unforeseen ?? 0;
   if (count === 0) return null;
   const first = colorVerdict ? colorVerdict.findIndex(isUnforeseen) : -1;
+  const place = `(${first % width}, ${Math.floor(first / width)})`;
   return 'The colour is not what the technique’s arithmetic foresees at ' +
-    `${counted(count, 'pixel')}${first < 0 ? '' : `; the first is (${first % width}, ${Math.floor(first / width)})`}.`;
+    `${counted(count, 'pixel')}${first < 0 ? '' : `; the first is ${place}`}.`;
 }
 
 /** Files of two runs must not be taken for one. */

@@ -42,6 +42,14 @@ TEST(ReportPictures, the_difference_tells_false_light_from_false_shadow) {
     EXPECT_EQ(picture.at(1, 2), color(Contradiction::falsely_shadowed));
 }
 
+TEST(ReportPictures, the_difference_marks_nothing_where_colours_alone_differ) {
+    SceneResult scene = handmade_scene("x", Cause::edge, Verdict::agrees);
+    scene.cells[0].comparison.cause.at(1, 0) = static_cast<std::uint8_t>(Cause::shading);
+    EXPECT_EQ(difference_picture(scene.truth, scene.cells[0]).at(1, 0), dimmed(Visibility::lit));
+    EXPECT_EQ(cause_picture(scene.cells[0]).at(1, 0),
+              cause_colors[static_cast<std::size_t>(Cause::shading)]);
+}
+
 TEST(ReportPictures, every_mark_stands_out_from_the_dimmed_claim) {
     std::vector<Rgb> marks(cause_colors.begin(), cause_colors.end());
     for (const ContradictionWords& words : all_contradictions) marks.push_back(words.color);
