@@ -2,6 +2,7 @@
 
 #include "scenes/byte_blending.h"
 
+#include <cassert>
 #include <glm/common.hpp>
 
 namespace shadowproof {
@@ -73,7 +74,7 @@ Intervals in_floats(const LightingInputs& in, const Ways& ways) {
         const Interval ambient = around(in.ambient[c]) * in.decal[k];
         const Interval diffuse = in.radiance[k] * terms.diffuse * in.decal[k];
         const Interval specular = in.specular[c] * in.radiance[k] * terms.specular * in.gloss;
-        color[k] = rounded(ambient + diffuse + specular);
+        color[k] = rounded(ambient + diffuse + specular + in.reflection[k]);
     }
     return color;
 }
@@ -158,7 +159,12 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
     return color;
 }
 
+[[maybe_unused]] bool reflects(const LightingInputs& in) {
+    return std::ranges::any_of(in.reflection, [](const Interval& a) { return a.high > 0; });
+}
+
 Intervals color_of(ColorModel::Arithmetic arithmetic, const LightingInputs& in, const Ways& ways) {
+    assert(arithmetic == ColorModel::Arithmetic::floating || !reflects(in));
     switch (arithmetic) {
     case ColorModel::Arithmetic::floating:
         break;
@@ -210,6 +216,7 @@ Intervals color_bound(const ColorModel& model, const LightingInputs& truth,
     between.radiance = hull(truth.radiance, claimed.radiance);
     between.decal = hull(truth.decal, claimed.decal);
     between.gloss = hull(truth.gloss, claimed.gloss);
+    between.reflection = hull(truth.reflection, claimed.reflection);
     const bool floating = model.arithmetic == ColorModel::Arithmetic::floating;
     return color_of(model.arithmetic, between,
                     {.steps = floating ? Steps::none : Steps::within_half});
@@ -227,6 +234,7 @@ double weight_of(ColorTerm term, const ColorModel& model, const LightingInputs& 
         break;
     case ColorTerm::bump_form:
         inputs.bump = claimed.bump;
+        inputs.reflection = claimed.reflection;
         break;
     case ColorTerm::steps:
         ways.steps = own.steps;

@@ -3,6 +3,7 @@
 #include "scenes/relief.h"
 
 #include <bit>
+#include <cassert>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -141,6 +142,42 @@ Intervals into(const Frame3& frame, const Intervals& vector) {
     return carried;
 }
 
+/// N' in world space, where m is known as well as `bump` says.
+Intervals out_of(const Frame3& frame, const Intervals& bump) {
+    const Intervals tangent = around(frame.tangent, frame.tangent_off);
+    const Intervals bitangent = around(frame.bitangent, frame.tangent_off + frame.normal_off);
+    const Intervals normal = around(frame.normal, frame.normal_off);
+    Intervals carried;
+    for (std::size_t k = 0; k < 3; ++k)
+        carried[k] =
+            widened(bump[0] * tangent[k] + bump[1] * bitangent[k] + bump[2] * normal[k], 4 * v);
+    return carried;
+}
+
+/// What the environment shows along the eye's direction mirrored at the small normal.
+// Roundings of R: of N' . V (3 v), twice that times N' (2 v), the difference (3 v: R is at most 3
+// long before they cancel). Of the place on the face, as if R moved: the quotient (v), that plus 1
+// and what is left of it among `size` texels (6 v). Of the mixture of texels, which are at most 1,
+// along rows and between them: 8 v.
+// The lookup turns with R, and jumps where R comes to look at another face: it is taken at the
+// corners of all that R may be, which reach furthest over each edge, and what that makes of it
+// counts twice, for what lies between.
+Intervals environment_at(const CubeFaces<glm::vec3>& faces, const Intervals& normal,
+                         const Intervals& to_eye) {
+    const Interval cosine = dot(normal, to_eye);
+    Intervals mirrored;
+    for (std::size_t k = 0; k < 3; ++k)
+        mirrored[k] =
+            widened(2 * cosine * normal[k] + -1 * to_eye[k], 3 * v + 2 * v + 3 * v + 7 * v);
+    Intervals all = around(sample<glm::dvec3>(faces, middle(mirrored)));
+    for (const double x : {mirrored[0].low, mirrored[0].high})
+        for (const double y : {mirrored[1].low, mirrored[1].high})
+            for (const double z : {mirrored[2].low, mirrored[2].high})
+                all = hull(all, around(sample<glm::dvec3>(faces, {x, y, z})));
+    for (Interval& channel : all) channel = widened(channel, channel.high - channel.low + 8 * v);
+    return all;
+}
+
 /// What a texture's texels come to between them, as `of` decodes them.
 template <class T, class Of>
 T mixed(const TextureImage& map, const Image<glm::vec4>& texels, const glm::dvec2& at,
@@ -258,6 +295,8 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
         if (bumps->form == BumpForm::height_field)
             slopes = slopes_of(scene.textures[material.bump_map], bumps->scale);
     }
+    assert(model.reflects == scene.environment.has_value());
+    assert(!model.reflects || model.axes == ColorModel::Axes::world); // the environment's
     if (model.normalisation == Normalisation::cube_map) tables.cube = make_normalisation_cube();
     return tables;
 }
@@ -275,6 +314,7 @@ LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point
     inputs.radiance = around(shading.light);
     inputs.decal = around(shading.decal);
     inputs.gloss = around(shading.gloss);
+    inputs.reflection = around(shading.reflection_color);
     inputs.specular = material_of(scene, point.triangle).specular;
     inputs.ambient = scene.ambient;
     inputs.lit = shading.lit;
@@ -297,8 +337,8 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
                                 ? view_from_eye_relative(scene.camera)
                                 : glm::dmat3(1);
     const Intervals l = normalised(tables, axes * way, way_off);
-    const Intervals e =
-        normalised(tables, -(axes * shading.point), share * largest_length(from_eye));
+    const double eye_off = share * largest_length(from_eye);
+    const Intervals e = normalised(tables, -(axes * shading.point), eye_off);
     const Intervals both = sum(l, e);
     const Frame3 frame = turned(axes, frame_at(scene, point, share));
     LightingInputs inputs;
@@ -311,6 +351,15 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     inputs.radiance =
         radiance_at(scene, unit_or_zero(way), way_off / glm::length(way) + 4 * v, glm::length(way));
     inputs.decal = decal_at(scene, point, material, inputs.gloss);
+    if (tables.model.reflects) {
+        const double distance = glm::length(shading.point);
+        const Intervals to_eye = around(-shading.point / distance, eye_off / distance + 4 * v);
+        const Intervals shown =
+            environment_at(*scene.environment, out_of(frame, inputs.bump), to_eye);
+        for (std::size_t k = 0; k < 3; ++k)
+            inputs.reflection[k] =
+                material.reflectance[static_cast<int>(k)] * shown[k] * inputs.gloss;
+    }
     inputs.specular = material.specular;
     inputs.ambient = scene.ambient;
     inputs.lit = shading.lit;

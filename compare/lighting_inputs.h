@@ -19,18 +19,20 @@ namespace shadowproof {
 
 /// Vectors are in the tangent space of the side that is seen: along T, B and N, which is z.
 struct LightingInputs {
-    Intervals light;     ///< L
-    Intervals half;      ///< H
-    Intervals bump;      ///< N'
-    Intervals radiance;  ///< what arrives from the light, without visibility
-    Intervals decal;     ///< linear
-    Interval gloss;      ///< 1 where the decal's alpha is none
-    glm::dvec3 specular; ///< colour
+    Intervals light;      ///< L
+    Intervals half;       ///< H
+    Intervals bump;       ///< N'
+    Intervals radiance;   ///< what arrives from the light, without visibility
+    Intervals decal;      ///< linear
+    Interval gloss;       ///< 1 where the decal's alpha is none
+    Intervals reflection; ///< of the environment; 0 unless the model reflects it
+    glm::dvec3 specular;  ///< colour
     glm::dvec3 ambient;
     bool lit = false;
 };
 
-/// Of one scene and one way of making colours, made once.
+/// Of one scene and one way of making colours, made once. A model that leaves reflections out is
+/// not for a scene with an environment (suits in raster/technique.h).
 struct LightingTables {
     const Scene* scene = nullptr;
     ColorModel model;

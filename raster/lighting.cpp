@@ -28,13 +28,50 @@ Texture upload_texels(const GlFunctions& gl, const Image<glm::vec4>& texels) {
     return texture;
 }
 
-void require_size(const GlFunctions& gl, const Scene& scene, const TextureImage& texture) {
+void require_size(const GlFunctions& gl, const Scene& scene, const std::string& name, int side) {
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (texture.texels.width <= most && texture.texels.height <= most) return;
-    throw Error(scene.file.string() + ": " + texture.name,
+    if (side <= most) return;
+    throw Error(scene.file.string() + ": " + name,
                 "the driver takes at most " + std::to_string(most) + " texels a side",
                 "make the image smaller");
+}
+
+void require_size(const GlFunctions& gl, const Scene& scene, const TextureImage& texture) {
+    require_size(gl, scene, texture.name, std::max(texture.texels.width, texture.texels.height));
+}
+
+/// How a layer's texels lie in memory, and in the texture.
+struct LayerFormat {
+    GLenum stored;
+    GLenum channels;
+    GLenum type;
+};
+
+/// A cube map as an array of its faces, of which the shaders fetch texels.
+template <class Texel>
+Texture upload_faces(const GlFunctions& gl, const CubeFaces<Texel>& faces,
+                     const LayerFormat& format) {
+    const int size = faces[0].width;
+    Texture texture = make_texture(gl, GL_TEXTURE_2D_ARRAY);
+    gl.TextureStorage3D(texture.name(), 1, format.stored, size, size,
+                        static_cast<GLsizei>(faces.size()));
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (std::size_t face = 0; face < faces.size(); ++face)
+        gl.TextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(face), size, size, 1,
+                             format.channels, format.type, faces[face].pixels.data());
+    constexpr GLint initial_alignment = 4;
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, initial_alignment);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return texture;
+}
+
+Texture upload_environment(const GlFunctions& gl, const Scene& scene) {
+    assert(scene.environment);
+    const CubeFaces<glm::vec3>& faces = *scene.environment;
+    require_size(gl, scene, "/extras/shadowproof/environment", faces[0].width);
+    return upload_faces(gl, faces, {GL_RGB32F, GL_RGB, GL_FLOAT});
 }
 
 BumpMap upload_bumps(const GlFunctions& gl, const Scene& scene, const Material& material,
@@ -164,6 +201,7 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
     const BumpMap& bumps = pass.bumps[pass.bumps_of[index]];
     set_color(gl, program, 6, material.color);
     set_color(gl, program, 7, material.specular);
+    set_color(gl, program, 24, material.reflectance);
     gl.ProgramUniform1i(program.name(), 8, material.gloss_in_alpha ? 1 : 0);
     gl.ProgramUniform1i(program.name(), 9, static_cast<GLint>(bumps.form));
     gl.ProgramUniform1f(program.name(), 10, bumps.scale);
@@ -245,20 +283,14 @@ std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit) {
         {.fragment = lit, .where = LightingStep::Where::lit, .blend = LightingStep::Blend::add}};
 }
 
+LightingStep add_reflection(const ShaderText& reflection) {
+    return {.fragment = reflection,
+            .where = LightingStep::Where::everywhere,
+            .blend = LightingStep::Blend::add};
+}
+
 Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube) {
-    Texture texture = make_texture(gl, GL_TEXTURE_2D_ARRAY);
-    gl.TextureStorage3D(texture.name(), 1, GL_RGB8, cube.size, cube.size,
-                        static_cast<GLsizei>(cube.faces.size()));
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (std::size_t face = 0; face < cube.faces.size(); ++face)
-        gl.TextureSubImage3D(texture.name(), 0, 0, 0, static_cast<GLint>(face), cube.size,
-                             cube.size, 1, GL_RGB, GL_UNSIGNED_BYTE,
-                             cube.faces[face].pixels.data());
-    constexpr GLint initial_alignment = 4;
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, initial_alignment);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
+    return upload_faces(gl, cube.faces, {GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE});
 }
 
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
@@ -268,6 +300,7 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
     upload_corners(gl, scene, pass);
     make_runs(gl, scene, pass);
     upload_textures(gl, scene, recipe.model, pass);
+    if (recipe.model.reflects) pass.environment = upload_environment(gl, scene);
     check(gl, "uploading what lighting needs");
     for (const LightingStep& step : recipe.steps)
         pass.steps.push_back(make_step(gl, scene, transform, recipe, pass, step));
@@ -292,6 +325,7 @@ void draw_lighting(const GlFunctions& gl, const LightingPass& pass, const Scene&
     gl.BindTextureUnit(0, target.triangle.name());
     gl.BindTextureUnit(3, pass.unit_vectors.name());
     gl.BindTextureUnit(4, pass.normal_table.name());
+    gl.BindTextureUnit(5, pass.environment.name());
     gl.Disable(GL_DITHER);
     gl.Disable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 

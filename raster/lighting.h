@@ -35,6 +35,9 @@ struct LightingRecipe {
 /// Ambient light everywhere, and added to it where it is lit what a shader says.
 std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit);
 
+/// What such a shader says, added everywhere. The recipe's model must reflect.
+LightingStep add_reflection(const ShaderText& reflection);
+
 /// A run of triangles that are lit alike.
 struct LitRun {
     std::uint32_t first = 0; ///< triangle of what is drawn
@@ -71,13 +74,15 @@ struct LightingPass {
     Texture white{};                     ///< a single texel
     Texture unit_vectors{};              ///< the normalisation cube map
     Texture normal_table{};              ///< indexed_normal, 256 a row
+    Texture environment{};               ///< where the recipe's model reflects
     std::vector<LightingProgram> steps{};
 };
 /// GL_RGB8, a layer a face.
 Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube);
 
-/// The transform must be relative to the eye. Throws Error where a texture is larger than the
-/// driver takes, and where a bump map cannot be had in the form that the recipe's model says.
+/// The transform must be relative to the eye, and the scene have an environment where the recipe's
+/// model reflects. Throws Error where a texture is larger than the driver takes, and where a bump
+/// map cannot be had in the form that the recipe's model says.
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe);
 

@@ -47,13 +47,23 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
         refuse("claim is neither background nor shadowed nor lit");
 }
 
+[[noreturn]] void refuse_scene(const Technique& technique, const Scene& scene) {
+    const std::string file = scene.file.empty() ? scene.name : scene.file.string();
+    const std::string name(technique.name);
+    if (!is_bump_lit(scene))
+        throw Error(file, "has no bump map, and " + name + " is for those that do",
+                    "leave the technique out, or give a material a normalTexture");
+    if (technique.needs_environment)
+        throw Error(file, "has no environment, and " + name + " is for those that do",
+                    "leave the technique out, or give the file an extras.shadowproof.environment");
+    throw Error(file, "has an environment, which " + name + " does not reflect",
+                "name bump_reflective, or take extras.shadowproof.environment out of the file");
+}
+
 } // namespace
 
 Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
-    if (!suits(technique, scene))
-        throw Error(scene.file.empty() ? scene.name : scene.file.string(),
-                    "has no bump map, and " + std::string(technique.name) + " is for those that do",
-                    "leave the technique out, or give a material a normalTexture");
+    if (!suits(technique, scene)) refuse_scene(technique, scene);
     require_drawable(gpu.driver());
     gpu.make_current();
     Frame frame = technique.run(gpu, scene, plan);

@@ -28,12 +28,15 @@ struct Technique {
     /// Of those, what it has on almost any scene: no scene need declare that it provokes it.
     std::vector<Cause> by_nature = {};
     bool needs_bump_maps = false; ///< it lights them, and is for scenes that are bump-lit alone
+    /// It reflects one. Who lights bumps and does not reflect is not for scenes that have one.
+    bool needs_environment = false;
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 
 /// Whether a technique is for such a scene; if not, it is left out unless asked for by name.
 inline bool suits(const Technique& technique, const Scene& scene) {
-    return !technique.needs_bump_maps || is_bump_lit(scene);
+    return !technique.needs_bump_maps ||
+           (is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value());
 }
 
 /// All techniques in the order of the registry, techniques.inc.

@@ -138,13 +138,28 @@ void PointShader::set(std::size_t lane, const glm::dvec3& direction, std::uint32
     looks_[lane].weights = weights;
 }
 
+/// Step 10 of the definition.
+glm::dvec3 PointShader::reflection(std::size_t lane) const {
+    const Scene& scene = *tables_->state->scene;
+    const Look& look = looks_[lane];
+    if (!scene.environment || look.material->reflectance == glm::dvec3(0)) return glm::dvec3(0);
+    const glm::dvec3 direction = lanes_.direction.at(lane);
+    const glm::dvec3 to_eye = -(direction * (1 / std::sqrt(glm::dot(direction, direction))));
+    const glm::dvec3 bumped = lanes_.bumped.at(lane);
+    const glm::dvec3 reflected = 2 * glm::dot(bumped, to_eye) * bumped - to_eye;
+    return look.material->reflectance * look.gloss *
+           sample<glm::dvec3>(*scene.environment, reflected);
+}
+
 PointShader::Summands PointShader::summands(std::size_t lane) const {
     const Look& look = looks_[lane];
     const glm::dvec3 ambient = tables_->state->scene->ambient * look.decal;
-    if (!look.lit) return {glm::dvec3(0), glm::dvec3(0), ambient};
+    const glm::dvec3 reflected = reflection(lane);
+    if (!look.lit) return {glm::dvec3(0), glm::dvec3(0), ambient, reflected};
     const glm::dvec3 light = tables_->light_color * lanes_.strength[lane];
     return {light * lanes_.diffuse[lane] * look.decal,
-            light * (lanes_.specular[lane] * look.gloss) * look.material->specular, ambient};
+            light * (lanes_.specular[lane] * look.gloss) * look.material->specular, ambient,
+            reflected};
 }
 
 /// T of the definition, step 2. By squares of components as lighting_lanes.cpp has it, which keeps
@@ -160,7 +175,7 @@ glm::dvec3 PointShader::tangent(std::size_t lane) const {
 
 glm::dvec3 PointShader::color(std::size_t lane) const {
     const Summands sum = summands(lane);
-    return sum.diffuse + sum.ambient + sum.specular;
+    return sum.diffuse + sum.ambient + sum.specular + sum.reflection;
 }
 
 Shading PointShader::terms(std::size_t lane) const {
@@ -185,7 +200,8 @@ Shading PointShader::terms(std::size_t lane) const {
             .side = lanes_.side[lane],
             .diffuse_color = sum.diffuse,
             .specular_color = sum.specular,
-            .ambient_color = sum.ambient};
+            .ambient_color = sum.ambient,
+            .reflection_color = sum.reflection};
 }
 
 } // namespace shadowproof

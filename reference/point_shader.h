@@ -70,7 +70,7 @@ private:
         glm::dvec3 weights{0, 0, 0};
     };
     struct Summands {
-        glm::dvec3 diffuse, specular, ambient;
+        glm::dvec3 diffuse, specular, ambient, reflection;
     };
 
     const ShadingTables* tables_;
@@ -82,6 +82,7 @@ private:
     void learn(std::uint32_t triangle, Known& known) const;
     glm::dvec3 bump_at(const Known& known, const glm::dvec3& weights) const;
     Look look_at(const Known& known, const glm::dvec3& weights) const;
+    glm::dvec3 reflection(std::size_t lane) const;
     Summands summands(std::size_t lane) const;
     glm::dvec3 tangent(std::size_t lane) const;
 };

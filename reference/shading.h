@@ -32,12 +32,16 @@
 //  8. Decal: the material's colour times the sampled decal's rgb (without one: the colour alone).
 //     Gloss: the sampled decal's alpha where the material says so, else 1.
 //  9. Colour = (visibility light diffuse + ambient) decal
-//              + visibility light specular gloss specular colour,
+//              + visibility light specular gloss specular colour
+//              + reflection,
 //     visibility 1 where the pixel is lit by trace.h, else 0. Background is black. The colour is
 //     linear, and not clamped.
+// 10. Reflection, where the scene has an environment: reflectance gloss environment(R), with
+//     R = 2 (N' . V) N' - V in world axes, sampled by cube_map.h at level 0. It is there whether
+//     or not the pixel is lit, and knows nothing of the scene's own surfaces. Else 0.
 //
 // Bump maps after Blinn 1978; tangent frames, self-shadowing terms, gloss and decal after Kilgard
-// 2001.
+// 2001. Reflection after CS448, lecture 11.
 #pragma once
 
 #include "reference/trace.h"
@@ -64,15 +68,18 @@ struct Shading {
     glm::dvec3 decal{0, 0, 0};
     glm::dvec3 light{0, 0, 0}; ///< without visibility
     bool lit = false;
-    glm::dvec3 point{0, 0, 0};          ///< Q, relative to the eye
-    glm::dvec3 weights{0, 0, 0};        ///< of the triangle's corners
-    double hand = 1;                    ///< w: B = w N x T, of the front
-    double side = 1;                    ///< -1 where the eye sees the back
-    glm::dvec3 diffuse_color{0, 0, 0};  ///< the colour's summands
-    glm::dvec3 specular_color{0, 0, 0}; ///< "
-    glm::dvec3 ambient_color{0, 0, 0};  ///< "
+    glm::dvec3 point{0, 0, 0};            ///< Q, relative to the eye
+    glm::dvec3 weights{0, 0, 0};          ///< of the triangle's corners
+    double hand = 1;                      ///< w: B = w N x T, of the front
+    double side = 1;                      ///< -1 where the eye sees the back
+    glm::dvec3 diffuse_color{0, 0, 0};    ///< the colour's summands
+    glm::dvec3 specular_color{0, 0, 0};   ///< "
+    glm::dvec3 ambient_color{0, 0, 0};    ///< "
+    glm::dvec3 reflection_color{0, 0, 0}; ///< "
 
-    glm::dvec3 color() const { return diffuse_color + ambient_color + specular_color; }
+    glm::dvec3 color() const {
+        return diffuse_color + ambient_color + specular_color + reflection_color;
+    }
 };
 
 /// Linear colours of all pixels; `truth` is the same tracer's. Same bits for any number of threads

@@ -48,6 +48,14 @@ void add_light(Hash& hash, const Light& light) {
     }
 }
 
+void add_environment(Hash& hash, const Scene& scene) {
+    for (const Image<glm::vec3>& face : *scene.environment) {
+        hash.add(face.width);
+        hash.add(face.pixels.data(), face.pixels.size());
+    }
+    for (const Material& material : scene.materials) hash.add(material.reflectance);
+}
+
 /// What decides no visibility, but colours.
 void add_lighting(Hash& hash, const Scene& scene) {
     hash.add(scene.surfaces.data(), scene.surfaces.size());
@@ -68,6 +76,7 @@ void add_lighting(Hash& hash, const Scene& scene) {
     for (const glm::dvec3& v : {scene.ambient, light.color}) hash.add(v);
     for (const double v : {light.intensity, light.inner_cone}) hash.add(v);
     hash.add(scene.inverse_square);
+    if (scene.environment) add_environment(hash, scene);
 }
 
 } // namespace

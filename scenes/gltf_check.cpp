@@ -126,6 +126,7 @@ constexpr std::array rules{
 constexpr std::array rules_of_lighting{
     numbers("extras?/shadowproof/ambient", 3),
     Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},
+    index("extras?/shadowproof/environment/faces!/*", "/textures"),
     numbers("materials/*/pbrMetallicRoughness/baseColorFactor", 4),
     index("materials/*/pbrMetallicRoughness/baseColorTexture/index!", "/textures"),
     whole("materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", 0, 0x7fffffff),
@@ -137,6 +138,7 @@ constexpr std::array rules_of_lighting{
     Rule{"materials/*/extras?/shadowproof/height/scale", Kind::number},
     Rule{"materials/*/extras?/shadowproof/glossInAlpha", Kind::boolean},
     numbers("materials/*/extras?/shadowproof/specular", 3),
+    numbers("materials/*/extras?/shadowproof/reflectance", 3),
     index("textures/*/sampler", "/samplers"),
     index("textures/*/source", "/images"),
     whole("samplers/*/magFilter", 0, 0xffff),

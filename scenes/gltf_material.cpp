@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <utility>
 
 namespace shadowproof::gltf {
 
@@ -63,6 +63,7 @@ struct Source {
     TextureReader& textures;
     Material& material;
     CoordinateSets& sets;
+    bool has_environment = false; ///< of the file
 };
 
 void read_look(const Source& source) {
@@ -79,6 +80,13 @@ void read_look(const Source& source) {
     const Place extras = source.place / "extras" / "shadowproof";
     if (const json& specular = find(ours, {"specular"}); !specular.is_null())
         source.material.specular = read_color(extras / "specular", specular);
+    if (const json& reflectance = find(ours, {"reflectance"}); !reflectance.is_null()) {
+        if (!source.has_environment)
+            (extras / "reflectance")
+                .refuse("reflects an environment that the file does not have",
+                        "give it an extras.shadowproof.environment");
+        source.material.reflectance = read_color(extras / "reflectance", reflectance);
+    }
     source.material.gloss_in_alpha = find(ours, {"glossInAlpha"}) == true;
     if (source.material.gloss_in_alpha && decal.is_null())
         (extras / "glossInAlpha").refuse("asks for the alpha of no texture", "add a decal");
@@ -119,6 +127,27 @@ void read_scene_extras(const Document& document, const json& look, Scene& scene)
     scene.inverse_square = find(look, {"extras", "shadowproof", "inverseSquare"}) == true;
 }
 
+void read_environment(const Document& document, const json& look, TextureReader& textures,
+                      Scene& scene) {
+    const json& faces = find(look, {"extras", "shadowproof", "environment", "faces"});
+    if (faces.is_null()) return;
+    const Place place = document.root() / "extras" / "shadowproof" / "environment" / "faces";
+    CubeFaces<glm::vec3> environment;
+    if (faces.size() != environment.size())
+        place.refuse(fmt::format("has {} elements, not {}", faces.size(), environment.size()),
+                     "name six textures: +x -x +y -y +z -z");
+    for (std::size_t i = 0; i < environment.size(); ++i) {
+        const TextureImage face = textures.decode(place / i, faces[i], Encoding::srgb);
+        environment[i] = converted<glm::vec3>(face.texels, [](const glm::vec4& t) { return t; });
+        const int width = environment[i].width;
+        const int height = environment[i].height;
+        if (width != height || width != environment[0].width)
+            (place / i).refuse(fmt::format("is of {}x{} texels", width, height),
+                               "make the six images square, and of one size");
+    }
+    scene.environment = std::move(environment);
+}
+
 void read_plain(const Document& document, Scene& scene) {
     for (const tinygltf::Material& source : document.model.materials) {
         const Place place = document.root() / "materials" / scene.materials.size();
@@ -147,10 +176,12 @@ Materials read_materials(const Document& document, const NodeGraph& graph, Scene
     check_lighting(document.root(), look);
     read_scene_extras(document, look, scene);
     TextureReader textures(document, look, scene.textures);
+    read_environment(document, look, textures, scene);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
-        const Source source{look["materials"][i], document.root() / "materials" / i, textures,
-                            scene.materials[i], materials.sets[i]};
+        const Source source{
+            look["materials"][i], document.root() / "materials" / i, textures, scene.materials[i],
+            materials.sets[i],    scene.environment.has_value()};
         read_look(source);
         read_bump_map(source);
         note_unevaluated(source, scene.notes);

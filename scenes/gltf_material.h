@@ -23,7 +23,8 @@ struct Materials {
 };
 
 /// Fills scene.materials (those of the file, and behind them the default one, glTF 2.0, section
-/// 3.7.2.1) and, where bump_lit, scene.textures, ambient and inverse_square. Throws Error.
+/// 3.7.2.1) and, where bump_lit, scene.textures, ambient, inverse_square and environment. Throws
+/// Error.
 Materials read_materials(const Document& document, const NodeGraph& graph, Scene& scene);
 
 } // namespace shadowproof::gltf

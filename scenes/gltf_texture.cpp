@@ -66,9 +66,7 @@ void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
     nearest_ = nearest_ || source.value("magFilter", 0) == filter_nearest;
 }
 
-std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, Encoding encoding) {
-    const auto known = read_.find({texture, encoding});
-    if (known != read_.end()) return known->second;
+TextureImage TextureReader::decode(const Place& reference, std::size_t texture, Encoding encoding) {
     const json& source = look_["textures"][texture];
     const Place place = document_.root() / "textures" / texture;
     if (!source.contains("source"))
@@ -83,7 +81,13 @@ std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, E
     read.bits = picture.bits;
     read.texels = texels_of(picture, encoding);
     texels_ += read.texels.pixels.size();
-    textures_.push_back(std::move(read));
+    return read;
+}
+
+std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, Encoding encoding) {
+    const auto known = read_.find({texture, encoding});
+    if (known != read_.end()) return known->second;
+    textures_.push_back(decode(reference, texture, encoding));
     const auto index = static_cast<std::uint32_t>(textures_.size() - 1);
     read_.emplace(std::pair{texture, encoding}, index);
     return index;

@@ -24,6 +24,9 @@ public:
     /// no image, a missing or damaged one, an unknown wrap mode, more texels than limits.texels.
     std::uint32_t read(const Place& reference, std::size_t texture, Encoding encoding);
 
+    /// The same, decoded anew and left out of the scene's textures.
+    TextureImage decode(const Place& reference, std::size_t texture, Encoding encoding);
+
     bool asks_for_nearest() const { return nearest_; } ///< some sampler's magFilter does
 
 private:

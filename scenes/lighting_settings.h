@@ -79,6 +79,7 @@ struct ColorModel {
     Axes axes = Axes::world;
     Normalisation normalisation = Normalisation::exact;
     BumpForm bump_form = BumpForm::as_given;
+    bool reflects = false; ///< the scene's environment
 };
 
 /// A technique's own way, but for what was asked for.

@@ -3,27 +3,23 @@
 // same texels go to OpenGL.
 #pragma once
 
-#include "scenes/image.h"
+#include "scenes/cube_map.h"
 
-#include <array>
 #include <cstdint>
 #include <glm/gtc/type_precision.hpp>
 #include <glm/vec3.hpp>
 
 namespace shadowproof {
 
-/// Faces in OpenGL's order: +x -x +y -y +z -z, each of size x size texels, the first row at t = 0
-/// (OpenGL 4.5, table 8.19). A texel is round(255 (0.5 + 0.5 n)) of the unit vector n through its
-/// centre.
+/// Each face of size x size texels. A texel is round(255 (0.5 + 0.5 n)) of the unit vector n
+/// through its centre.
 struct NormalisationCube {
     int size = 0;
-    std::array<Image<glm::u8vec3>, 6> faces{};
+    CubeFaces<glm::u8vec3> faces{};
 };
 NormalisationCube make_normalisation_cube(int size = 64);
 
-/// What a lookup means: 2 rgb - 1 of the face that the vector looks at, its texels mixed
-/// bilinearly, without seams being crossed. Of components of equal size x goes before y before z,
-/// where OpenGL leaves the choice to the driver. Zero where the vector is zero.
+/// What a lookup means: 2 rgb - 1 of the sampled texels. Zero where the vector is zero.
 glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
 
 /// The most that a component of a lookup in floats is off that, of a cube of 64 texels a side: the

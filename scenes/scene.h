@@ -5,6 +5,7 @@
 
 #include "scenes/camera.h"
 #include "scenes/cause.h"
+#include "scenes/cube_map.h"
 #include "scenes/texture.h"
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,7 @@ struct Material {
     bool double_sided = false; ///< otherwise a triangle is not seen from behind, as glTF says
     glm::dvec3 color{1, 1, 1}; ///< times the decal's
     glm::dvec3 specular{1, 1, 1};
+    glm::dvec3 reflectance{0, 0, 0};  ///< times the environment; 0 where there is none
     std::uint32_t decal = no_texture; ///< index into Scene::textures
     bool gloss_in_alpha = false;      ///< the decal's alpha times the specular colour
     Bump bump = Bump::none;
@@ -91,6 +94,9 @@ struct Scene {
     glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
     bool inverse_square = false;        ///< extras.shadowproof.inverseSquare: the light's intensity
                                         ///< and distance count
+    std::optional<CubeFaces<glm::vec3>> environment; ///< what such a scene's surfaces reflect, all
+                                                     ///< around in world axes, linear: the same
+                                                     ///< texels go to OpenGL
     Camera camera;
     std::vector<Light> lights;      ///< at least one
     std::size_t light = 0;          ///< the one that is judged

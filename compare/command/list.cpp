@@ -36,7 +36,10 @@ std::string as_text() {
         };
         add("fails at", fails_at(technique));
         add("needs", technique.needs);
-        if (technique.needs_bump_maps) add("for", "scenes with bump maps alone");
+        if (technique.needs_bump_maps)
+            add("for", technique.needs_environment
+                           ? "scenes with bump maps and an environment alone"
+                           : "scenes with bump maps and no environment");
         add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
         add("source", technique.source);
     }
@@ -60,6 +63,7 @@ Json as_json() {
                                       {"source", technique.source},
                                       {"needs", technique.needs},
                                       {"needs_bump_maps", technique.needs_bump_maps},
+                                      {"needs_environment", technique.needs_environment},
                                       {"cost", technique.cost},
                                       {"fails_at", causes},
                                       {"by_nature", by_nature}});

@@ -29,11 +29,12 @@ struct LitPixel {
     float diffuse[3];
     float specular[3];
     float ambient[3];
+    float reflection[3];
     float albedo[3];
     float bumped[3];
     float tangent[3];
 };
-static_assert(sizeof(LitPixel) == 40 + 84);
+static_assert(sizeof(LitPixel) == 40 + 96);
 
 OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
     using OIIO::TypeDesc;
@@ -44,7 +45,8 @@ OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
     spec.channelformats.assign(9, TypeDesc::FLOAT);
     spec.channelformats.emplace_back(TypeDesc::UINT32);
     if (lit) {
-        for (const std::string group : {"", "diffuse.", "specular.", "ambient.", "Albedo."})
+        for (const std::string group :
+             {"", "diffuse.", "specular.", "ambient.", "reflection.", "Albedo."})
             for (const char* name : {"R", "G", "B"}) spec.channelnames.push_back(group + name);
         for (const char* name : {"Ns.X", "Ns.Y", "Ns.Z", "T.X", "T.Y", "T.Z"})
             spec.channelnames.emplace_back(name);
@@ -94,6 +96,7 @@ LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
     put(lit.diffuse, shading.diffuse_color);
     put(lit.specular, shading.specular_color);
     put(lit.ambient, shading.ambient_color);
+    put(lit.reflection, shading.reflection_color);
     put(lit.albedo, shading.decal);
     put(lit.bumped, shading.bumped);
     put(lit.tangent, shading.tangent);

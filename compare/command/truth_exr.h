@@ -14,9 +14,9 @@ namespace shadowproof {
 /// orders channels by name: look them up by name. Written beside and renamed; throws Error.
 ///
 /// With shadings (of scenes with bump maps; else an empty picture) also, 0 at background: R G B,
-/// the linear colour, and its summands diffuse.R to B, specular.R to B and ambient.R to B; Albedo.R
-/// to B, the decal; Ns.X Ns.Y Ns.Z, the bumped normal; T.X T.Y T.Z, the tangent,
-/// 0 where a surface has no bump map too.
+/// the linear colour, and its summands diffuse.R to B, specular.R to B, ambient.R to B and
+/// reflection.R to B; Albedo.R to B, the decal; Ns.X Ns.Y Ns.Z, the bumped normal; T.X T.Y T.Z, the
+/// tangent, 0 where a surface has no bump map too.
 void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<Shading>& shadings,
                      const std::filesystem::path& file);
 

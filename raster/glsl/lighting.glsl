@@ -25,6 +25,7 @@ layout(location = 19) uniform float cone_scale;  // 0: the light shines everywhe
 layout(location = 20) uniform bool inverse_square;
 layout(location = 22) uniform float slope_range;
 layout(location = 23) uniform vec3 ambient_color;
+layout(location = 24) uniform vec3 reflectance;
 
 const int bump_height_field = 1;
 const int bump_normal_map = 2;

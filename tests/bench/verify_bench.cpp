@@ -62,11 +62,11 @@ const bool registered = [] {
     };
     for (const BundledScene& scene : bundled_scenes()) {
         const std::string name(scene.name);
-        const bool lit = is_bump_lit(load_scene(name, {}));
+        const Scene loaded = load_scene(name, {});
         add("truth/" + name, truth, name);
         add("shadow_depths/" + name, shadow_depths, name);
         for (const Technique& technique : all_techniques()) {
-            if (technique.needs_bump_maps && !lit) continue;
+            if (!suits(technique, loaded)) continue;
             add("render/" + name + "/" + std::string(technique.name), rendering, name, technique);
             add("classify/" + name + "/" + std::string(technique.name), classification, name,
                 technique);

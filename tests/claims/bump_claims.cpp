@@ -36,7 +36,8 @@ std::vector<std::unique_ptr<Lit>> lit_scenes() {
     std::vector<std::unique_ptr<Lit>> lit;
     for (const BundledScene& bundled : bundled_scenes()) {
         Scene scene = load_scene(std::string(bundled.name), {});
-        if (is_bump_lit(scene)) lit.push_back(std::make_unique<Lit>(std::move(scene)));
+        if (is_bump_lit(scene) && !scene.environment) // what they leave out
+            lit.push_back(std::make_unique<Lit>(std::move(scene)));
     }
     return lit;
 }

@@ -85,7 +85,8 @@ test('more rays a pixel smooth silhouettes, and leave the inside of the floor as
 });
 
 test('the EXR has colours where the scene has bump maps, and none elsewhere', () => {
-  const channels = ['Albedo.R', 'Ns.X', 'T.Y', 'diffuse.G', 'specular.B', 'ambient.R'];
+  const channels = ['Albedo.R', 'Ns.X', 'T.Y', 'diffuse.G', 'specular.B', 'ambient.R',
+                    'reflection.G'];
   const lit = rendered('bumpy_sphere', 'lit.exr').toString('latin1', 0, 2000);
   const plain = rendered('ordinary', 'plain.exr').toString('latin1', 0, 2000);
   for (const channel of channels) {

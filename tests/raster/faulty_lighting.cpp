@@ -72,6 +72,27 @@ constexpr LightingFault faults[]{
      .technique = "bump_eye_space",
      .right = "h_u * cross(normal, p_v) + h_v * cross(p_u, normal)",
      .wrong = "h_u * cross(normal, p_u) + h_v * cross(p_v, normal)"},
+    {.name = "reflection_turned_round",
+     .scene = "hammered_silver",
+     .technique = "bump_reflective",
+     .right = "2 * dot(normal, v) * normal - v",
+     .wrong = "v - 2 * dot(normal, v) * normal"},
+    {.name = "reflection_in_tangent_space",
+     .scene = "hammered_silver",
+     .technique = "bump_reflective",
+     .right = "vec3 r = mirrored_at(small_normal(frame()), unit(-surface.from_eye));",
+     .wrong = "mat3 frame = frame();\n"
+              "vec3 r = mirrored_at(small_normal(frame), unit(-surface.from_eye)) * frame;"},
+    {.name = "reflection_on_the_wrong_face",
+     .scene = "hammered_silver",
+     .technique = "bump_reflective",
+     .right = "v.z < 0 ? 5 : 4",
+     .wrong = "v.z < 0 ? 4 : 5"},
+    {.name = "reflection_without_gloss",
+     .scene = "hammered_silver",
+     .technique = "bump_reflective",
+     .right = "reflectance * decal().a",
+     .wrong = "reflectance"},
     {.name = "flipped_hand_in_three_passes",
      .scene = "mirrored_skin",
      .technique = "bump_three_pass",
@@ -101,7 +122,9 @@ Frame draw_faulty(Gpu& gpu, const Scene& scene, const Plan& plan, const Lighting
     if (fault.in_scene != nullptr) fault.in_scene(drawn);
     if (fault.right == nullptr) return find_technique(fault.technique)->run(gpu, drawn, plan);
     const bool eye = fault.technique == std::string("bump_eye_space");
-    const std::string file = fault.technique + std::string(".frag");
+    const bool reflects = fault.technique == std::string("bump_reflective");
+    const std::string file =
+        reflects ? "bump_reflection.frag" : fault.technique + std::string(".frag");
     std::string text(glsl_source(file));
     const std::size_t at = text.find(fault.right);
     if (at == std::string::npos)
@@ -109,7 +132,12 @@ Frame draw_faulty(Gpu& gpu, const Scene& scene, const Plan& plan, const Lighting
     text.replace(at, std::string(fault.right).size(), fault.wrong);
     StencilRecipe recipe = zfail_reversed_recipe(drawn, plan);
     recipe.lighting = {.steps = add_lit_to_ambient({file, text}),
-                       .model = {.axes = eye ? ColorModel::Axes::eye : ColorModel::Axes::world}};
+                       .model = {.axes = eye ? ColorModel::Axes::eye : ColorModel::Axes::world,
+                                 .reflects = reflects}};
+    if (reflects) {
+        recipe.lighting->steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag"));
+        recipe.lighting->steps.push_back(add_reflection({file, text}));
+    }
     return draw_stencil_shadows(gpu, drawn, recipe);
 }
 

@@ -14,7 +14,8 @@ namespace shadowproof::tests {
 struct LightingFault {
     const char* name;
     const char* scene;                            ///< a bundled one on which it shows
-    const char* technique = "bump_tangent_space"; ///< pieces are replaced in it or in the eye's
+    const char* technique = "bump_tangent_space"; ///< pieces are replaced in it, in the eye's, or
+                                                  ///< in what bump_reflective adds
     void (*in_scene)(Scene& scene) = nullptr;
     const char* right = nullptr; ///< a piece of the shader, and what stands in its stead
     const char* wrong = nullptr;

@@ -21,7 +21,14 @@
 namespace shadowproof::tests {
 namespace {
 
-constexpr const char* techniques[]{"bump_tangent_space", "bump_eye_space"};
+constexpr const char* techniques[]{"bump_tangent_space", "bump_eye_space", "bump_reflective"};
+
+std::vector<const char*> techniques_for(const Scene& scene) {
+    std::vector<const char*> names;
+    for (const char* name : techniques)
+        if (suits(*find_technique(name), scene)) names.push_back(name);
+    return names;
+}
 
 /// A scene that is lit by bump maps, and its truth.
 struct Lit {
@@ -100,7 +107,7 @@ protected:
 
 TEST_P(Lighting, in_floating_point_is_within_one_step_of_eight_bits_of_the_truth) {
     const Lit& truth = lit(GetParam());
-    for (const char* name : techniques) {
+    for (const char* name : techniques_for(truth.scene)) {
         SCOPED_TRACE(name);
         const Frame frame = render(*find_technique(name), truth.scene, truth.plan, gpu);
         const Difference off = difference(truth, frame);
@@ -115,7 +122,7 @@ TEST_P(Lighting, claims_the_visibility_that_zfail_reversed_does) {
     const Lit& truth = lit(GetParam());
     const Frame plain = render(*find_technique("zfail_reversed"), truth.scene, truth.plan, gpu);
     EXPECT_TRUE(plain.color.pixels.empty());
-    for (const char* name : techniques) {
+    for (const char* name : techniques_for(truth.scene)) {
         SCOPED_TRACE(name);
         const Frame frame = render(*find_technique(name), truth.scene, truth.plan, gpu);
         EXPECT_EQ(frame.claim.pixels, plain.claim.pixels);
@@ -127,7 +134,7 @@ TEST_P(Lighting, claims_the_visibility_that_zfail_reversed_does) {
 
 TEST_P(Lighting, far_from_the_origin_is_as_near_to_the_truth) {
     Lit moved = move(lit(GetParam()), glm::dvec3(4096, -8192, 16384));
-    for (const char* name : techniques) {
+    for (const char* name : techniques_for(moved.scene)) {
         SCOPED_TRACE(name);
         const Frame frame = render(*find_technique(name), moved.scene, moved.plan, gpu);
         const Difference off = difference(moved, frame);
@@ -159,6 +166,28 @@ TEST(LightingOf, a_scene_without_bump_maps_is_refused_and_says_so) {
         }
     }
     EXPECT_TRUE(suits(*find_technique("zfail_reversed"), scene));
+}
+
+TEST(LightingOf, a_scene_is_drawn_with_its_environment_or_refused) {
+    const auto refusal = [](const char* technique, const char* scene) -> std::string {
+        Gpu gpu(GlPlatform::osmesa);
+        try {
+            render(*find_technique(technique), lit(scene).scene, lit(scene).plan, gpu);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const char* name :
+         {"bump_tangent_space", "bump_eye_space", "bump_three_pass", "bump_one_pass"}) {
+        EXPECT_EQ(refusal(name, "bumpy_sphere"), "");
+        EXPECT_NE(refusal(name, "hammered_silver").find("which " + std::string(name) + " does not"),
+                  std::string::npos);
+    }
+    EXPECT_EQ(refusal("bump_reflective", "hammered_silver"), "");
+    EXPECT_NE(refusal("bump_reflective", "bumpy_sphere").find("has no environment"),
+              std::string::npos);
+    EXPECT_TRUE(suits(*find_technique("zfail_reversed"), lit("hammered_silver").scene));
 }
 
 INSTANTIATE_TEST_SUITE_P(Bundled, Lighting, testing::ValuesIn(bump_lit_scenes()),

@@ -112,12 +112,45 @@ double clamp01(double x) {
     return std::min(1.0, std::max(0.0, x));
 }
 
+/// What a direction shows of six faces: sc, tc and ma by OpenGL 4.5, table 8.19.
+Vector surroundings(const CubeFaces<glm::vec3>& faces, const Vector& r) {
+    const double x = std::abs(r[0]);
+    const double y = std::abs(r[1]);
+    const double z = std::abs(r[2]);
+    std::size_t face = 0;
+    double sc = 0, tc = 0, ma = 0;
+    if (x >= y && x >= z) {
+        face = r[0] >= 0 ? 0 : 1;
+        sc = r[0] >= 0 ? -r[2] : r[2];
+        tc = -r[1];
+        ma = x;
+    } else if (y >= z) {
+        face = r[1] >= 0 ? 2 : 3;
+        sc = r[0];
+        tc = r[1] >= 0 ? r[2] : -r[2];
+        ma = y;
+    } else {
+        face = r[2] >= 0 ? 4 : 5;
+        sc = r[2] >= 0 ? r[0] : -r[0];
+        tc = -r[1];
+        ma = z;
+    }
+    TextureImage picture;
+    picture.wrap_s = picture.wrap_t = Wrap::clamp_to_edge;
+    picture.texels = converted<glm::vec4>(
+        faces[face], [](const glm::vec3& texel) { return glm::vec4(texel, 1); });
+    const Numbers color = filtered(picture, (sc / ma + 1) / 2, (tc / ma + 1) / 2,
+                                   [&](int i, int j) { return texel_at(picture, i, j); });
+    return {color[0], color[1], color[2]};
+}
+
 } // namespace
 
 std::string name_of(Fault fault) {
-    constexpr std::array names{"none",           "flipped_hand",    "exponent_9",
-                               "no_self_shadow", "srgb_normal_map", "inverted_green",
-                               "no_renormalise", "no_gloss",        "linear_decal"};
+    constexpr std::array names{
+        "none",           "flipped_hand",   "exponent_9", "no_self_shadow", "srgb_normal_map",
+        "inverted_green", "no_renormalise", "no_gloss",   "linear_decal",   "turned_reflection",
+        "flat_reflection"};
     return names[static_cast<std::size_t>(fault)];
 }
 
@@ -201,12 +234,22 @@ glm::dvec3 color_at(const Scene& scene, const glm::dvec3& direction, std::uint32
         });
     }
     const double gloss = material.gloss_in_alpha && fault != Fault::no_gloss ? decal[3] : 1;
+    Vector reflected{};
+    if (scene.environment) {
+        const Vector mirror = fault == Fault::flat_reflection ? n : bumped;
+        const Vector to_eye = unit(plus({0, 0, 0}, -1, d));
+        Vector r = plus({0, 0, 0}, 2 * dot(mirror, to_eye), mirror);
+        r = minus(r, to_eye);
+        if (fault == Fault::turned_reflection) r = {-r[0], -r[1], -r[2]};
+        reflected = surroundings(*scene.environment, r);
+    }
     glm::dvec3 color(0);
     for (int k = 0; k < 3; ++k) {
         const double light = lit ? source.color[k] * strength : 0;
         const double surface = material.color[k] * decal[static_cast<std::size_t>(k)];
         color[k] = (light * diffuse + scene.ambient[k]) * surface +
-                   light * specular * gloss * material.specular[k];
+                   light * specular * gloss * material.specular[k] +
+                   material.reflectance[k] * gloss * reflected[static_cast<std::size_t>(k)];
     }
     return color;
 }

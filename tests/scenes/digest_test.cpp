@@ -60,6 +60,10 @@ TEST(Digest, counts_what_lighting_needs_in_scenes_with_bump_maps_alone) {
         EXPECT_EQ(changes(name, [](Scene& s) { s.materials[1].specular.x /= 2; }), counts);
         EXPECT_EQ(changes(name, [](Scene& s) { s.lights[0].color.z /= 2; }), counts);
     }
+    EXPECT_TRUE(changes("hammered_silver", [](Scene& s) { s.materials[1].reflectance.x /= 2; }));
+    EXPECT_TRUE(
+        changes("hammered_silver", [](Scene& s) { (*s.environment)[2].at(3, 5).g += 0.01F; }));
+    EXPECT_TRUE(changes("hammered_silver", [](Scene& s) { s.environment.reset(); }));
     EXPECT_TRUE(changes("bumpy_torus", [](Scene& s) { s.surfaces[77].tangent.w *= -1; }));
     EXPECT_TRUE(changes("bumpy_torus", [](Scene& s) { s.textures[0].texels.at(3, 5).g += 0.01F; }));
     EXPECT_TRUE(

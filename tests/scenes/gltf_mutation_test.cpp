@@ -61,7 +61,10 @@ json everything() {
                                     {{"height", {{"index", 1}, {"scale", 2}}},
                                      {"glossInAlpha", true},
                                      {"specular", {1, 1, 0}}}}}}});
-    gltf["extras"]["shadowproof"] = {{"ambient", {0, 0, 1}}, {"inverseSquare", true}};
+    gltf["extras"]["shadowproof"] = {{"ambient", {0, 0, 1}},
+                                     {"inverseSquare", true},
+                                     {"environment", {{"faces", {0, 0, 0, 1, 1, 1}}}}};
+    gltf["materials"][0]["extras"]["shadowproof"]["reflectance"] = {1, 0, 1};
     json second = gltf["meshes"][0]["primitives"][0];
     second["material"] = 1;
     second["attributes"]["NORMAL"] = 0;

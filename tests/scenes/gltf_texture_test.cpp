@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <ostream>
 
@@ -103,6 +104,39 @@ TEST(extras, say_specular_colour_gloss_ambient_and_falloff) {
     EXPECT_TRUE(scene.materials[0].gloss_in_alpha);
     EXPECT_EQ(scene.ambient, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_TRUE(scene.inverse_square);
+}
+
+/// Six faces of 2 x 2 texels, of one gray each.
+void give_environment(json& gltf) {
+    json& textures = gltf["textures"];
+    json faces = json::array();
+    for (std::uint16_t i = 0; i < 6; ++i) {
+        faces.push_back(textures.size());
+        textures.push_back({{"source", gltf["images"].size()}});
+        gltf["images"].push_back(data_uri(png(std::vector<std::uint16_t>(4, 40 * i))));
+    }
+    gltf["extras"]["shadowproof"]["environment"] = {{"faces", faces}};
+    gltf["materials"][0]["extras"]["shadowproof"]["reflectance"] = {0.25, 0.5, 1};
+}
+
+TEST(extras, say_what_is_reflected_and_how_much_of_it) {
+    json gltf = textured_gltf();
+    EXPECT_FALSE(load(gltf).environment.has_value());
+    EXPECT_EQ(load(gltf).materials[0].reflectance, glm::dvec3(0));
+    give_environment(gltf);
+    const Scene scene = load(gltf);
+    EXPECT_EQ(scene.materials[0].reflectance, glm::dvec3(0.25, 0.5, 1));
+    ASSERT_TRUE(scene.environment.has_value());
+    for (std::size_t face = 0; face < 6; ++face) {
+        const double srgb = 40 * static_cast<double>(face) / 255;
+        const double linear =
+            srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+        EXPECT_EQ((*scene.environment)[face].width, 2);
+        EXPECT_NEAR((*scene.environment)[face].at(1, 0).g, linear, 1e-6);
+    }
+    EXPECT_EQ(scene.textures.size(), 1U); // the bump map alone
+    gltf["materials"][0].erase("normalTexture");
+    EXPECT_FALSE(load(gltf).environment.has_value()); // not looked at
 }
 
 /// One way to break the textured triangle, and what the message must then hold.
@@ -258,6 +292,44 @@ const std::vector<Breakage> breakages{
      " /materials/0/extras/shadowproof/specular/1", "negative"},
     {"ambient_is_text", [](json& g) { g["extras"]["shadowproof"]["ambient"] = "dim"; },
      " /extras/shadowproof/ambient", "not an array"},
+    {"environment_without_faces",
+     [](json& g) { g["extras"]["shadowproof"]["environment"] = json::object(); },
+     " /extras/shadowproof/environment", "\"faces\" is missing"},
+    {"five_faces",
+     [](json& g) {
+         give_environment(g);
+         g["extras"]["shadowproof"]["environment"]["faces"].erase(5);
+     },
+     " /extras/shadowproof/environment/faces", "5 elements, not 6"},
+    {"face_of_no_texture",
+     [](json& g) {
+         give_environment(g);
+         g["extras"]["shadowproof"]["environment"]["faces"][3] = 77;
+     },
+     " /extras/shadowproof/environment/faces/3", "no index into /textures"},
+    {"face_that_is_not_square",
+     [](json& g) {
+         give_environment(g);
+         g["images"].back() = data_uri(author::png_of({2, 1, 1, 8, {0, 1}}));
+     },
+     " /extras/shadowproof/environment/faces/5", "2x1 texels"},
+    {"face_of_another_size",
+     [](json& g) {
+         give_environment(g);
+         g["images"].back() = data_uri(author::png_of({1, 1, 1, 8, {0}}));
+     },
+     " /extras/shadowproof/environment/faces/5", "1x1 texels"},
+    {"reflectance_of_nothing",
+     [](json& g) {
+         ours(g)["reflectance"] = {1, 1, 1};
+     },
+     " /materials/0/extras/shadowproof/reflectance", "environment that the file does not have"},
+    {"negative_reflectance",
+     [](json& g) {
+         give_environment(g);
+         ours(g)["reflectance"] = {1, 1, -1};
+     },
+     " /materials/0/extras/shadowproof/reflectance/2", "negative"},
     {"scale_is_text", [](json& g) { g["materials"][0]["normalTexture"]["scale"] = "2"; },
      " /materials/0/normalTexture/scale", "not a number"},
 };

@@ -1,6 +1,8 @@
 #include "scenes/bundled/author/parts.h"
 #include "scenes/bundled/author/textures.h"
 
+#include <string>
+
 namespace shadowproof::author {
 
 namespace {
@@ -73,10 +75,46 @@ Stage height_field() {
     return stage;
 }
 
+/// A ball through a ring, both hammered: silver, and stripes of gold that are dull in the dents.
+Stage hammered_silver() {
+    Stage stage = lit_from_the_left(
+        "hammered_silver", "A hammered ball and a ring around it reflect sky, plain and windows.");
+    stage.textures = {{"dents", png_of(normal_map(64, 64, bumps(2, 2), 2.3))},
+                      {"stripes", png_of(glossy_stripes(64, 64, bumps(2, 2), {0.87, 0.69, 0.31},
+                                                        {0.47, 0.29, 0.17}))}};
+    for (unsigned face = 0; face < 6; ++face) {
+        stage.environment.push_back(stage.textures.size());
+        stage.textures.push_back({"surroundings " + std::to_string(face),
+                                  png_of(surroundings(face, 64)), wrap_clamp_to_edge});
+    }
+    const glm::dvec3 place{0.113, 1.253, 0.171};
+    add(stage, {{.name = "ball",
+                 .shape = textured_ball(glm::dvec3(1.213), 48, 24, Wearing::around, {4, 2}),
+                 .color = {0.13, 0.13, 0.14},
+                 .position = place,
+                 .turn_axis = {0.31, 0.83, 0.47},
+                 .turn = 0.7331,
+                 .look = {.bump = 0,
+                          .specular = glm::dvec3(0.4),
+                          .reflectance = glm::dvec3(0.67, 0.68, 0.70)}},
+                {.name = "ring",
+                 .shape = textured_torus(1.613, 0.213, 48, 16, {10, 2}),
+                 .color = {0.4, 0.4, 0.4},
+                 .position = place,
+                 .turn_axis = {0.913, 0.071, 0.402},
+                 .turn = 0.3713,
+                 .look = {.bump = 0,
+                          .decal = 1,
+                          .gloss_in_alpha = true,
+                          .specular = glm::dvec3(0.7, 0.6, 0.4),
+                          .reflectance = glm::dvec3(0.71, 0.55, 0.29)}}});
+    return stage;
+}
+
 } // namespace
 
 std::vector<Stage> stages_of_bumps() {
-    return {bumpy_sphere(), bumpy_torus(), mirrored_skin(), height_field()};
+    return {bumpy_sphere(), bumpy_torus(), mirrored_skin(), height_field(), hammered_silver()};
 }
 
 } // namespace shadowproof::author

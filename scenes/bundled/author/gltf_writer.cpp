@@ -179,6 +179,7 @@ void wear(Json& material, const Look& look) {
     }
     if (look.gloss_in_alpha) ours["glossInAlpha"] = true;
     if (look.specular) ours["specular"] = array(*look.specular);
+    if (look.reflectance) ours["reflectance"] = array(*look.reflectance);
     if (!ours.empty()) material["extras"] = {{"shadowproof", ours}};
 }
 
@@ -371,6 +372,8 @@ void add_textures(Buffer& buffer, const Stage& stage, Json& gltf) {
     }
     gltf["extras"]["shadowproof"]["ambient"] = array(stage.ambient);
     if (stage.inverse_square) gltf["extras"]["shadowproof"]["inverseSquare"] = true;
+    if (!stage.environment.empty())
+        gltf["extras"]["shadowproof"]["environment"]["faces"] = stage.environment;
 }
 
 /// Indices of the nodes that are no other's children.

@@ -21,6 +21,7 @@ struct Look {
     std::optional<std::size_t> decal{};
     bool gloss_in_alpha = false;
     std::optional<glm::dvec3> specular{};
+    std::optional<glm::dvec3> reflectance{};
 };
 
 /// How a morph target at weight 1 moves each vertex; of normals and tangents where the shape has
@@ -100,7 +101,8 @@ struct Stage {
     std::vector<Track> tracks{};
     std::vector<Painting> textures{};
     glm::dvec3 ambient{0, 0, 0};
-    bool inverse_square = false; ///< the light's intensity counts, and its distance
+    bool inverse_square = false;            ///< the light's intensity counts, and its distance
+    std::vector<std::size_t> environment{}; ///< +x -x +y -y +z -z, indices into textures; or none
     glm::dvec3 eye{0, 0, 5};
     glm::dvec3 target{0, 0, 0};
     double yfov = 0.6; ///< radians

@@ -1,5 +1,7 @@
 #include "scenes/bundled/author/textures.h"
 
+#include "scenes/cube_map.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -42,6 +44,42 @@ Raster painted(unsigned width, unsigned height, unsigned channels, unsigned bits
                 raster.values.push_back(stored(color[static_cast<int>(k)], bits));
         }
     return raster;
+}
+
+/// sRGB, from the height of a direction over the horizon, -1 to 1.
+glm::dvec3 sky_and_plain(double height) {
+    constexpr glm::dvec3 zenith(0.20, 0.36, 0.66);
+    constexpr glm::dvec3 haze(0.83, 0.87, 0.90);
+    constexpr glm::dvec3 far_plain(0.45, 0.38, 0.29);
+    constexpr glm::dvec3 near_plain(0.20, 0.17, 0.15);
+    const glm::dvec3 sky = glm::mix(haze, zenith, rise(-0.2, 0.9, height));
+    const glm::dvec3 plain = glm::mix(far_plain, near_plain, rise(0, 0.8, -height));
+    return glm::mix(plain, sky, rise(-0.02, 0.02, height));
+}
+
+/// A window on the sky, as an eye in the middle sees it.
+struct Window {
+    glm::dvec3 towards;
+    glm::dvec2 half_size; ///< at distance 1
+    glm::dvec3 color;     ///< sRGB
+};
+
+/// 1 on its two by two panes, 0 beside them.
+double pane(const Window& window, const glm::dvec3& direction) {
+    const glm::dvec3 ahead = glm::normalize(window.towards);
+    const double distance = glm::dot(direction, ahead);
+    if (distance <= 0) return 0;
+    const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
+    const glm::dvec2 at = glm::abs(glm::dvec2(glm::dot(direction, right),
+                                              glm::dot(direction, glm::cross(right, ahead)))) /
+                          distance;
+    constexpr double soft = 0.023;
+    constexpr double bar = 0.021; // half as wide as what parts the panes
+    const auto within = [&](int axis) {
+        return rise(bar - soft, bar + soft, at[axis]) *
+               (1 - rise(-soft, soft, at[axis] - window.half_size[axis]));
+    };
+    return within(0) * within(1);
 }
 
 } // namespace
@@ -105,6 +143,19 @@ Raster normal_map(unsigned width, unsigned height, const Relief& relief, double 
         const double to_right = (around(u + du, v) - around(u - du, v)) / 2;
         const double down = (around(u, v + dv) - around(u, v - dv)) / 2;
         return glm::normalize(glm::dvec3(-scale * to_right, scale * down, 1)) * 0.5 + 0.5;
+    });
+}
+
+Raster surroundings(unsigned face, unsigned size) {
+    const Window windows[]{{{-0.83, 0.93, 0.71}, {0.31, 0.41}, {1, 0.98, 0.93}},
+                           {{0.79, 0.53, 0.61}, {0.19, 0.37}, {1, 0.94, 0.80}},
+                           {{-0.13, 0.67, -0.91}, {0.47, 0.23}, {0.97, 0.99, 1}}};
+    return painted(size, size, 3, 8, [&](double u, double v) {
+        const glm::dvec3 direction = glm::normalize(through(face, 2 * u - 1, 2 * v - 1));
+        glm::dvec3 color = sky_and_plain(direction.y);
+        for (const Window& window : windows)
+            color = glm::mix(color, window.color, pane(window, direction));
+        return color;
     });
 }
 

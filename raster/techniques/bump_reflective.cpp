@@ -1,0 +1,33 @@
+#include "raster/stencil.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// As bump_tangent_space, and over it, lit or not, what the surface reflects of the scene's
+/// environment: the small normal carried into world space, the eye's direction mirrored at it, and
+/// a lookup that depends on that, all by the pixel.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
+    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
+                       .model = with_settings({.reflects = true}, plan.lighting)};
+    recipe.lighting->steps.push_back(add_reflection(shader_file("bump_reflection.frag")));
+    return draw_stencil_shadows(gpu, scene, recipe);
+}
+
+} // namespace
+
+Technique bump_reflective_technique() {
+    return {.name = "bump_reflective",
+            .summary = "bump_tangent_space, and bumps that reflect an environment",
+            .source = "CS448 lecture 11, reflective bump mapping",
+            .needs = "bump maps, an environment, and blending into an RGBA32F colour buffer",
+            .cost = 4.9,
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .needs_bump_maps = true,
+            .needs_environment = true,
+            .run = run};
+}
+
+} // namespace shadowproof
