@@ -41,6 +41,9 @@ Json color_of(const ColorCheck& colors) {
               {"normalise", name_of(colors.model.normalisation)},
               {"bumps", name_of(colors.model.bump_form)}};
     if (colors.judged > 0) json["largest_at"] = {{"x", colors.largest_x}, {"y", colors.largest_y}};
+    if (colors.unforeseen > 0)
+        json["first_unforeseen"] = {{"x", colors.first_unforeseen_x},
+                                    {"y", colors.first_unforeseen_y}};
     return json;
 }
 

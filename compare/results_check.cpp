@@ -222,6 +222,7 @@ void color(const Place& place) {
                    {"perceptible", count},
                    {"beyond", count},
                    {"unforeseen", count},
+                   {"first_unforeseen", place_in_picture, Need::optional},
                    {"normalise", text},
                    {"bumps", text}});
 }
