@@ -89,7 +89,7 @@ Stage hammered_silver() {
     }
     const glm::dvec3 place{0.113, 1.253, 0.171};
     add(stage, {{.name = "ball",
-                 .shape = textured_ball(glm::dvec3(1.213), 48, 24, Wearing::around, {4, 2}),
+                 .shape = textured_ball(glm::dvec3(1.213), 48, 24, Wearing::around, {6, 3}),
                  .color = {0.13, 0.13, 0.14},
                  .position = place,
                  .turn_axis = {0.31, 0.83, 0.47},
