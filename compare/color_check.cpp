@@ -1,7 +1,6 @@
 #include "compare/color_check.h"
 
 #include "compare/freedom.h"
-#include "compare/perceptible.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -150,14 +149,8 @@ bool is_unforeseen(ColorVerdict verdict) {
     return verdict == ColorVerdict::unforeseen || verdict == ColorVerdict::unexplained;
 }
 
-/// Truth and claim, where they are judged; black elsewhere.
-struct JudgedColors {
-    Image<glm::vec3>& truth;
-    Image<glm::vec3>& claim;
-};
-
 RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& shader,
-                  ColorCheck& check, const JudgedColors& judged) {
+                  ColorCheck& check) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
     for (int x = 0; x < check.error.width; ++x)
@@ -172,8 +165,6 @@ RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& 
         const int x = columns[i];
         const glm::dvec3 claim = judge.claim(x, y);
         const glm::dvec3 truth = showable(check.model, shadings[i].color());
-        judged.truth.at(x, y) = truth;
-        judged.claim.at(x, y) = claim;
         const glm::dvec3 off = 255.0 * glm::abs(claim - truth);
         check.error.at(x, y) = static_cast<float>(std::max({off.x, off.y, off.z}));
         sums.squares += glm::dot(off, off);
@@ -235,8 +226,6 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     check.model = frame.color_model;
     check.error = Image<float>(width, height);
     check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::not_judged);
-    Image<glm::vec3> shown(width, height);
-    Image<glm::vec3> claimed(width, height);
     std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
     std::uint64_t unforeseen = 0;
@@ -247,14 +236,12 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
             std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
             if (!shader) shader = std::make_unique<RayShader>(tracer);
             const int y = first + i;
-            rows[static_cast<std::size_t>(y)] =
-                check_row(judge, y, scrutiny, *shader, check, {shown, claimed});
+            rows[static_cast<std::size_t>(y)] = check_row(judge, y, scrutiny, *shader, check);
         });
         for (int i = 0; i < count; ++i)
             unforeseen += rows[static_cast<std::size_t>(first + i)].unforeseen;
     }
     count(check);
-    check.perceptible = count_perceptible(shown, claimed);
     double squares = 0;
     for (const RowSums& row : rows) {
         squares += row.squares;

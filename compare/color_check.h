@@ -25,14 +25,13 @@ struct ColorCheck {
     Image<float> error;          ///< largest of the channels' differences, in steps of 1/255
     Image<ColorVerdict> verdict; ///< of every pixel
     std::uint64_t judged = 0;
-    double largest = 0;            ///< difference of a channel, in steps of 1/255; here and below
-    int largest_x = 0;             ///< where: the first in rows from the top
-    int largest_y = 0;             ///< "
-    double rmse = 0;               ///< over the channels of all judged pixels
-    double percentile999 = 0;      ///< 99.9 % of the judged pixels' errors are no larger
-    std::uint64_t perceptible = 0; ///< pixels that a person would tell apart (perceptible.h)
-    std::uint64_t beyond = 0;      ///< pixels by verdict
-    std::uint64_t unforeseen = 0;  ///< with those that are unexplained
+    double largest = 0;           ///< difference of a channel, in steps of 1/255; here and below
+    int largest_x = 0;            ///< where: the first in rows from the top
+    int largest_y = 0;            ///< "
+    double rmse = 0;              ///< over the channels of all judged pixels
+    double percentile999 = 0;     ///< 99.9 % of the judged pixels' errors are no larger
+    std::uint64_t beyond = 0;     ///< pixels by verdict
+    std::uint64_t unforeseen = 0; ///< with those that are unexplained
     std::uint64_t moved = 0; ///< pixels that hold only if the rasterizer's lateral freedom counts
     int first_unforeseen_x = 0;
     int first_unforeseen_y = 0;

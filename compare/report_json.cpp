@@ -35,7 +35,6 @@ Json color_of(const ColorCheck& colors) {
               {"largest", colors.largest},
               {"rmse", colors.rmse},
               {"p999", colors.percentile999},
-              {"perceptible", colors.perceptible},
               {"beyond", colors.beyond},
               {"unforeseen", colors.unforeseen},
               {"normalise", name_of(colors.model.normalisation)},

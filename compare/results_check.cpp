@@ -219,7 +219,6 @@ void color(const Place& place) {
                    {"largest_at", place_in_picture, Need::optional},
                    {"rmse", number},
                    {"p999", number},
-                   {"perceptible", count},
                    {"beyond", count},
                    {"unforeseen", count},
                    {"first_unforeseen", place_in_picture, Need::optional},

@@ -26,15 +26,13 @@ function modelWords({ normalise, bumps }) {
 function colorLine(scene, cell) {
   const { color } = cell;
   if (!color) return null;
-  const { largest, largest_at: at, rmse, p999, perceptible } = color;
-  const told = perceptible === 0 ? 'no pixel' : counted(perceptible, 'pixel');
+  const { largest, largest_at: at, rmse, p999 } = color;
   return element('p', { class: 'colors' }, element('b', {}, 'Colours: '),
     !at ? 'none is judged, as surface or visibility are nowhere the truth’s; '
         : [`off by at most ${largest.toFixed(2)}/255 at `,
            element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
                    `(${at.x}, ${at.y})`),
-           `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}, ` +
-           `${told} a person would tell apart; `],
+           `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}; `],
     `${modelWords(color)}.`);
 }
 

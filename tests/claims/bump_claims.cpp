@@ -19,7 +19,7 @@ namespace shadowproof::claims {
 
 namespace {
 
-/// A bump-lit scene, traced.
+/// A bump-lit scene without an environment, traced.
 struct Lit {
     Scene scene;
     Plan plan;

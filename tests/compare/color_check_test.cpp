@@ -141,7 +141,6 @@ TEST(Colors, are_the_same_for_any_number_of_threads) {
     EXPECT_EQ(one.error.pixels, many.error.pixels);
     EXPECT_EQ(one.verdict.pixels, many.verdict.pixels);
     EXPECT_EQ(one.rmse, many.rmse);
-    EXPECT_EQ(one.perceptible, many.perceptible);
 }
 
 class FaultInLighting : public testing::TestWithParam<tests::LightingFault> {};
