@@ -36,6 +36,19 @@ std::string_view meaning_of(ColorVerdict verdict) {
     return "beyond the bound of what rounding explains, and not what its arithmetic foresees";
 }
 
+double weight_of(const ColorAccount& account, ColorTerm term) {
+    return account.weights[static_cast<std::size_t>(term)];
+}
+
+/// What moves the colour most comes first.
+std::array<ColorTerm, all_color_terms.size()> heaviest_first(const ColorAccount& account) {
+    std::array terms = all_color_terms;
+    std::stable_sort(terms.begin(), terms.end(), [&](ColorTerm a, ColorTerm b) {
+        return weight_of(account, a) > weight_of(account, b);
+    });
+    return terms;
+}
+
 Json color_json(const glm::dvec3& color) {
     return {color.x, color.y, color.z};
 }
@@ -72,9 +85,11 @@ std::string to_text(const ColorAccount& account, const std::string& technique) {
                     "    foreseen  {}\n    moved by ",
                     technique, meaning_of(account.verdict), words_of(account.showable),
                     words_of(account.claim), words_of(account.bound), words_of(account.foreseen));
-    for (const ColorTerm term : all_color_terms)
-        text += fmt::format("{} {} {:.2f}/255", term == all_color_terms.front() ? "" : ",",
-                            name_of(term), account.weights[static_cast<std::size_t>(term)]);
+    std::string_view separator;
+    for (const ColorTerm term : heaviest_first(account)) {
+        text += fmt::format("{} {} {:.2f}/255", separator, name_of(term), weight_of(account, term));
+        separator = ",";
+    }
     return text + "\n";
 }
 
@@ -85,9 +100,8 @@ nlohmann::ordered_json to_json(const ColorAccount& account) {
     if (account.verdict == ColorVerdict::not_judged) return json;
     json["bound"] = ends_json(account.bound);
     json["foreseen"] = ends_json(account.foreseen);
-    for (const ColorTerm term : all_color_terms)
-        json["moved_by"][std::string(name_of(term))] =
-            account.weights[static_cast<std::size_t>(term)];
+    for (const ColorTerm term : heaviest_first(account))
+        json["moved_by"][std::string(name_of(term))] = weight_of(account, term);
     return json;
 }
 

@@ -92,15 +92,15 @@ Intervals sum(const Intervals& a, const Intervals& b) {
 }
 
 /// T, B and N of the seen side, and how far each is off.
-struct Frame3 {
+struct TangentFrame {
     glm::dvec3 tangent, bitangent, normal;
     double tangent_off = 0;
     double normal_off = 0;
 };
 
-Frame3 frame_at(const InputPoint& point) {
+TangentFrame frame_at(const InputPoint& point) {
     const Shading& shading = point.shading;
-    Frame3 frame;
+    TangentFrame frame;
     frame.normal = shading.normal;
     frame.tangent = shading.side * shading.tangent;
     frame.bitangent =
@@ -110,8 +110,8 @@ Frame3 frame_at(const InputPoint& point) {
 
 /// Corners of unit length that point apart leave little between them, of which an error is a larger
 /// share. Roundings: 8 v for making it of unit length and, of T, at right angles to N.
-Frame3 frame_at(const Scene& scene, const InputPoint& point, double share) {
-    Frame3 frame = frame_at(point);
+TangentFrame frame_at(const Scene& scene, const InputPoint& point, double share) {
+    TangentFrame frame = frame_at(point);
     const glm::dvec3& weights = point.shading.weights;
     const auto normal = interpolated(
         weights, [&](int k) { return glm::dvec3(surface_of(scene, point.triangle, k).normal); });
@@ -125,14 +125,14 @@ Frame3 frame_at(const Scene& scene, const InputPoint& point, double share) {
     return frame;
 }
 
-Frame3 turned(const glm::dmat3& axes, Frame3 frame) {
+TangentFrame turned(const glm::dmat3& axes, TangentFrame frame) {
     frame.tangent = axes * frame.tangent;
     frame.bitangent = axes * frame.bitangent;
     frame.normal = axes * frame.normal;
     return frame;
 }
 
-Intervals into(const Frame3& frame, const Intervals& vector) {
+Intervals into(const TangentFrame& frame, const Intervals& vector) {
     const Intervals tangent = around(frame.tangent, frame.tangent_off);
     const Intervals bitangent = around(frame.bitangent, frame.tangent_off + frame.normal_off);
     const Intervals normal = around(frame.normal, frame.normal_off);
@@ -143,7 +143,7 @@ Intervals into(const Frame3& frame, const Intervals& vector) {
 }
 
 /// N' in world space, where m is known as well as `bump` says.
-Intervals out_of(const Frame3& frame, const Intervals& bump) {
+Intervals out_of(const TangentFrame& frame, const Intervals& bump) {
     const Intervals tangent = around(frame.tangent, frame.tangent_off);
     const Intervals bitangent = around(frame.bitangent, frame.tangent_off + frame.normal_off);
     const Intervals normal = around(frame.normal, frame.normal_off);
@@ -304,7 +304,7 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
 LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point) {
     const Scene& scene = *tables.scene;
     const Shading& shading = point.shading;
-    const Frame3 frame = frame_at(point);
+    const TangentFrame frame = frame_at(point);
     LightingInputs inputs;
     inputs.light = into(frame, around(shading.to_light));
     inputs.half = into(frame, around(shading.half));
@@ -340,7 +340,7 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     const double eye_off = share * largest_length(from_eye);
     const Intervals e = normalised(tables, -(axes * shading.point), eye_off);
     const Intervals both = sum(l, e);
-    const Frame3 frame = turned(axes, frame_at(scene, point, share));
+    const TangentFrame frame = turned(axes, frame_at(scene, point, share));
     LightingInputs inputs;
     inputs.light = into(frame, l);
     inputs.half = into(frame, normalised(tables, middle(both), radius_of(both) + v));
