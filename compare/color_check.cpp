@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowproof {
 
@@ -41,6 +43,10 @@ struct Freedom {
     }
 };
 
+constexpr Interval any_number{-std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::infinity()};
+constexpr Intervals anything{any_number, any_number, any_number};
+
 class ColorJudge {
 public:
     ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame)
@@ -71,7 +77,9 @@ public:
                                   .far = scene_.camera.far});
     }
 
+    /// Where a triangle is seen edge-on, all that is interpolated over it may come out as anything.
     Limits limits(const InputPoint& at, double share) const {
+        if (!std::isfinite(share)) return {anything, anything};
         const LightingInputs truth = true_inputs(tables_, at);
         const LightingInputs claimed = claimed_inputs(tables_, at, share);
         return {color_bound(frame_.color_model, truth, claimed),
