@@ -11,6 +11,7 @@ std::uint8_t byte_of(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
 }
 
+/// IEC 61966-2-1, whose numbers these are: a line near black, a power above.
 double srgb_from_linear(double value) {
     return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
 }

@@ -1,6 +1,7 @@
 #include "compare/lighting_inputs.h"
 
 #include "scenes/relief.h"
+#include "scenes/spot_cone.h"
 
 #include <bit>
 #include <cassert>
@@ -244,11 +245,12 @@ Intervals radiance_at(const Scene& scene, const glm::dvec3& to_light, double tur
     const Light& light = chosen_light(scene);
     Interval strength = around(1);
     if (light.kind == Light::Kind::spot) {
-        const double outer = std::cos(light.outer_cone);
-        const double scale = 1 / std::max(0.001, std::cos(light.inner_cone) - outer);
-        const Interval within = clamped(
-            scale * around(-glm::dot(to_light, light.direction) - outer, turn + 6 * v), 0, 1);
-        strength = squared(within);
+        // Rounded are the axis, the cosine's products and its two sums, the outer cone's cosine,
+        // the difference (up to 2) and the product with the scale: 8 v, before the scale.
+        const SpotCone cone = spot_cone(light);
+        const double cosine = -glm::dot(to_light, light.direction);
+        strength =
+            squared(clamped(cone.scale * around(cosine - cone.cos_outer, turn + 8 * v), 0, 1));
     }
     const bool has_place = light.kind != Light::Kind::directional;
     if (scene.inverse_square && has_place)

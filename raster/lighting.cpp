@@ -3,6 +3,7 @@
 #include "raster/lit_sides.h"
 #include "scenes/bump_forms.h"
 #include "scenes/error.h"
+#include "scenes/spot_cone.h"
 
 #include <algorithm>
 #include <array>
@@ -185,12 +186,9 @@ void set_light(const GlFunctions& gl, const Program& program, const Scene& scene
     const bool inverse_square = scene.inverse_square;
     set_color(gl, program, 16, inverse_square ? light.color * light.intensity : light.color);
     set_color(gl, program, 17, axes * light.direction);
-    const double cosine = std::cos(light.outer_cone);
-    const double scale = light.kind == Light::Kind::spot
-                             ? 1 / std::max(0.001, std::cos(light.inner_cone) - cosine)
-                             : 0;
-    gl.ProgramUniform1f(program.name(), 18, static_cast<float>(cosine));
-    gl.ProgramUniform1f(program.name(), 19, static_cast<float>(scale));
+    const SpotCone cone = light.kind == Light::Kind::spot ? spot_cone(light) : SpotCone{};
+    gl.ProgramUniform1f(program.name(), 18, static_cast<float>(cone.cos_outer));
+    gl.ProgramUniform1f(program.name(), 19, static_cast<float>(cone.scale));
     const bool has_place = light.kind != Light::Kind::directional;
     gl.ProgramUniform1i(program.name(), 20, inverse_square && has_place ? 1 : 0);
 }

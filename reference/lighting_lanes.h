@@ -27,7 +27,7 @@ struct LaneLight {
     glm::dvec3 axis{0, 0, -1}; ///< of a spot
     bool spot = false;
     double cos_outer = 0;
-    double cone_scale = 0; ///< 1 / max(0.001, cos inner - cos outer)
+    double cone_scale = 0; ///< as SpotCone has it
     bool inverse_square = false;
 };
 

@@ -1,6 +1,7 @@
 #include "reference/point_shader.h"
 
 #include "scenes/relief.h"
+#include "scenes/spot_cone.h"
 #include "scenes/tangents.h"
 
 #include <algorithm>
@@ -22,8 +23,9 @@ LaneLight lane_light(const Tracer::State& state) {
     lanes.inverse_square = state.scene->inverse_square;
     lanes.spot = light.kind == Light::Kind::spot;
     if (lanes.spot) {
-        lanes.cos_outer = std::cos(light.outer_cone);
-        lanes.cone_scale = 1 / std::max(0.001, std::cos(light.inner_cone) - lanes.cos_outer);
+        const SpotCone cone = spot_cone(light);
+        lanes.cos_outer = cone.cos_outer;
+        lanes.cone_scale = cone.scale;
     }
     return lanes;
 }
