@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what Debian 12 has to offer for building (./setup.sh build) and for testing too
-# (./setup.sh test). Does nothing, quickly, where all of it is there.
+# Installs what Debian 12 has to offer for building (./setup.sh build), for testing too
+# (./setup.sh test), or for fuzzing too (./setup.sh fuzz). Does nothing, quickly, where all of it is there.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -9,9 +9,11 @@ build_packages=(
     libembree-dev libtbb-dev libglm-dev libhwy-dev libgmp-dev libxxhash-dev libdeflate-dev
     libopenimageio-dev libpng-dev libtinygltf-dev nlohmann-json3-dev
     libosmesa6-dev libegl-dev libegl1
-    libcli11-dev libfmt-dev duktape-dev
+    libcli11-dev libfmt-dev libcereal-dev duktape-dev
 )
-test_packages=(libgtest-dev libbenchmark-dev libxml2-utils clang-format assimp-testmodels chromium fonts-dejavu-core)
+test_packages=(libgtest-dev libbenchmark-dev libxml2-utils clang-format assimp-testmodels chromium fonts-dejavu-core locales time)
+# libFuzzer comes with clang's run-time libraries; llvm has the symbolizer of its reports.
+fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14 assimp-testmodels)
 
 case ${1:-} in
 build) wanted=("${build_packages[@]}") ;;
@@ -21,7 +23,8 @@ test)
     command -v node >/dev/null || wanted+=(nodejs)
     command -v npm >/dev/null || wanted+=(npm)
     ;;
-*) echo "usage: ./setup.sh build|test" >&2; exit 2 ;;
+fuzz) wanted=("${build_packages[@]}" "${fuzz_packages[@]}") ;;
+*) echo "usage: ./setup.sh build|test|fuzz" >&2; exit 2 ;;
 esac
 
 command -v dpkg-query >/dev/null || {

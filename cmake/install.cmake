@@ -22,7 +22,8 @@ install(DIRECTORY scenes/bundled/ DESTINATION ${scenes_folder}
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof)
 # Where the README links to them.
-install(FILES docs/ci.md docs/claims.md docs/lighting.md docs/techniques.md docs/github-actions.yml docs/results.schema.json
+install(FILES docs/ci.md docs/claims.md docs/lighting.md docs/reliability.md docs/techniques.md docs/github-actions.yml
+    docs/manifest.schema.json docs/results.schema.json
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 
 configure_package_config_file(cmake/shadowproof-config.cmake.in

@@ -8,13 +8,27 @@
 
 namespace shadowproof {
 
+namespace {
+
+bool has_surfaces(const GroundTruth& truth) {
+    return truth.statistics.lit + truth.statistics.shadowed > 0;
+}
+
+} // namespace
+
 void refuse_blank(std::string_view technique, const GroundTruth& truth, const Frame& frame) {
-    const bool has_surfaces = truth.statistics.lit + truth.statistics.shadowed > 0;
     const bool blank = std::all_of(frame.triangle.pixels.begin(), frame.triangle.pixels.end(),
                                    [](std::uint32_t id) { return id == no_triangle; });
-    if (has_surfaces && blank)
+    if (has_surfaces(truth) && blank)
         throw Error(std::string(technique), "blank render: no pixel shows a surface",
                     "see what the driver says, or try another with --gl");
+}
+
+std::optional<std::string> note_if_nothing_is_seen(const GroundTruth& truth) {
+    if (has_surfaces(truth)) return std::nullopt;
+    return "nothing is seen: every pixel is background, and agreement says little; turn or move "
+           "the "
+           "camera";
 }
 
 } // namespace shadowproof

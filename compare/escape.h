@@ -2,6 +2,8 @@
 // a meaning. Bytes that are not UTF-8 become U+FFFD in all of them but a shell's word.
 #pragma once
 
+#include "scenes/printable.h"
+
 #include <string>
 #include <string_view>
 
@@ -9,10 +11,6 @@ namespace shadowproof {
 
 /// For HTML and XML, also between quotes. Control characters that XML forbids become U+FFFD.
 std::string escaped(std::string_view text);
-
-/// For one line of a terminal: control characters (C0, DEL, C1), line ends among them, become
-/// U+FFFD, so that a name can neither colour, move nor clear anything.
-std::string printable(std::string_view text);
 
 /// For a cell of a table in GitHub's Markdown: printable, and no character marks anything up.
 std::string for_markdown(std::string_view text);

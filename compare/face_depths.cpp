@@ -1,6 +1,7 @@
 #include "compare/face_depths.h"
 
 #include "compare/freedom.h"
+#include "reference/faces.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,9 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 } // namespace
 
 double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
-    const glm::dvec3 a = corner(scene, triangle, 0);
-    const glm::dvec3 normal =
-        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
+    const auto [a, b, c] = from_short_edge(
+        {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)});
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double depth = glm::dot(a - scene.camera.eye, normal) / glm::dot(direction, normal);
     return depth > 0 ? depth : infinity;
 }

@@ -1,85 +1,100 @@
 #include "compare/memory.h"
 
-#include "compare/classify.h"
-#include "reference/ledger.h"
-#include "scenes/error.h"
-
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/sysinfo.h>
 
 #include <algorithm>
-#include <fstream>
+#include <array>
 
 namespace shadowproof {
 
 namespace {
 
-/// Bytes of one pixel in all of these pictures.
-template <class... T>
-constexpr std::size_t bytes_of(Image<T>... /*pictures*/) {
-    return (sizeof(T) + ... + 0);
+std::uint64_t pixels_of(int width, int height) {
+    return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// Of a target in OpenGL, which in software lies in the same memory: claim (R8), triangle (R32UI),
-/// sum (R32F), and depth with stencil (D24_S8, the smaller of the two formats).
-constexpr std::size_t target_bytes = 1 + 4 + 4 + 4;
-
-std::size_t technique_bytes() {
-    const Frame frame;
-    const Comparison comparison;
-    return bytes_of(frame.claim, frame.counter, frame.volumes, frame.depth, frame.triangle) +
-           bytes_of(comparison.cause, comparison.ledger_miss, comparison.predicted);
+/// Of a triangle: the tracer's hierarchy and planes, and what lighting keeps of its corners.
+std::uint64_t triangle_bytes(Workload work, bool lit) {
+    if (work != Workload::comparison) return lit ? 400 : 150;
+    return lit ? 500 : 200;
 }
 
-/// Counters and shadow depths: volumes may be others than the casters'.
-std::size_t prediction_bytes() {
-    const ShadowDepths depths;
-    return sizeof(std::int32_t) +
-           bytes_of(depths.at_surface, depths.at_near, depths.at_far, depths.at_infinity);
+/// Of a vertex. Where techniques run: half edges, silhouettes, fillings of holes, and volumes in
+/// the program and in OpenGL, which in software is in the same memory. All of that goes by edges,
+/// of which a closed surface has six for each vertex, and loose triangles, whose every edge is
+/// open, one: but then each of them is filled and extruded by itself.
+std::uint64_t vertex_bytes(Workload work) {
+    return work == Workload::comparison ? 700 : 24;
 }
 
-double gigabytes(std::uint64_t bytes) {
-    return static_cast<double>(bytes) / 1e9;
+/// Of a texel, beside the scene's own 16: what lighting makes of it for the truth; and for a
+/// technique in another form, and once more in OpenGL.
+std::uint64_t texel_bytes(Workload work) {
+    return work == Workload::comparison ? 112 : 48;
+}
+
+struct Part {
+    std::uint64_t bytes = 0;
+    std::string name;
+    const char* remedy = "";
+};
+
+std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
+    const bool lit = is_bump_lit(scene);
+    std::uint64_t texels = 0;
+    for (const TextureImage& texture : scene.textures) texels += texture.texels.pixels.size();
+    if (scene.environment)
+        for (const auto& face : *scene.environment) texels += face.pixels.size();
+    const std::uint64_t pixels = pixels_of(scene.camera.width, scene.camera.height);
+    const std::uint64_t triangles = scene.triangles.size();
+    return {Part{pixels * pixel_bytes(work, lit),
+                 fmt::format("a picture of {}x{}", scene.camera.width, scene.camera.height),
+                 "try a smaller --size"},
+            Part{triangles * triangle_bytes(work, lit) +
+                     scene.positions.size() * vertex_bytes(work) +
+                     scene.surfaces.size() * sizeof(Surface) * 2,
+                 fmt::format("{} triangles", triangles), "give the scene fewer triangles"},
+            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)), fmt::format("{} texels", texels),
+                 "make its textures smaller"}};
 }
 
 } // namespace
 
-std::size_t truth_bytes() {
-    const GroundTruth truth;
-    return bytes_of(truth.visibility, truth.triangle, truth.depth, truth.exactness);
+std::size_t pixel_bytes(Workload work, bool lit) {
+    switch (work) {
+    case Workload::class_map:
+        return 24;
+    case Workload::truth:
+        return 72;
+    case Workload::colors:
+        return 56;
+    case Workload::terms:
+        return 470;
+    case Workload::lit_truth:
+        return 690;
+    case Workload::comparison:
+        break;
+    }
+    return lit ? 200 : 110;
 }
 
-std::size_t comparison_bytes() {
-    const ShadowDepths depths;
-    return truth_bytes() +
-           bytes_of(depths.at_surface, depths.at_near, depths.at_far, depths.at_infinity) +
-           prediction_bytes() + technique_bytes() + target_bytes;
+void require_picture(const MemoryBudget& budget, int width, int height, Workload work) {
+    require_memory(budget, program_bytes,
+                   {pixels_of(width, height) * pixel_bytes(work, false),
+                    fmt::format("--size {}x{}", width, height),
+                    fmt::format("{} bytes a pixel", pixel_bytes(work, false)),
+                    "try a smaller picture"});
 }
 
-std::uint64_t memory_there_is() {
-    std::uint64_t bytes = ~std::uint64_t{0};
-    struct sysinfo machine {};
-    if (sysinfo(&machine) == 0)
-        bytes = (std::uint64_t{machine.totalram} + machine.totalswap) * machine.mem_unit;
-    struct rlimit limit {};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        bytes = std::min<std::uint64_t>(bytes, limit.rlim_cur);
-    // The file holds "max", which is no number, where the group has no limit.
-    std::uint64_t group = 0;
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> group) bytes = std::min(bytes, group);
-    return bytes;
-}
-
-void refuse_too_large(int width, int height, std::size_t pixel_bytes, std::uint64_t there_is) {
-    const std::uint64_t needed =
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * pixel_bytes;
-    if (needed <= there_is) return;
-    throw Error(fmt::format("--size {}x{}", width, height),
-                fmt::format("needs at least {:.1f} GB of memory ({} bytes a pixel), and there are "
-                            "{:.1f} GB",
-                            gigabytes(needed), pixel_bytes, gigabytes(there_is)),
-                "try a smaller picture, or fewer techniques at once");
+void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work) {
+    const std::array<Part, 3> parts = parts_of(scene, work);
+    const Part& most = *std::max_element(
+        parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
+    std::uint64_t bytes = 0;
+    for (const Part& part : parts) bytes += part.bytes;
+    require_memory(
+        budget, program_bytes,
+        {bytes, scene.file.string(), most.name + " and the rest of the work", most.remedy});
 }
 
 } // namespace shadowproof

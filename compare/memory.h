@@ -1,5 +1,10 @@
-// A picture that cannot fit is refused before the work, not by the kernel in the middle of it.
+// What a run takes beside what reading its scene does: an upper bound, told from the scene and the
+// size of the picture before the work begins. Each figure is measured, with a fifth more, and held
+// by tests/command/peaks_test.mjs: less than a run took is refused, three times as much suffices.
 #pragma once
+
+#include "scenes/memory_budget.h"
+#include "scenes/scene.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -7,20 +12,27 @@
 namespace shadowproof {
 
 /// What is said where memory runs out all the same.
-inline constexpr const char* out_of_memory = "there is not enough memory; try a smaller --size";
+inline constexpr const char* out_of_memory =
+    "there is not enough memory; try a smaller --size, or a smaller scene";
 
-/// Bytes a pixel of the truth alone.
-std::size_t truth_bytes();
-/// Bytes a pixel of truth and shadow depths, and of the technique that is being drawn and judged.
-std::size_t comparison_bytes();
+/// What is made of a scene.
+enum class Workload : std::uint8_t {
+    class_map,  ///< the truth as a .png
+    truth,      ///< the truth as an .exr
+    colors,     ///< the truth lit, as a .png
+    terms,      ///< normals or tangents of the truth lit, as a .png
+    lit_truth,  ///< all of that as an .exr
+    comparison, ///< truth, techniques one after the other, their judging and their report
+};
 
-/// Bytes that this process may have: of the machine, its control group (Linux cgroup 2) and its
-/// own limit (RLIMIT_AS), the least.
-std::uint64_t memory_there_is();
+/// Bytes for each pixel; `lit`: the scene has bump maps.
+std::size_t pixel_bytes(Workload work, bool lit);
 
-/// Throws Error with what is needed and what there is, where a picture of `pixel_bytes` a pixel
-/// needs more than `there_is`.
-void refuse_too_large(int width, int height, std::size_t pixel_bytes,
-                      std::uint64_t there_is = memory_there_is());
+/// Throws Error naming --size where a picture of that size cannot fit, whatever its scene.
+void require_picture(const MemoryBudget& budget, int width, int height, Workload work);
+
+/// Throws Error naming the scene's file and what of it takes most, where the work on it at the size
+/// of its camera cannot fit.
+void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work);
 
 } // namespace shadowproof

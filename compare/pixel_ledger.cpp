@@ -28,7 +28,8 @@ RayCounts sums(const Tracer& tracer, const PixelLedger& ledger, double far, std:
 
 double surface_depth(const Scene& scene, std::uint32_t seen, const glm::dvec3& direction) {
     if (seen == no_triangle) return std::numeric_limits<double>::infinity();
-    const Corners t{corner(scene, seen, 0), corner(scene, seen, 1), corner(scene, seen, 2)};
+    const Corners t =
+        from_short_edge({corner(scene, seen, 0), corner(scene, seen, 1), corner(scene, seen, 2)});
     return depth_on_plane(scene.camera.eye, direction, t.a, cap_plane(t));
 }
 

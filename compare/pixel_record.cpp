@@ -209,6 +209,24 @@ TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& predi
     return technique;
 }
 
+PixelRecord in_units(PixelRecord record, double unit) {
+    if (unit == 1) return record;
+    const auto scale = [&](std::vector<Crossing>& crossings) {
+        for (Crossing& crossing : crossings) crossing.depth *= unit;
+    };
+    record.far *= unit;
+    record.ledger.surface *= unit;
+    scale(record.ledger.crossings);
+    if (record.depth_margin) *record.depth_margin *= unit;
+    for (TechniqueAtPixel& technique : record.techniques) {
+        if (technique.crossings) scale(*technique.crossings);
+        for (std::vector<glm::vec3>* positions :
+             {&technique.casters.positions, &technique.far_ends})
+            for (glm::vec3& position : *positions) position = glm::dvec3(position) * unit;
+    }
+    return record;
+}
+
 nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record) {
     const Camera& camera = scene.camera;
     const RayCounts& counts = record.ledger.counts;

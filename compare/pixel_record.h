@@ -74,6 +74,9 @@ inline const std::vector<Crossing>& crossings_of(const PixelRecord& record,
 TechniqueAtPixel technique_at(const PixelRecord& record, const Prediction& prediction,
                               std::string name, const Frame& frame, const Comparison& comparison);
 
+/// The record with all its lengths times `unit` (Scene::unit), which must be a power of two.
+PixelRecord in_units(PixelRecord record, double unit);
+
 /// Schema shadowproof/pixel/1.
 nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record);
 

@@ -7,9 +7,9 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof {
@@ -23,19 +23,16 @@ struct PalettePicture {
     const Rgb& at(int x, int y) const { return palette[indices.at(x, y)]; }
 };
 
-/// 8-bit gray. The same bytes for the same picture. Throws Error naming the file, or `named`: what
-/// its reader knows of, where `file` stands beside its place.
-void write_png(const std::filesystem::path& file, const Image<Visibility>& classes,
-               const std::filesystem::path& named = {});
+/// The bytes of a PNG file, 8-bit gray. The same for the same picture. Throws Error.
+std::string to_png(const Image<Visibility>& classes);
 /// The same, 8 bits a colour.
-void write_png(const std::filesystem::path& file, const Image<Rgb>& picture,
-               const std::filesystem::path& named = {});
+std::string to_png(const Image<Rgb>& picture);
 /// The same, with a palette of colours.
-void write_png(const std::filesystem::path& file, const PalettePicture& picture);
+std::string to_png(const PalettePicture& picture);
 
-/// What is wrong with a PNG file that should be of this size, none where nothing is. Every pixel is
-/// decoded: a picture cut short still has its size in its header.
-std::optional<std::string> png_damage(const std::filesystem::path& file, std::uint64_t width,
+/// What is wrong with the bytes of a PNG file that should be of this size, none where nothing is.
+/// Every pixel is decoded: a picture cut short still has its size in its header.
+std::optional<std::string> png_damage(std::string_view bytes, std::uint64_t width,
                                       std::uint64_t height);
 
 } // namespace shadowproof

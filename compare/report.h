@@ -5,8 +5,8 @@
 #include "compare/classify.h"
 #include "compare/gate.h"
 #include "compare/ledger_table.h"
+#include "compare/output/replaced_folder.h"
 #include "compare/since.h"
-#include "compare/unfinished.h"
 #include "compare/verdict.h"
 #include "reference/shading.h"
 #include "reference/trace.h"
@@ -23,7 +23,8 @@ namespace shadowproof {
 struct Cell {
     std::string technique;
     std::string summary; ///< one clause: how the technique counts
-    std::string error;   ///< not empty: the cell could not run; the rest is then meaningless
+    std::string error;   ///< not empty: the cell has no result; the rest but the verdict, if it is
+                         ///< timed_out, is then meaningless
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
     std::uint64_t volume_fragments = 0;
@@ -92,6 +93,14 @@ struct ColumnWidths {
 };
 std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths = {});
 
+/// A cell without a result that nobody asked to give up: the run is not complete.
+inline bool could_not_run(const Cell& cell) {
+    return !cell.error.empty() && cell.verdict != Verdict::timed_out;
+}
+
+/// The verdict's name, or "error".
+std::string_view outcome_name(const Cell& cell);
+
 /// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
 std::string cause_counts(const CausePixels& causes);
 
@@ -123,6 +132,11 @@ std::string words_of(const ColorCheck& colors);
 /// "saved 3.1 ms and 271,004 of 800,123 volume fragments against zfail_reversed"
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments);
 
+/// Names of files that every report has, besides manifest.json.
+inline constexpr const char* page_name = "index.html";
+inline constexpr const char* results_name = "results.json";
+inline constexpr const char* results_script_name = "results.js";
+
 /// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause,
 /// volumes.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
@@ -141,28 +155,32 @@ std::string to_workflow_commands(const Report& report);
 /// For GitHub's step summary: the cells as a table in Markdown, failures first.
 std::string to_step_summary(const Report& report);
 
-/// The folder with index.html, results.json and pictures while it is being written: beside its
-/// place under a name of its own, and renamed into place by finish(). Dropped before, it leaves
-/// nothing behind.
+/// The report's folder, with index.html, results.json and pictures, while it is being written
+/// beside its place: compare/output/replaced_folder.h says what becomes of the folder that is
+/// there.
 class ReportFolder {
 public:
-    /// Throws Error where `folder` exists and is not a report, or cannot be written.
+    /// Throws Error where `folder` must not be replaced, or cannot be written.
     explicit ReportFolder(const std::filesystem::path& folder);
 
     /// Writes the truth and what else the cells of a scene share.
-    void add_scene(const SceneResult& scene);
+    void add_scene(const SceneResult& scene) const;
     /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
     /// threads 0: one per core.
-    void add_cell(const SceneResult& scene, Cell& cell, int threads = 0);
-    /// Where files are written until finish() renames them into place.
-    const std::filesystem::path& unfinished() const { return beside_.path(); }
+    void add_cell(const SceneResult& scene, Cell& cell, int threads = 0) const;
+    /// Writes a file that is taken over from another report.
+    void add_file(const std::string& name, std::string_view bytes) const;
+    /// Writes a file that the user asked for by its name in this folder.
+    void add_requested(const std::string& name, std::string_view bytes);
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
     void finish(const std::string& results_json);
 
+    /// What a person should hear of: files in the folder that were kept.
+    const std::vector<std::string>& notes() const { return files_.notes(); }
+
 private:
-    std::filesystem::path folder_;
-    Unfinished beside_;
+    ReplacedFolder files_;
 };
 
 } // namespace shadowproof

@@ -1,11 +1,11 @@
 #include "compare/report_files.h"
 
+#include "compare/output/descriptor.h"
 #include "compare/png.h"
 #include "compare/report.h"
-#include "compare/write_file.h"
 
-#include <fstream>
-#include <iterator>
+#include <string_view>
+#include <system_error>
 
 namespace shadowproof {
 
@@ -16,8 +16,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view script_end = "});"; ///< as compare/report_data.cpp writes it
 
 std::string bytes_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    std::string bytes;
+    read_pieces(fs::canonical(file), [&](std::string_view piece) { bytes += piece; });
+    return bytes;
 }
 
 std::optional<std::string> script_damage(const ReportFile& file, std::string_view text) {
@@ -31,19 +32,27 @@ std::optional<std::string> script_damage(const ReportFile& file, std::string_vie
 
 } // namespace
 
-std::optional<std::string> take_over(const ReportFile& file, const fs::path& folder) {
+std::optional<std::string> take_over(const ReportFile& file, const ReportFolder& report,
+                                     const MemoryAccount& memory) {
     std::error_code ignored;
     if (!fs::is_regular_file(file.from, ignored)) return "is missing";
-    const fs::path to = folder / file.to;
-    fs::create_directories(to.parent_path());
-    std::string bytes = bytes_of(file.from);
+    const std::uint64_t size = fs::file_size(file.from, ignored);
+    memory.require({ignored ? 0 : 3 * size, file.from.string(), "its bytes", "leave it out"});
+    memory.require({file.opening.empty() ? 3 * file.width * file.height + size : 0,
+                    file.from.string(), "its pixels", "leave it out"});
+    std::string bytes;
+    try {
+        bytes = bytes_of(file.from);
+    } catch (const std::system_error& error) {
+        return "cannot be read (" + error.code().message() + ")";
+    }
     if (file.opening.empty()) {
-        write_file(to, bytes);
-        return png_damage(to, file.width, file.height);
+        report.add_file(file.to, bytes);
+        return png_damage(bytes, file.width, file.height);
     }
     const std::optional<std::string> damage = script_damage(file, bytes);
     if (!damage) bytes.replace(0, file.opening.size(), file.new_opening);
-    write_file(to, bytes);
+    report.add_file(file.to, bytes);
     return damage;
 }
 

@@ -2,12 +2,16 @@
 // missing or damaged is named and never passes for agreement.
 #pragma once
 
+#include "scenes/memory_budget.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace shadowproof {
+
+class ReportFolder;
 
 /// A file that one report has from another: a picture, or a script where it has an opening.
 struct ReportFile {
@@ -19,8 +23,10 @@ struct ReportFile {
     std::string new_opening; ///< what it begins with in the new report
 };
 
-/// Copies it into `folder`, as it is also where it is damaged. Returns what is wrong with it, none
-/// where nothing is. Throws Error where it cannot be written.
-std::optional<std::string> take_over(const ReportFile& file, const std::filesystem::path& folder);
+/// Copies it into `report`, as it is also where it is damaged. Returns what is wrong with it, none
+/// where nothing is; what cannot be read at all is not there. Throws Error where it cannot be
+/// written, or is more than the account has left.
+std::optional<std::string> take_over(const ReportFile& file, const ReportFolder& report,
+                                     const MemoryAccount& memory);
 
 } // namespace shadowproof

@@ -12,7 +12,9 @@ namespace {
 
 /// A bundled scene is no file of the repository that is built, so that no line of it can be marked.
 std::string file_property(const SceneResult& scene) {
-    return scene.argument == scene.file ? "file=" + for_workflow_property(scene.file) + "," : "";
+    return scene.argument == scene.file
+               ? "file=" + for_workflow_property(printable(scene.file)) + ","
+               : "";
 }
 
 /// Without control characters first: a line end within a name would read as one of ours.
@@ -43,12 +45,11 @@ Row row_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     Row row{.failed = fails(cell, report.gate),
             .scene = for_markdown(scene.name),
             .technique = cell.technique,
-            .verdict = "could not run",
+            .verdict = could_not_run(cell) ? "could not run" : std::string(name_of(cell.verdict)),
             .pixels = "",
             .causes = for_markdown(cell.error),
             .first = ""};
     if (!cell.error.empty()) return row;
-    row.verdict = name_of(cell.verdict);
     row.pixels = grouped(cell.comparison.differing);
     row.causes = cause_counts(cell.comparison.causes);
     if (cell.comparison.ledger.unexplained > 0)
@@ -103,7 +104,7 @@ std::string to_workflow_commands(const Report& report) {
                 lines += error_line(
                     scene,
                     fmt::format("shadowproof: {} on {}: {}", cell.technique, scene.name,
-                                cell.error.empty() ? name_of(cell.verdict) : "could not run"),
+                                could_not_run(cell) ? "could not run" : name_of(cell.verdict)),
                     fmt::format("{}: {}", scene.file, why_it_fails(cell, report.gate)),
                     reproducing_command(report, scene, cell));
     }

@@ -53,6 +53,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
               {"fails", fails(cell, report.gate)}};
     if (!cell.error.empty()) {
         json["error"] = cell.error;
+        if (!could_not_run(cell)) json["verdict"] = name_of(cell.verdict);
         return json;
     }
     const Comparison& comparison = cell.comparison;

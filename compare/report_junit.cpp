@@ -44,7 +44,7 @@ void add_case(Suite& suite, const std::string& scene, std::string_view name, dou
 
 Outcome outcome_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     if (!fails(cell, report.gate)) return {};
-    const bool ran = cell.error.empty();
+    const bool ran = !could_not_run(cell);
     return {.element = ran ? "failure" : "error",
             .type = std::string(ran ? name_of(cell.verdict) : "could_not_run"),
             .message = why_it_fails(cell, report.gate),

@@ -2,7 +2,6 @@
 
 #include "compare/color_picture.h"
 #include "compare/report_data.h"
-#include "compare/write_file.h"
 
 #include <algorithm>
 #include <atomic>
@@ -184,31 +183,30 @@ PalettePicture color_error_picture(const ColorCheck& colors) {
     return picture;
 }
 
-void write_scene(const SceneResult& scene, const std::filesystem::path& report) {
-    std::filesystem::create_directories((report / truth_path(scene)).parent_path());
-    write_png(report / truth_path(scene), scene.truth.visibility);
+void write_scene(const SceneResult& scene, const ReplacedFolder& report) {
+    report.add(truth_path(scene), to_png(scene.truth.visibility));
     if (!scene.color.pixels.empty())
-        write_png(report / color_path(scene), color_picture(scene.color));
-    write_text(report / folder_of(scene) / "scene.js", scene_script(scene));
+        report.add(color_path(scene), to_png(color_picture(scene.color)));
+    report.add(folder_of(scene) + "/scene.js", scene_script(scene));
 }
 
-void write_cell(const SceneResult& scene, Cell& cell, const std::filesystem::path& report,
-                int threads) {
+void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads) {
     if (!cell.error.empty()) return;
-    const auto path = [&](const char* kind) { return report / picture_path(scene, cell, kind); };
-    const std::filesystem::path folder = path("claim").parent_path();
-    std::filesystem::create_directories(folder);
+    const auto add = [&](const char* kind, const auto& picture) {
+        report.add(picture_path(scene, cell, kind), to_png(picture));
+    };
+    const std::string script = folder_of(scene) + "/" + cell.technique + "/cell.js";
     std::vector<std::function<void()>> jobs{
-        [&] { write_text(folder / "cell.js", cell_script(scene, cell)); },
+        [&] { report.add(script, cell_script(scene, cell)); },
         [&] { cell.cause_map = packed_cause_map(cell.comparison); },
-        [&] { write_png(path("claim"), cell.frame.claim); },
-        [&] { write_png(path("difference"), difference_picture(scene.truth, cell)); },
-        [&] { write_png(path("cause"), cause_picture(cell)); },
-        [&] { write_png(path("volumes"), volume_picture(cell)); }};
+        [&] { add("claim", cell.frame.claim); },
+        [&] { add("difference", difference_picture(scene.truth, cell)); },
+        [&] { add("cause", cause_picture(cell)); },
+        [&] { add("volumes", volume_picture(cell)); }};
     if (cell.comparison.colors) {
-        jobs.emplace_back([&] { write_png(path("color"), color_picture(cell.frame.color)); });
+        jobs.emplace_back([&] { add("color", color_picture(cell.frame.color)); });
         jobs.emplace_back(
-            [&] { write_png(path("color_error"), color_error_picture(*cell.comparison.colors)); });
+            [&] { add("color_error", color_error_picture(*cell.comparison.colors)); });
     }
     run_all(jobs, threads);
 }

@@ -1,11 +1,10 @@
 // The pictures of a report as values, and as files.
 #pragma once
 
+#include "compare/output/replaced_folder.h"
 #include "compare/png.h"
 #include "compare/report.h"
 #include "compare/report_legend.h"
-
-#include <filesystem>
 
 namespace shadowproof {
 
@@ -24,10 +23,9 @@ PalettePicture volume_picture(const Cell& cell);
 PalettePicture color_error_picture(const ColorCheck& colors);
 
 /// Writes the truth, at truth_path and color_path, and the data that the cells share into `report`.
-void write_scene(const SceneResult& scene, const std::filesystem::path& report);
+void write_scene(const SceneResult& scene, const ReplacedFolder& report);
 /// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
 /// threads 0: one per core.
-void write_cell(const SceneResult& scene, Cell& cell, const std::filesystem::path& report,
-                int threads);
+void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads);
 
 } // namespace shadowproof

@@ -18,6 +18,10 @@ std::string counted(std::uint64_t number, std::string_view thing) {
     return fmt::format("{} {}{}", grouped(number), thing, number == 1 ? "" : "s");
 }
 
+std::string_view outcome_name(const Cell& cell) {
+    return could_not_run(cell) ? "error" : name_of(cell.verdict);
+}
+
 std::string cause_counts(const CausePixels& causes) {
     std::string counts;
     for (const CauseWords& words : all_causes) {
@@ -30,7 +34,7 @@ std::string cause_counts(const CausePixels& causes) {
 }
 
 std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths) {
-    const std::string_view verdict = cell.error.empty() ? name_of(cell.verdict) : "error";
+    const std::string_view verdict = outcome_name(cell);
     std::string line = fmt::format("{:<{}}  {:<{}}  {:<{}}  ", cell.technique, widths.technique,
                                    scene.name, widths.scene, verdict, widths.verdict);
     if (!cell.error.empty()) return line + cell.error;

@@ -1,14 +1,14 @@
 #include "compare/results_file.h"
 
+#include "compare/output/descriptor.h"
 #include "compare/results_check.h"
 #include "scenes/error.h"
+#include "scenes/gltf_memory.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <string_view>
+#include <system_error>
 
 namespace shadowproof {
 
@@ -19,22 +19,34 @@ namespace fs = std::filesystem;
 /// Results nest nine deep. What follows goes by recursion, which a file must not make overflow.
 constexpr int deepest = 64;
 
+constexpr std::uint64_t largest = std::uint64_t{1} << 30U; // bytes
+
 constexpr const char* give_whole = "give the whole results.json that shadowproof wrote";
 
-std::string text_of(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::exists(file, ignored))
-        throw Error(file.string(), "there is no such file",
-                    "name a results.json, or the folder of a report");
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    // A directory opens, and fails at its first byte.
-    if (!stream.is_open() || stream.bad() || !fs::is_regular_file(file, ignored))
+/// Only a regular file is opened: a FIFO would wait for somebody to write, a device never ends.
+std::string text_of(const fs::path& file, const MemoryAccount* memory) {
+    const char* const remedy = "name a results.json, or the folder of a report";
+    std::error_code failure;
+    if (!fs::exists(file, failure))
         throw Error(file.string(),
-                    fmt::format("cannot be read ({})",
-                                errno != 0 ? std::strerror(errno) : "it is not a file"),
-                    "name a results.json, or the folder of a report");
+                    failure ? fmt::format("cannot be read ({})", failure.message())
+                            : "there is no such file",
+                    remedy);
+    if (!fs::is_regular_file(file, failure))
+        throw Error(file.string(), "cannot be read (it is not a file)", remedy);
+    const std::uint64_t size = fs::file_size(file, failure);
+    if (failure || size > largest)
+        throw Error(file.string(), fmt::format("has more than {} bytes", largest), remedy);
+    if (memory != nullptr)
+        memory->require({size, file.string(), "its text", "merge fewer runs at once"});
+    std::string text;
+    text.reserve(size);
+    try {
+        read_pieces(fs::canonical(file), [&](std::string_view piece) { text += piece; });
+    } catch (const std::system_error& error) {
+        throw Error(file.string(), fmt::format("cannot be read ({})", error.code().message()),
+                    remedy);
+    }
     return text;
 }
 
@@ -67,10 +79,15 @@ ResultsJson parse_results(const std::string& text, const std::string& file) {
     return results;
 }
 
-ResultsFile read_results(const fs::path& path) {
+ResultsFile read_results(const fs::path& path, MemoryAccount* memory) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(path, ignored) ? path / "results.json" : path;
-    return {file, parse_results(text_of(file), file.string())};
+    const std::string text = text_of(file, memory);
+    // Once as read, once as merged, and as text again.
+    if (memory != nullptr)
+        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest)) + 4 * text.size(),
+                      file.string(), "its values", "merge fewer runs at once"});
+    return {file, parse_results(text, file.string())};
 }
 
 std::string results_text(const ResultsJson& results) {

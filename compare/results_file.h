@@ -2,6 +2,8 @@
 // where its figures contradict each other. Members that a newer writer adds are let through.
 #pragma once
 
+#include "scenes/memory_budget.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,7 +25,8 @@ struct ResultsFile {
 
 /// `path`: a results.json, or the folder of a report, which holds one. Throws Error naming the
 /// file, the JSON pointer (RFC 6901) of what is wrong in it, and the remedy.
-ResultsFile read_results(const std::filesystem::path& path);
+/// What it takes is kept in the account, where there is one.
+ResultsFile read_results(const std::filesystem::path& path, MemoryAccount* memory = nullptr);
 
 /// The same of a text; `file` names it in errors.
 ResultsJson parse_results(const std::string& text, const std::string& file);

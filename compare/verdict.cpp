@@ -28,9 +28,11 @@ std::string_view name_of(Verdict verdict) {
     case Verdict::defect:
         return "defect";
     case Verdict::unexplained:
+        return "unexplained";
+    case Verdict::timed_out:
         break;
     }
-    return "unexplained";
+    return "timed_out";
 }
 
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,

@@ -10,7 +10,13 @@
 
 namespace shadowproof {
 
-enum class Verdict : std::uint8_t { agrees, fails_as_predicted, defect, unexplained };
+enum class Verdict : std::uint8_t {
+    agrees,
+    fails_as_predicted,
+    defect,
+    unexplained,
+    timed_out, ///< given up before it could be judged
+};
 
 std::string_view name_of(Verdict verdict);
 

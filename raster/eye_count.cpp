@@ -1,25 +1,23 @@
 #include "raster/eye_count.h"
 
 #include "raster/volume.h"
-
-#include <glm/geometric.hpp>
+#include "scenes/orientation.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Whether the way from a point to the light (l, w) meets a triangle that faces the light: the
-/// point lies behind the triangle, and on the inner side of the three planes through light and
-/// edges.
+/// Whether the way from a place to the light (l, w) meets a triangle that faces the light: the
+/// place lies behind the triangle, and on the inner side of the three planes through light and
+/// edges. A place on such a plane counts as one beside it, the same for all triangles: else an edge
+/// between two of them would be met twice, or never.
 bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec4& light,
-             const glm::dvec3& point) {
-    if (side(scene, triangle, glm::dvec4(point, 1)) >= 0) return false;
-    for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 a = corner(scene, triangle, k);
-        const glm::dvec3 b = corner(scene, triangle, (k + 1) % 3);
-        const glm::dvec3 plane = glm::cross(light.w * a - glm::dvec3(light), b - a);
-        if (glm::dot(plane, point - a) > 0) return false;
-    }
+             const glm::dvec3& place) {
+    if (side(scene, triangle, glm::dvec4(place, 1)) >= 0) return false;
+    for (int k = 0; k < 3; ++k)
+        if (side_of_edge(light, corner(scene, triangle, k), corner(scene, triangle, (k + 1) % 3),
+                         place) > 0)
+            return false;
     return true;
 }
 

@@ -3,6 +3,7 @@
 #include "raster/shader.h"
 #include "raster/volume.h"
 #include "scenes/half_edge.h"
+#include "scenes/orientation.h"
 #include "scenes/topology.h"
 
 #include <array>
@@ -122,11 +123,12 @@ struct QuadEdge {
 /// Two triangles in one plane, side by side: the light never sees one of them alone.
 bool is_flat(const Scene& scene, const QuadEdge& edge) {
     const glm::dvec3 low = scene.positions[edge.low];
-    const glm::dvec3 along = glm::dvec3(scene.positions[edge.high]) - low;
-    const glm::dvec3 to_up = glm::dvec3(scene.positions[edge.up]) - low;
-    const glm::dvec3 to_down = glm::dvec3(scene.positions[edge.down]) - low;
-    const glm::dvec3 up = glm::cross(along, to_up);
-    return glm::dot(up, to_down) == 0 && glm::dot(up, glm::cross(to_down, along)) > 0;
+    const glm::dvec3 high = scene.positions[edge.high];
+    const glm::dvec3 upper = scene.positions[edge.up];
+    const glm::dvec3 lower = scene.positions[edge.down];
+    if (orientation(low, high, upper, glm::dvec4(lower, 1)) != 0) return false;
+    const glm::dvec3 up = glm::cross(high - low, upper - low);
+    return glm::dot(up, glm::cross(lower - low, high - low)) > 0;
 }
 
 /// All edges that may become silhouettes.

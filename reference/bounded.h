@@ -54,6 +54,7 @@ inline Bounded operator*(const Bounded& a, const Bounded& b) {
 struct BoundedArithmetic {
     using Number = Bounded;
     Bounded number(double a) const { return {a, 0}; }
+    Bounded direction(double a) const { return {a, 0}; }
     Bounded difference(double a, double b) const {
         const double value = a - b;
         return {value, Bounded::u * std::abs(value)};

@@ -1,5 +1,6 @@
 #include "reference/embree.h"
 
+#include "reference/instruction_set.h"
 #include "reference/trace.h"
 #include "scenes/error.h"
 
@@ -161,7 +162,8 @@ std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
 } // namespace
 
 Hierarchy build_hierarchy(const Scene& scene, int threads) {
-    const Device device(rtcNewDevice(fmt::format("threads={}", threads).c_str()));
+    const Device device(
+        rtcNewDevice(fmt::format("threads={}{}", threads, embree_instruction_set()).c_str()));
     if (!device)
         throw Error(
             "Embree",

@@ -1,5 +1,8 @@
 #include "reference/exact.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
 #include <utility>
 
 namespace shadowproof {
@@ -88,6 +91,41 @@ Expansion operator*(const Expansion& a, const Expansion& b) {
     Expansion result(a.arena());
     for (const double term : shorter.terms_) result = result + longer.scaled(term);
     return result;
+}
+
+Dyadic dyadic(double a) {
+    assert(std::isfinite(a));
+    int exponent = 0;
+    // 53 bits: the product is an integer.
+    auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(a, &exponent), 53));
+    exponent -= 53;
+    if (mantissa == 0) return {};
+    const int zeros = __builtin_ctzll(static_cast<std::uint64_t>(mantissa));
+    return {mpz_class(static_cast<long>(mantissa >> zeros)), exponent + zeros};
+}
+
+namespace {
+
+/// The mantissa that `number` has at an exponent not above its own.
+mpz_class mantissa_at(long exponent, const Dyadic& number) {
+    return number.mantissa << static_cast<mp_bitcnt_t>(number.exponent - exponent);
+}
+
+/// a + factor b, factor 1 or -1. Zero has no place: it would only make the other's mantissa longer.
+Dyadic sum(const Dyadic& a, const Dyadic& b, int factor) {
+    if (b.sign() == 0) return a;
+    if (a.sign() == 0) return {b.mantissa * factor, b.exponent};
+    const long exponent = std::min(a.exponent, b.exponent);
+    return {mantissa_at(exponent, a) + factor * mantissa_at(exponent, b), exponent};
+}
+
+} // namespace
+
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+    return sum(a, b, 1);
+}
+Dyadic operator-(const Dyadic& a, const Dyadic& b) {
+    return sum(a, b, -1);
 }
 
 } // namespace shadowproof

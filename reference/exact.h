@@ -1,6 +1,6 @@
 // Exact arithmetic: floating-point expansions (Shewchuk 1997, Adaptive Precision Floating-Point
-// Arithmetic), and GMP rationals for inputs so large or small that expansions would over- or
-// underflow. Seen by predicates.cpp alone.
+// Arithmetic), and integers times powers of two (GMP) for inputs so large or small that expansions
+// would over- or underflow. Seen by predicates.cpp alone.
 #pragma once
 
 #include <gmpxx.h>
@@ -39,14 +39,6 @@ private:
 
 Expansion exact_difference(double a, double b, std::pmr::memory_resource* arena);
 
-/// Expansions whose storage is released together with the arena.
-struct ExpansionArithmetic {
-    using Number = Expansion;
-    std::pmr::memory_resource* arena;
-    Expansion number(double a) const { return {a, arena}; }
-    Expansion difference(double a, double b) const { return exact_difference(a, b, arena); }
-};
-
 /// Non-zero inputs within these magnitudes neither over- nor underflow in the predicates: those are
 /// of degree 6 in differences of inputs. A difference of two doubles of at least 1e-20 is zero or
 /// at least 2^-53 * 1e-20 > 1e-36; six of them and the last error term: 1e-216 * 2^-53 > 1e-233,
@@ -54,22 +46,60 @@ struct ExpansionArithmetic {
 inline constexpr double expansion_smallest = 1e-20;
 inline constexpr double expansion_largest = 1e20;
 
-/// A ray's direction enters once, beside five differences: 1e-180 so far. Its component is a sum of
-/// the camera's axes times factors that are zero or above 1e-16 * 1e-20 (a rounded picture place
-/// times tan_half_height); cancellation leaves 2^-53 of the smallest term. With axes of at least
-/// 1e-40 that is above 1e-92, and 1e-180 * 1e-92 * 2^-53 > 1e-288 still holds.
-inline constexpr double expansion_smallest_axis = 1e-40;
+/// A ray's direction enters once, beside five differences: 1e-180 so far, and
+/// 1e-180 * 1e-90 * 2^-53 > 1e-287 still is a double's.
+inline constexpr double expansion_smallest_direction = 1e-90;
 
-struct RationalArithmetic {
-    struct Number {
-        mpq_class value;
-        int sign() const { return sgn(value); }
-        friend Number operator+(const Number& a, const Number& b) { return {a.value + b.value}; }
-        friend Number operator-(const Number& a, const Number& b) { return {a.value - b.value}; }
-        friend Number operator*(const Number& a, const Number& b) { return {a.value * b.value}; }
-    };
-    Number number(double a) const { return {mpq_class(a)}; }
-    Number difference(double a, double b) const { return {mpq_class(a) - mpq_class(b)}; }
+/// Expansions whose storage is released together with the arena. They are exact as long as no input
+/// was beyond their range: what came out is worth nothing afterwards where one was.
+struct ExpansionArithmetic {
+    using Number = Expansion;
+    std::pmr::memory_resource* arena;
+    bool* left_range; ///< set where an input is beyond it
+
+    Expansion number(double a) const {
+        note(a, expansion_smallest);
+        return {a, arena};
+    }
+    Expansion direction(double a) const {
+        note(a, expansion_smallest_direction);
+        return {a, arena};
+    }
+    Expansion difference(double a, double b) const {
+        note(a, expansion_smallest);
+        note(b, expansion_smallest);
+        return exact_difference(a, b, arena);
+    }
+
+private:
+    void note(double a, double smallest) const {
+        const double size = std::abs(a);
+        if (size != 0 && !(size >= smallest && size <= expansion_largest)) *left_range = true;
+    }
+};
+
+/// mantissa * 2^exponent: any finite double is one, and so are sums and products of any degree.
+/// Costs a few times what an expansion does, and no greatest common divisors as a rational would.
+struct Dyadic {
+    mpz_class mantissa;
+    long exponent = 0;
+
+    int sign() const { return sgn(mantissa); }
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator*(const Dyadic& a, const Dyadic& b) {
+        return {a.mantissa * b.mantissa, a.exponent + b.exponent};
+    }
+};
+
+/// `a` must be finite.
+Dyadic dyadic(double a);
+
+struct DyadicArithmetic {
+    using Number = Dyadic;
+    Dyadic number(double a) const { return dyadic(a); }
+    Dyadic direction(double a) const { return dyadic(a); }
+    Dyadic difference(double a, double b) const { return dyadic(a) - dyadic(b); }
 };
 
 } // namespace shadowproof

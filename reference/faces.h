@@ -3,8 +3,10 @@
 // bit.
 #pragma once
 
+#include "reference/norms.h"
 #include "reference/predicates.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -26,6 +28,18 @@ inline glm::dvec3 side_plane(const glm::dvec4& light, const glm::dvec3& a, const
 /// A point of that plane: the light, or the edge's first end where the light is a direction.
 inline glm::dvec3 side_point(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b) {
     return light.w != 0 ? glm::dvec3(light) : (before(b, a) ? b : a);
+}
+
+/// The same triangle from an end of its shortest edge on, where that is less than 2^-20 of the
+/// longest: as seen from a corner far away, the two others are nearly one point, and a normal made
+/// of the edges to them, or a difference from there, would lose the rest of the scene in rounding.
+inline Corners from_short_edge(const Corners& t) {
+    const double ab = largest(t.b - t.a);
+    const double bc = largest(t.c - t.b);
+    const double ca = largest(t.a - t.c);
+    const double shortest = std::min({ab, bc, ca});
+    if (shortest >= 0x1p-20 * std::max({ab, bc, ca}) || shortest == ab) return t;
+    return shortest == bc ? Corners{t.b, t.c, t.a} : Corners{t.c, t.a, t.b};
 }
 
 /// Normal of a triangle, into the volume behind it where the light sees its front.

@@ -23,6 +23,13 @@ Vector<A> vector(const A& arithmetic, const glm::dvec3& v) {
     return {arithmetic.number(v.x), arithmetic.number(v.y), arithmetic.number(v.z)};
 }
 
+/// That of an eye ray.
+template <class A>
+Vector<A> direction_of(const A& arithmetic, const EyeRay& ray) {
+    return {arithmetic.direction(ray.direction.x), arithmetic.direction(ray.direction.y),
+            arithmetic.direction(ray.direction.z)};
+}
+
 template <class A>
 Vector<A> difference(const A& arithmetic, const glm::dvec3& v, const glm::dvec3& w) {
     return {arithmetic.difference(v.x, w.x), arithmetic.difference(v.y, w.y),
@@ -70,7 +77,7 @@ template <class A>
 Quotient<A> plane_depth(const A& arithmetic, const EyeRay& ray, const Corners& t) {
     const Vector<A> n = normal(arithmetic, t);
     return {dot<A>(difference(arithmetic, t.a, ray.eye), n),
-            dot<A>(vector(arithmetic, ray.direction), n)};
+            dot<A>(direction_of(arithmetic, ray), n)};
 }
 
 /// (n, d) of a point: a depth is n / 1, infinity 1 / 0. A surface's denominator may be negative.
@@ -93,7 +100,7 @@ std::optional<int> sign_of(const Bounded& number) {
 int sign_of(const Expansion& number) {
     return number.sign();
 }
-int sign_of(const RationalArithmetic::Number& number) {
+int sign_of(const Dyadic& number) {
     return number.sign();
 }
 
@@ -101,19 +108,20 @@ int sign_of(const RationalArithmetic::Number& number) {
 constexpr std::size_t arena_bytes = std::size_t{1} << 16;
 
 /// `formula(arithmetic)` returns the number, or the product of numbers as a sign, that is asked
-/// for; it is written once and evaluated with as much precision as it takes.
+/// for; it is written once and evaluated with as much precision as it takes. Expansions are for
+/// formulas of degree 6 with inputs within their range (exact.h).
 template <class Formula>
-Decision decide(bool rationals, const Formula& formula) {
+Decision decide(const Formula& formula, bool by_expansions = true) {
     if (const std::optional<int> sign = formula(BoundedArithmetic{}))
         return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
     int sign = 0;
-    if (rationals) {
-        sign = *formula(RationalArithmetic{});
-    } else {
+    bool left_range = !by_expansions;
+    if (by_expansions) {
         alignas(std::max_align_t) std::array<std::byte, arena_bytes> buffer;
         std::pmr::monotonic_buffer_resource arena(buffer.data(), buffer.size());
-        sign = *formula(ExpansionArithmetic{&arena});
+        sign = *formula(ExpansionArithmetic{&arena, &left_range});
     }
+    if (left_range) sign = *formula(DyadicArithmetic{});
     return {sign, sign == 0 ? Exactness::degenerate : Exactness::exact};
 }
 
@@ -131,7 +139,7 @@ std::optional<int> with_sign_of(const N& value, const N& denominator) {
 template <class A>
 std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const RayPoint& q,
                                  const glm::dvec3& origin, const Vector<A>& plane) {
-    const Number<A> along = dot<A>(vector(arithmetic, ray.direction), plane);
+    const Number<A> along = dot<A>(direction_of(arithmetic, ray), plane);
     if (q.kind == RayPoint::Kind::infinity) return sign_of(along);
     const Number<A> base = dot<A>(difference(arithmetic, ray.eye, origin), plane);
     const Quotient<A> t = position(arithmetic, ray, q);
@@ -141,20 +149,20 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
 } // namespace
 
 Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         return sign_of(dot<A>(away_from(arithmetic, o, t.a), normal(arithmetic, t)));
     });
 }
 
 Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        return sign_of(dot<A>(vector(arithmetic, ray.direction),
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(direction_of(arithmetic, ray),
                               edge_plane(arithmetic, glm::dvec4(ray.eye, 1), a, b)));
     });
 }
 
 Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corners& u) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
         const Quotient<A> q = plane_depth(arithmetic, ray, u);
         const std::optional<int> order =
@@ -166,7 +174,7 @@ Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corn
 }
 
 Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double depth) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
         return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator, p.denominator);
     });
@@ -174,7 +182,7 @@ Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double d
 
 Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                                  const glm::dvec3& b) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
         if (ray.light.w != 0)
             return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
@@ -192,29 +200,27 @@ Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, co
     // Not all three are zero: then light, a and b would be collinear, and the light would lie in
     // the plane of the triangle, which takes no part.
     for (const int axis : {0, 1, 2}) {
-        const Decision moved =
-            decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-                const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
-                return sign_of(axis == 0 ? plane.x : (axis == 1 ? plane.y : plane.z));
-            });
+        const Decision moved = decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+            const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
+            return sign_of(axis == 0 ? plane.x : (axis == 1 ? plane.y : plane.z));
+        });
         if (moved.sign != 0) return {moved.sign, Exactness::degenerate};
     }
     return tied;
 }
 
 Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
-    return decide(rationals_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
     });
 }
 
 bool Predicates::runs_from_light(const EyeRay& ray) const {
     const auto sign = [&](const auto& component) {
-        return decide(rationals_,
-                      [&]<class A>(const A& arithmetic) -> std::optional<int> {
-                          const Vector<A> d = vector(arithmetic, ray.direction);
-                          return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
-                      })
+        return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+                   const Vector<A> d = direction_of(arithmetic, ray);
+                   return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
+               })
             .sign;
     };
     return sign([](const auto& d, const auto& l) { return d.y * l.z - d.z * l.y; }) == 0 &&
@@ -227,23 +233,25 @@ bool Predicates::runs_from_light(const EyeRay& ray) const {
 // axis and the cosine differ in sign that decides, else it is the sign of (v . axis)^2 - cosine^2 v
 // . v, turned round where both are negative.
 Decision Predicates::within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const {
-    // Rationals, because expansions may underflow beyond degree 6 (exact.h).
-    return decide(true, [&]<class A>(const A& arithmetic) -> std::optional<int> {
-        const Quotient<A> t = position(arithmetic, ray, q);
-        const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);
-        const Vector<A> d = vector(arithmetic, ray.direction);
-        const Vector<A> v{t.denominator * base.x + t.numerator * d.x,
-                          t.denominator * base.y + t.numerator * d.y,
-                          t.denominator * base.z + t.numerator * d.z};
-        const Number<A> along = dot<A>(v, vector(arithmetic, cone.axis));
-        const Number<A> cosine = arithmetic.number(cone.cosine);
-        const std::optional<int> side = with_sign_of(along, t.denominator);
-        const std::optional<int> squares = sign_of(along * along - cosine * cosine * dot<A>(v, v));
-        if (!side) return std::nullopt;
-        if (cone.cosine >= 0) return *side < 0 ? std::optional(-1) : squares;
-        if (*side >= 0) return 1;
-        return squares ? std::optional(-*squares) : std::nullopt;
-    });
+    return decide(
+        [&]<class A>(const A& arithmetic) -> std::optional<int> {
+            const Quotient<A> t = position(arithmetic, ray, q);
+            const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);
+            const Vector<A> d = direction_of(arithmetic, ray);
+            const Vector<A> v{t.denominator * base.x + t.numerator * d.x,
+                              t.denominator * base.y + t.numerator * d.y,
+                              t.denominator * base.z + t.numerator * d.z};
+            const Number<A> along = dot<A>(v, vector(arithmetic, cone.axis));
+            const Number<A> cosine = arithmetic.number(cone.cosine);
+            const std::optional<int> side = with_sign_of(along, t.denominator);
+            const std::optional<int> squares =
+                sign_of(along * along - cosine * cosine * dot<A>(v, v));
+            if (!side) return std::nullopt;
+            if (cone.cosine >= 0) return *side < 0 ? std::optional(-1) : squares;
+            if (*side >= 0) return 1;
+            return squares ? std::optional(-*squares) : std::nullopt;
+        },
+        false);
 }
 
 } // namespace shadowproof

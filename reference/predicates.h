@@ -48,9 +48,6 @@ struct Cone {
 
 class Predicates {
 public:
-    /// `rationals`: some input lies outside the range that expansions can hold (exact.h).
-    explicit Predicates(bool rationals = false) : rationals_(rationals) {}
-
     /// Sign of det(w a - o, b - a, c - a), O = (o, w) a point or a direction: negative where O sees
     /// the triangle counter-clockwise, its front. Degree 3.
     Decision side(const glm::dvec4& o, const Corners& t) const;
@@ -88,9 +85,6 @@ public:
     /// Sign of (Q - apex) . axis - cosine |Q - apex| for a surface point: not negative within the
     /// cone. Degree 12, squared.
     Decision within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const;
-
-private:
-    bool rationals_;
 };
 
 } // namespace shadowproof

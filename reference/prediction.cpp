@@ -38,7 +38,8 @@ std::int32_t count_from_depths(const ShadowDepths& depths, const GroundTruth& tr
 }
 
 double depth_of_seen(const Scene& scene, std::uint32_t seen, const glm::dvec3& direction) {
-    const Corners t{corner(scene, seen, 0), corner(scene, seen, 1), corner(scene, seen, 2)};
+    const Corners t =
+        from_short_edge({corner(scene, seen, 0), corner(scene, seen, 1), corner(scene, seen, 2)});
     return depth_on_plane(scene.camera.eye, direction, t.a, cap_plane(t));
 }
 

@@ -92,6 +92,13 @@ Number tolerance(Number size, Number component_error) {
     return hn::Mul(bound, number(1 + 0x1p-22));
 }
 
+/// A tolerance; infinite, so that nothing is certain, where `nothing_known`.
+template <class Mask>
+Number unless(Mask nothing_known, Number tolerance) {
+    return hn::IfThenElse(nothing_known, number(std::numeric_limits<double>::infinity()),
+                          tolerance);
+}
+
 // Triangles as parallel rays see them. With m <= 1/2 the largest coordinate relative to the origin
 // and l that of an edge, u and v of a corner are at most 2 m and off by 6.1 u m, those of an edge
 // at most 2 l and off by 6.1 u l (shear.h, with u of rounding in each difference).
@@ -123,6 +130,9 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
         const Number l = largest(edges_as_given[0], edges_as_given[1], edges_as_given[2]);
         const Number ll = hn::Mul(l, l);
         const Vector a = sheared(relative(world(0), origin));
+        const auto outlying = hn::Gt(largest(relative(world(0), origin), relative(world(1), origin),
+                                             relative(world(2), origin)),
+                                     number(0.5));
 
         // a x (b - a) with a = (u, v, 1): the third component, two products and a difference, is
         // off by 2 (2 m 6.1 u l + 2 l 6.1 u m + 4 u m l) + 8 u m l = 65 u m l <= 33 u l.
@@ -136,7 +146,7 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
             store(edge, record.edge[k], i);
             size = hn::Max(size, sum_of(edge));
         }
-        store(tolerance(size, edge_error), record.edge_tolerance, i);
+        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
 
         // n = (b - a) x (c - b): n_h, made of u and v alone, is at most 8 l^2 and off by
         // 2 (2 2 6.1 + 4) u l^2 + 8 u l^2 = 65 u l^2; the others, of which one factor is an h of at
@@ -157,9 +167,8 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
                     reciprocal),
             hn::Mul(number(2.1 * u), extent));
         store(inverse, record.inverse, i);
-        const auto certain = hn::Gt(det, hn::Mul(number(4), det_error));
-        store(hn::IfThenElse(certain, tolerance(sum_of(inverse), inverse_error),
-                             number(std::numeric_limits<double>::infinity())),
+        const auto uncertain = hn::Not(hn::Gt(det, hn::Mul(number(4), det_error)));
+        store(unless(hn::Or(outlying, uncertain), tolerance(sum_of(inverse), inverse_error)),
               record.inverse_tolerance, i);
     }
 }
@@ -183,6 +192,7 @@ void make_records(const OriginView& view, const ClusterCorners& corners, Cluster
         const Number m = largest(a, b, c);
         const Number l = largest(ab, bc, ca);
         const Number ll = hn::Mul(l, l);
+        const auto outlying = hn::Gt(m, number(1));
 
         // Differences are off by u, so each component of a x (b - a), two products and a
         // difference, by 4 u (m l + m l).
@@ -193,7 +203,7 @@ void make_records(const OriginView& view, const ClusterCorners& corners, Cluster
             store(edges[k], record.edge[k], i);
             size = hn::Max(size, sum_of(edges[k]));
         }
-        store(tolerance(size, edge_error), record.edge_tolerance, i);
+        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
 
         // As in view.cpp: the normal, (b - a) x (c - b), is off by 8 u l^2 a component, det by
         // 48 u m l^2.
@@ -211,9 +221,8 @@ void make_records(const OriginView& view, const ClusterCorners& corners, Cluster
                             reciprocal),
                     hn::Mul(number(2.1 * u), extent));
         store(inverse, record.inverse, i);
-        const auto certain = hn::Gt(det, hn::Mul(number(4), det_error));
-        store(hn::IfThenElse(certain, tolerance(sum_of(inverse), inverse_error),
-                             number(std::numeric_limits<double>::infinity())),
+        const auto uncertain = hn::Not(hn::Gt(det, hn::Mul(number(4), det_error)));
+        store(unless(hn::Or(outlying, uncertain), tolerance(sum_of(inverse), inverse_error)),
               record.inverse_tolerance, i);
     }
 }

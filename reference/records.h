@@ -32,7 +32,7 @@ using PerTriangle = std::array<T, cluster_capacity>;
 struct ClusterRecord {
     alignas(64) std::array<std::array<PerTriangle<float>, 3>, 3> edge{}; ///< by k, then axis
     std::array<PerTriangle<float>, 3> inverse{};                         ///< by axis
-    PerTriangle<float> edge_tolerance{};
+    PerTriangle<float> edge_tolerance{};    ///< both infinite where coordinates are beyond 1
     PerTriangle<float> inverse_tolerance{}; ///< infinite where doubles cannot tell det from 0
     PerTriangle<std::uint32_t> triangle{};
     std::uint32_t count = 0;

@@ -7,15 +7,38 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <tuple>
 
 namespace shadowproof {
 
 namespace {
 
-/// Normal of the plane through the eye and an edge, whichever way the edge is given.
+/// Where the eye goes when ties are broken (Predicates::shadow_edge_untied): along (e, e^2, e^3),
+/// with an e that tells the three apart, and that no rounding reaches.
+constexpr glm::dvec3 tie_breaker{1, 0x1p-30, 0x1p-60};
+
+/// A plane through the eye; if it is none, the one that it becomes when the eye is moved.
+glm::dvec3 plane_or(const glm::dvec3& plane, const glm::dvec3& when_moved) {
+    return plane == glm::dvec3(0) ? when_moved : plane;
+}
+
+/// Normal of the plane through the eye and an edge, whichever way the edge is given. If the eye
+/// lies on its line: (a - e m) x (b - e m), e -> 0, is e (b - a) x m.
 glm::dvec3 edge_plane(const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b) {
-    return before(b, a) ? glm::cross(b - eye, a - eye) : glm::cross(a - eye, b - eye);
+    if (before(b, a)) return edge_plane(eye, b, a);
+    return plane_or(glm::cross(a - eye, b - eye), glm::cross(b - a, tie_breaker));
+}
+
+/// The eye's side of an edge's side plane as doubles have it, with the exact sign, ties broken as
+/// the counts at the eye break them (Predicates::shadow_edge_untied): only then do the crossings of
+/// a ray and those counts add up. Where doubles have it wrong the eye is next to nothing away.
+double with_exact_sign(double eye_side, const Tracer::State& state, const glm::dvec3& a,
+                       const glm::dvec3& b) {
+    const EyeRay ray{state.eye, state.scene->camera.forward, state.light};
+    const RayPoint eye{.kind = RayPoint::Kind::depth, .depth = 0};
+    const int sign = state.predicates.shadow_edge_untied(ray, eye, a, b).sign;
+    return sign * eye_side > 0 ? eye_side : sign * std::numeric_limits<double>::denorm_min();
 }
 
 /// Signs of a function that is linear in the direction, over a region.
@@ -73,7 +96,8 @@ Silhouette::Silhouette(const Tracer& tracer) {
             numbers[position] = static_cast<std::uint32_t>(vertices_.size());
             const glm::dvec3 at(scene.positions[position]);
             const glm::dvec3 from_light = state.light.w * at - glm::dvec3(state.light);
-            vertices_.push_back({at, glm::cross(from_light, state.eye - at)});
+            vertices_.push_back({at, plane_or(glm::cross(from_light, state.eye - at),
+                                              glm::cross(from_light, tie_breaker))});
         }
         return numbers[position];
     };
@@ -87,7 +111,8 @@ Silhouette::Silhouette(const Tracer& tracer) {
         // The light sees the front of the triangle on the left of a to b: its side runs back.
         side.surplus = turned ? edge.surplus : -edge.surplus;
         side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
-        side.eye = glm::dot(state.eye - side_point(state.light, a, b), side.plane);
+        side.eye = with_exact_sign(glm::dot(state.eye - side_point(state.light, a, b), side.plane),
+                                   state, turned ? b : a, turned ? a : b);
         side.edge = edge_plane(state.eye, a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
         side.turned = edge.a > edge.b;
@@ -208,7 +233,8 @@ void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec
     const Tracer::State& state = tracer_.state();
     if (state.from_light.side[triangle] >= 0 || state.from_eye.side[triangle] == 0) return;
     const Corners t = shadowproof::corners(*state.scene, triangle);
-    Cap cap{triangle, t.a, cap_plane(t), {}, {}};
+    const Corners plane = from_short_edge(t);
+    Cap cap{triangle, plane.a, cap_plane(plane), {}, {}};
     const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
     for (std::size_t k = 0; k < 3; ++k) {
         cap.edges[k] = edge_plane(state.eye, loop[k], loop[k + 1]);

@@ -1,13 +1,12 @@
 #include "reference/trace.h"
 
-#include "reference/exact.h"
+#include "reference/instruction_set.h"
 #include "reference/tiles.h"
 #include "scenes/error.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <initializer_list>
 
 namespace shadowproof {
 
@@ -23,29 +22,6 @@ void check(const Scene& scene) {
     const std::string where = scene.file.empty() ? scene.name : scene.file.string();
     if (scene.triangles.empty())
         throw Error(where, "has no triangles", "give it a mesh with triangles");
-}
-
-bool beyond_expansions(double x) {
-    const double size = std::abs(x);
-    return size != 0 && !(size >= expansion_smallest && size <= expansion_largest);
-}
-
-/// Whether exact signs need rationals (exact.h).
-bool needs_rationals(const Scene& scene) {
-    const auto beyond = [](const auto& v) {
-        return beyond_expansions(v.x) || beyond_expansions(v.y) || beyond_expansions(v.z);
-    };
-    const auto tiny = [](const glm::dvec3& axis) {
-        const auto is_tiny = [](double x) {
-            return x != 0 && std::abs(x) < expansion_smallest_axis;
-        };
-        return is_tiny(axis.x) || is_tiny(axis.y) || is_tiny(axis.z);
-    };
-    return tiny(scene.camera.right) || tiny(scene.camera.up) || tiny(scene.camera.forward) ||
-           beyond_expansions(scene.camera.tan_half_height) || beyond(scene.camera.eye) ||
-           beyond(homogeneous(chosen_light(scene))) || beyond_expansions(scene.camera.near) ||
-           (std::isfinite(scene.camera.far) && beyond_expansions(scene.camera.far)) ||
-           std::any_of(scene.positions.begin(), scene.positions.end(), beyond);
 }
 
 /// The cosine is that of the outer angle as std::cos rounds it.
@@ -65,11 +41,11 @@ void keep_casters(const Scene& scene, OriginView& view) {
 
 Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>()) {
     check(scene);
+    choose_instruction_set();
     const Clock::time_point start = Clock::now();
     State& state = *state_;
     state.scene = &scene;
     state.threads = thread_count(threads);
-    state.predicates = Predicates(needs_rationals(scene));
     state.hierarchy = build_hierarchy(scene, state.threads);
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);

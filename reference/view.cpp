@@ -4,6 +4,7 @@
 #include "reference/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -29,18 +30,31 @@ std::int8_t side_of(const glm::dvec4& from, const Corners& t, const Predicates& 
     return static_cast<std::int8_t>(predicates.side(from, t).sign);
 }
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A box that reaches beyond 1 is everywhere: what is said of rays and boxes (packet.cpp) holds
+/// within 1, and what lies beyond is decided without floats (records.cpp).
+void open_where_outlying(Entry& entry) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (entry.lower[i] >= -1 && entry.upper[i] <= 1) continue;
+        entry.lower.fill(-infinity);
+        entry.upper.fill(infinity);
+        return;
+    }
+}
+
 /// Relative to the origin, scaled, and one float further out, which covers the rounding of the
 /// difference (2^-53) and of the conversion (2^-25).
 Entry relative(const Entry& entry, const glm::dvec3& origin, double scale) {
     Entry result = entry;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        constexpr float infinity = std::numeric_limits<float>::infinity();
         result.lower[i] =
             std::nextafter(static_cast<float>((entry.lower[i] - origin[axis]) * scale), -infinity);
         result.upper[i] =
             std::nextafter(static_cast<float>((entry.upper[i] - origin[axis]) * scale), infinity);
     }
+    open_where_outlying(result);
     return result;
 }
 
@@ -68,7 +82,6 @@ void sort_children(std::vector<Entry>& entries, bool parallel) {
 /// The same for parallel rays, from the corners themselves: a box around a sheared box would be
 /// several times as large. What the doubles round, meets_ground's pad covers (packet.cpp).
 Entry sheared(const Entry& entry, const Cluster& cluster, const OriginView& view) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     Entry result = entry;
     result.lower.fill(infinity);
     result.upper.fill(-infinity);
@@ -83,6 +96,7 @@ Entry sheared(const Entry& entry, const Cluster& cluster, const OriginView& view
                 upper = std::max(upper, std::nextafter(p[axis], infinity));
             }
         }
+    open_where_outlying(result);
     return result;
 }
 
@@ -107,24 +121,68 @@ void shear_entries(const Hierarchy& hierarchy, OriginView& view) {
     }
 }
 
-/// The largest component's distance of any corner of the scene's box from `origin`.
-double reach_of(const Entry& root, const glm::dvec3& origin) {
+/// The largest component's distance of any corner of an entry's box from `origin`.
+double reach_of(const Entry& entry, const glm::dvec3& origin) {
     double reach = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        reach = std::max({reach, std::abs(root.lower[i] - origin[axis]),
-                          std::abs(root.upper[i] - origin[axis])});
+        reach = std::max({reach, std::abs(entry.lower[i] - origin[axis]),
+                          std::abs(entry.upper[i] - origin[axis])});
     }
     return reach;
 }
 
-glm::dvec3 middle_of(const Entry& root) {
+glm::dvec3 middle_of(const Entry& entry) {
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
-        middle[axis] = 0.5 * (static_cast<double>(root.lower[i]) + root.upper[i]);
+        middle[axis] = 0.5 * (static_cast<double>(entry.lower[i]) + entry.upper[i]);
     }
     return middle;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// By component, over the boxes of clusters.
+glm::dvec3 median_middle(const Hierarchy& hierarchy) {
+    std::array<std::vector<double>, 3> middles;
+    for (const Entry& entry : hierarchy.entries) {
+        if (entry.count != 0) continue;
+        const glm::dvec3 middle = middle_of(entry);
+        for (std::size_t i = 0; i < 3; ++i) middles[i].push_back(middle[static_cast<int>(i)]);
+    }
+    return {median(middles[0]), median(middles[1]), median(middles[2])};
+}
+
+/// Boxes are enlarged by some 2^-30 of what is scaled to 1 (packet.cpp). What lies closer together
+/// than this share of the whole would be met as one: then the whole is not what is scaled to 1.
+constexpr double outlying_share = 0x1p-20;
+
+/// The reach of all that is not outlying: of what lies no further out than the middle one of all
+/// clusters over outlying_share. Most often, everything.
+double reach_of_most(const Hierarchy& hierarchy, const glm::dvec3& origin) {
+    const double whole = reach_of(hierarchy.entries.front(), origin);
+    std::vector<double> reaches;
+    for (const Entry& entry : hierarchy.entries)
+        if (entry.count == 0) reaches.push_back(reach_of(entry, origin));
+    const double limit = median(reaches) / outlying_share;
+    if (!(limit > 0) || whole <= limit) return whole;
+    double reach = 0;
+    for (const double each : reaches)
+        if (each <= limit) reach = std::max(reach, each);
+    return reach;
+}
+
+/// Where parallel rays have their origin: in the middle, of the whole if nothing is outlying.
+glm::dvec3 origin_of_parallel_rays(const Hierarchy& hierarchy) {
+    const glm::dvec3 among_most = median_middle(hierarchy);
+    const Entry& root = hierarchy.entries.front();
+    return reach_of_most(hierarchy, among_most) < reach_of(root, among_most) ? among_most
+                                                                             : middle_of(root);
 }
 
 } // namespace
@@ -135,9 +193,8 @@ OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy
     view.scene = &scene;
     view.hierarchy = &hierarchy;
     view.parallel = from.w == 0;
-    const Entry& root = hierarchy.entries.front();
-    view.origin = view.parallel ? middle_of(root) : glm::dvec3(from);
-    const double reach = reach_of(root, view.origin);
+    view.origin = view.parallel ? origin_of_parallel_rays(hierarchy) : glm::dvec3(from);
+    const double reach = reach_of_most(hierarchy, view.origin);
     view.scale = reach > 0 ? std::exp2(-std::ilogb(reach) - (view.parallel ? 2 : 1)) : 1;
     if (view.parallel) {
         view.shear = shear_along(from);

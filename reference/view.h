@@ -26,7 +26,8 @@ struct OriginView {
     glm::dvec3 origin{0, 0, 0}; ///< where rays are parallel: the scene's middle
     Shear shear;                ///< where rays are parallel
     /// A power of two: relative coordinates times scale lie within [-1, 1]; within [-1/2, 1/2]
-    /// where rays are parallel, so that they do when sheared as well.
+    /// where rays are parallel, so that they do when sheared as well. But for a few that lie
+    /// further out than that by far: floats are not asked about them.
     double scale = 1;
     /// Hierarchy::entries relative to the origin, scaled and rounded outwards; children sorted by
     /// their distance, nearest first. Where rays are parallel, boxes of (u, v, h).

@@ -1,5 +1,6 @@
 #include "reference/visibility.h"
 
+#include "reference/faces.h"
 #include "reference/norms.h"
 
 #include <algorithm>
@@ -20,6 +21,22 @@ float below(double x) {
 float above(double x) {
     return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
+
+/// Two edges of a triangle, by which doubles find its plane.
+struct PlaneEdges {
+    glm::dvec3 a, ab, ac;
+    double product; ///< of their lengths, or more: errors of the normal grow with it
+
+    explicit PlaneEdges(const Corners& given) {
+        const Corners t = from_short_edge(given);
+        a = t.a;
+        ab = t.b - t.a;
+        ac = t.c - t.a;
+        const double longer = std::max(largest(ab), largest(ac));
+        const double shorter = std::min(largest(ab), largest(ac));
+        product = (shorter < 0x1p-20 * longer ? shorter : longer) * longer;
+    }
+};
 
 /// Collects the signs of one question about one triangle. "Out" outweighs a tie, and a tie that
 /// does not decide anything is not one.
@@ -113,14 +130,14 @@ private:
     }
 
     void raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray, const Corners& t) const {
-        const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
-        const double l = std::max(largest(t.b - t.a), largest(t.c - t.a));
-        const glm::dvec3 to_plane = t.a - ray.eye;
+        const PlaneEdges edges(t);
+        const glm::dvec3 normal = glm::cross(edges.ab, edges.ac);
+        const glm::dvec3 to_plane = edges.a - ray.eye;
         // As in view.cpp: 8 u l^2 a component, 50 u m l^2 for the dot product.
         const double numerator = glm::dot(to_plane, normal);
-        const double numerator_error = 50 * u * largest(to_plane) * l * l;
+        const double numerator_error = 50 * u * largest(to_plane) * edges.product;
         const double denominator = glm::dot(ray.direction, normal);
-        const double denominator_error = 50 * u * largest(ray.direction) * l * l;
+        const double denominator_error = 50 * u * largest(ray.direction) * edges.product;
         const double scale = question_.state->from_eye.scale;
         // Too near the eye's own plane to tell: whatever comes must be compared exactly.
         if (!(std::abs(numerator) > 4 * numerator_error)) {
@@ -273,16 +290,14 @@ Prober::Prober(const Tracer::State& state)
 /// t = numerator / denominator with running bounds; the bounds of both as in view.cpp.
 void Prober::measure_depth(const glm::dvec3& direction, Seen& seen) {
     if (plane_.triangle != seen.triangle) {
-        const Corners t = corners(*state_->scene, seen.triangle);
-        const glm::dvec3 ab = t.b - t.a;
-        const glm::dvec3 ac = t.c - t.a;
-        const glm::dvec3 to_plane = t.a - state_->eye;
-        const double l = std::max(largest(ab), largest(ac));
+        const PlaneEdges edges(corners(*state_->scene, seen.triangle));
+        const glm::dvec3 to_plane = edges.a - state_->eye;
         plane_.triangle = seen.triangle;
-        plane_.normal = glm::cross(ab, ac);
-        plane_.normal_error = 8.1 * u * l * l;
+        plane_.normal = glm::cross(edges.ab, edges.ac);
+        plane_.normal_error = 8.1 * u * edges.product;
         plane_.numerator = glm::dot(to_plane, plane_.normal);
-        plane_.numerator_error = 50 * u * largest(to_plane) * l * l / std::abs(plane_.numerator);
+        plane_.numerator_error =
+            50 * u * largest(to_plane) * edges.product / std::abs(plane_.numerator);
     }
     const double denominator = glm::dot(direction, plane_.normal);
     // The normal's error, and 3 roundings of 3 terms.

@@ -1,5 +1,6 @@
 #include "scenes/catalog.h"
 
+#include "scenes/admission.h"
 #include "scenes/error.h"
 #include "scenes/gltf.h"
 #include "scenes/md2.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <system_error>
 
 #ifndef SHADOWPROOF_SOURCE_SCENES
 #error "SHADOWPROOF_SOURCE_SCENES and SHADOWPROOF_INSTALLED_SCENES are set by CMakeLists.txt"
@@ -73,7 +75,8 @@ std::filesystem::path installed_folder() {
 }
 
 bool holds_scenes(const std::filesystem::path& folder) {
-    return !folder.empty() && std::filesystem::exists(folder / "ordinary.gltf");
+    std::error_code failure;
+    return !folder.empty() && std::filesystem::exists(folder / "ordinary.gltf", failure);
 }
 
 std::string listed_names() {
@@ -108,14 +111,27 @@ std::filesystem::path bundled_folder() {
                 "set SHADOWPROOF_SCENES to their folder");
 }
 
-Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
+namespace {
+
+Scene read_scene(const std::string& name_or_path, const SceneRequest& request) {
     if (is_bundled(name_or_path))
         return load_gltf(bundled_folder() / (name_or_path + ".gltf"), request);
-    if (!std::filesystem::exists(name_or_path))
-        throw Error(name_or_path, "is neither a bundled scene nor a file",
+    std::error_code failure;
+    if (!std::filesystem::exists(name_or_path, failure))
+        throw Error(name_or_path,
+                    failure ? fmt::format("cannot be reached ({})", failure.message())
+                            : "is neither a bundled scene nor a file",
                     "use a path to .gltf, .glb or .md2, or one of " + listed_names());
     return is_md2(name_or_path) ? load_md2(name_or_path, request)
                                 : load_gltf(name_or_path, request);
+}
+
+} // namespace
+
+Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
+    Scene scene = read_scene(name_or_path, request);
+    admit(scene);
+    return scene;
 }
 
 } // namespace shadowproof

@@ -26,7 +26,7 @@ bool is_bundled(std::string_view name);
 std::filesystem::path bundled_folder();
 
 /// A SCENE argument: a bundled name or a path to .gltf, .glb or .md2. Throws Error with the bundled
-/// names when it is neither.
+/// names when it is neither, and where its coordinates are not admitted (admission.h).
 Scene load_scene(const std::string& name_or_path, const SceneRequest& request);
 
 } // namespace shadowproof

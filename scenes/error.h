@@ -2,15 +2,18 @@
 // must be. A disagreement between truth and claim is a result, never an error.
 #pragma once
 
+#include "scenes/printable.h"
+
 #include <stdexcept>
 #include <string>
 
 namespace shadowproof {
 
-/// Message reads "<where>: <what is wrong>; <remedy>", one sentence, no trailing newline.
+/// Message reads "<where>: <what is wrong>; <remedy>", one sentence, no trailing newline. What
+/// files brought into it is made printable and short: what() ends at the first NUL.
 struct Error : std::runtime_error {
     Error(const std::string& where, const std::string& what, const std::string& remedy)
-        : std::runtime_error(where + ": " + what + "; " + remedy) {}
+        : std::runtime_error(message(where + ": " + what + "; " + remedy)) {}
 };
 
 } // namespace shadowproof

@@ -46,7 +46,7 @@ void drop_repeated(std::vector<std::string>& notes) {
 } // namespace
 
 Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) {
-    const Document document = read_document(file);
+    const Document document = read_document(file, request.memory);
     Scene scene;
     scene.name = file.stem().string();
     scene.file = file;

@@ -117,7 +117,10 @@ void read_element(const Source& source, const unsigned char* bytes, double* valu
 }
 
 Elements read_elements(const Source& source) {
-    Elements elements{source.accessor.count, source.components, {}};
+    Elements elements{source.accessor.count, source.components, {}, {}};
+    elements.held =
+        source.document.memory->hold({elements.count * elements.components * sizeof(double),
+                                      source.place.where(), "its elements", "split the accessor"});
     elements.values.resize(elements.count * elements.components);
     for (std::size_t i = 0; source.values.first != nullptr && i < elements.count; ++i)
         read_element(source, source.values.first + i * source.values.stride,
@@ -155,6 +158,8 @@ void substitute_sparse(const Source& source, Elements& elements) {
         (source.place / "sparse" / "count")
             .refuse(fmt::format("{} is above the accessor's {}", count, elements.count),
                     "mend the count");
+    const MemoryHold held = source.document.memory->hold(
+        {count * sizeof(std::size_t), source.place.where(), "its sparse indices", "split it"});
     const std::vector<std::size_t> places = sparse_places(source, count);
     const Strided values = strided(source.document, source.place / "sparse" / "values",
                                    as_index(sparse.values.bufferView),
@@ -194,7 +199,7 @@ Elements AccessorReader::read(const Place& reference, int accessor, int type,
             fmt::format("names an accessor of component type {}{}, which is not allowed here",
                         component_type, source.accessor.normalized ? " (normalized)" : ""),
             "name another accessor, or list the extension that allows it");
-    // 16 doubles an element at most, and elements are limited: a bound on memory as well.
+    // 16 doubles an element at most, and elements are limited: a bound on time.
     charge(reference, source.accessor.count * ((source.components + 3) / 4));
     Elements elements = read_elements(source);
     substitute_sparse(source, elements);
@@ -205,6 +210,8 @@ Elements AccessorReader::read(const Place& reference, int accessor, int type,
 std::vector<std::uint32_t> AccessorReader::read_indices(const Place& reference, int accessor,
                                                         std::size_t end) {
     const Elements elements = read(reference, accessor, TINYGLTF_TYPE_SCALAR, unsigned_integers);
+    memory().require({elements.count * sizeof(std::uint32_t), reference.where(), "its indices",
+                      "split the primitive"});
     std::vector<std::uint32_t> indices(elements.count);
     for (std::size_t i = 0; i < elements.count; ++i) {
         if (elements.values[i] >= static_cast<double>(end))

@@ -15,6 +15,7 @@ struct Elements {
     std::size_t count = 0;
     std::size_t components = 1; ///< 1 to 4, or 16
     std::vector<double> values; ///< count * components
+    MemoryHold held{};          ///< for the values
 
     glm::dvec3 vec3(std::size_t element) const {
         const double* v = values.data() + element * components;
@@ -44,10 +45,13 @@ public:
     std::vector<std::uint32_t> read_indices(const Place& reference, int accessor, std::size_t end);
 
     const Document& document() const { return document_; }
+    MemoryAccount& memory() const { return *document_.memory; }
 
-private:
+    /// Counts `elements` more as read; refused at the reference above limits.elements. For what is
+    /// gone through again and again without being read from a buffer.
     void charge(const Place& reference, std::size_t elements);
 
+private:
     const Document& document_;
     std::uint64_t elements_read_ = 0;
 };

@@ -13,23 +13,31 @@ namespace shadowproof::gltf {
 
 static_assert(std::endian::native == std::endian::little, "glTF's buffers are little-endian");
 
-Bytes read_bytes(const std::filesystem::path& file, const Place& place,
+Bytes read_bytes(const std::filesystem::path& file, const Place& place, const MemoryAccount& memory,
                  std::optional<std::uint64_t> first) {
+    // A place that is the whole file has named it already.
+    const std::string named =
+        place.where() == file.string() ? "" : fmt::format("\"{}\" ", file.string());
     std::error_code failure;
     const auto status = std::filesystem::status(file, failure);
-    if (!std::filesystem::exists(status))
-        place.refuse(fmt::format("\"{}\" does not exist", file.string()), "check the path");
+    if (status.type() == std::filesystem::file_type::not_found)
+        place.refuse(named + "does not exist", "check the path");
+    if (failure)
+        place.refuse(fmt::format("{}cannot be reached ({})", named, failure.message()),
+                     "check the path and its permissions");
     if (!std::filesystem::is_regular_file(status))
-        place.refuse(fmt::format("\"{}\" is not a regular file", file.string()), "name a file");
+        place.refuse(named + "is not a regular file", "name a file");
     const std::uint64_t size = std::filesystem::file_size(file, failure);
     if (failure || first.value_or(size) > limits.bytes)
-        place.refuse(fmt::format("\"{}\" has more than {} bytes", file.string(), limits.bytes),
+        place.refuse(fmt::format("{}has more than {} bytes", named, limits.bytes),
                      "split the asset");
-    Bytes bytes(std::min(size, first.value_or(size)));
+    const std::uint64_t wanted = std::min(size, first.value_or(size));
+    memory.require({wanted, place.where(), "its bytes", "split the asset"});
+    Bytes bytes(wanted);
     std::ifstream stream(file, std::ios::binary);
     if (!stream.read(reinterpret_cast<char*>(bytes.data()),
                      static_cast<std::streamsize>(bytes.size())))
-        place.refuse(fmt::format("\"{}\" cannot be read", file.string()), "check its permissions");
+        place.refuse(named + "cannot be read", "check its permissions");
     return bytes;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/gltf_place.h"
+#include "scenes/memory_budget.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,8 +16,9 @@ namespace shadowproof::gltf {
 using Bytes = std::vector<unsigned char>; // what tinygltf keeps buffers in
 
 /// All bytes of a file, or the first ones (as many as there are). Refused at `place`: not a
-/// regular file, unreadable, beyond limits.bytes.
-Bytes read_bytes(const std::filesystem::path& file, const Place& place,
+/// regular file (which is never opened: opening a FIFO waits for somebody to write), unreadable,
+/// beyond limits.bytes, or more than the account has left.
+Bytes read_bytes(const std::filesystem::path& file, const Place& place, const MemoryAccount& memory,
                  std::optional<std::uint64_t> first = std::nullopt);
 
 /// The two parts of an asset's file: a .gltf is JSON alone.

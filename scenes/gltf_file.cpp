@@ -2,6 +2,7 @@
 
 #include "scenes/gltf_bytes.h"
 #include "scenes/gltf_check.h"
+#include "scenes/gltf_memory.h"
 
 #include <fmt/format.h>
 
@@ -13,45 +14,35 @@ namespace {
 
 using nlohmann::json;
 
-/// Nesting and number of values, counted on the raw text before any of it becomes memory. Inside
-/// malformed JSON the counts mean nothing, but the parser then stops there.
-void scan_json(const Place& root, std::string_view text) {
-    std::uint64_t depth = 0;
-    std::uint64_t values = 1;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (in_string) {
-            if (c == '\\') ++i;
-            in_string = c != '"';
-            continue;
-        }
-        in_string = c == '"';
-        if (c == '{' || c == '[') {
-            ++depth;
-            ++values;
-        }
-        if ((c == '}' || c == ']') && depth > 0) --depth;
-        if (c == ',') ++values;
-        if (depth > limits.json_depth)
-            root.refuse(fmt::format("nests deeper than {} levels at byte {}", limits.json_depth, i),
-                        "flatten the JSON");
-        if (values > limits.json_values)
-            root.refuse(fmt::format("holds more than {} JSON values", limits.json_values),
-                        "move the bulk into buffers");
-    }
+/// Counted on the raw text before any of it becomes memory.
+JsonCounts scan_json(const Place& root, std::string_view text) {
+    const JsonCounts counts = count_json(text, limits.json_depth);
+    if (counts.too_deep_at)
+        root.refuse(fmt::format("nests deeper than {} levels at byte {}", limits.json_depth,
+                                *counts.too_deep_at),
+                    "flatten the JSON");
+    if (counts.values > limits.json_values)
+        root.refuse(fmt::format("holds more than {} JSON values", limits.json_values),
+                    "move the bulk into buffers");
+    return counts;
 }
 
-json parse_json(const Place& root, std::string_view text) {
+/// `counts` becomes the text's.
+json parse_json(const Place& root, std::string_view text, MemoryAccount& memory,
+                JsonCounts& counts) {
     if (text.size() > limits.json_bytes)
         root.refuse(
             fmt::format("has {} bytes of JSON, more than {}", text.size(), limits.json_bytes),
             "move the bulk into .bin buffers");
-    scan_json(root, text);
+    counts = scan_json(root, text);
+    memory.keep({json_bytes(counts), root.where(), "its JSON", "move the bulk into buffers"});
+    // The parser's own words repeat what it read last, which may be all of the file.
     try {
         return json::parse(text);
-    } catch (const json::exception& error) {
-        root.refuse(fmt::format("is not JSON ({})", error.what()), "export the asset again");
+    } catch (const json::parse_error& error) {
+        root.refuse(fmt::format("is not JSON at byte {}", error.byte), "export the asset again");
+    } catch (const json::out_of_range&) {
+        root.refuse("holds a number beyond every double", "export the asset again");
     }
 }
 
@@ -65,6 +56,7 @@ struct BufferFiles {
     std::filesystem::path folder;
     std::optional<std::span<const unsigned char>> binary;
     std::vector<Buffer> buffers;
+    const MemoryAccount& memory;
 };
 
 void require_length(std::uint64_t available, const BufferFiles::Buffer& buffer) {
@@ -82,7 +74,8 @@ Bytes read_buffer(const BufferFiles& files, const BufferFiles::Buffer& buffer) {
         return {first.begin(), first.end()};
     }
     const Place place = buffer.place / "uri";
-    Bytes bytes = read_bytes(resolve_uri(files.folder, buffer.uri, place), place, buffer.length);
+    Bytes bytes = read_bytes(resolve_uri(files.folder, buffer.uri, place), place, files.memory,
+                             buffer.length);
     require_length(bytes.size(), buffer);
     return bytes;
 }
@@ -186,17 +179,32 @@ tinygltf::Model parse_model(const Place& root, const json& document, BufferFiles
 
 } // namespace
 
-Document read_document(const std::filesystem::path& file) {
+Document read_document(const std::filesystem::path& file, const MemoryBudget& budget) {
     Document document;
+    document.memory = std::make_shared<MemoryAccount>(budget);
+    MemoryAccount& memory = *document.memory;
     document.file = file.string();
     document.folder = file.parent_path();
     const Place root = document.root();
-    const Bytes bytes = read_bytes(file, root);
+    const Bytes bytes = read_bytes(file, root, memory);
+    const MemoryHold held = memory.hold({bytes.size(), root.where(), "its bytes", "split it"});
     const Chunks chunks = split_chunks(root, bytes);
-    json parsed = parse_json(root, chunks.json);
+    JsonCounts counts;
+    json parsed = parse_json(root, chunks.json, memory, counts);
     check_json(root, parsed);
-    BufferFiles files{document.folder, chunks.binary, {}};
+    BufferFiles files{document.folder, chunks.binary, {}, memory};
+    // Data URIs are once more as long as the text in the one that is trimmed, in the JSON that is
+    // written for tinygltf and (twice, while they grow) in what it reads of it.
+    const MemoryHold passing = memory.hold({4 * counts.bytes + json_bytes(counts), root.where(),
+                                            "reading its JSON", "move the bulk into .bin buffers"});
+    memory.keep({model_bytes(parsed, counts), root.where(), "its nodes, meshes and accessors",
+                 "split the asset"});
     take_buffers(root, parsed, files);
+    std::uint64_t buffers = 0;
+    for (const BufferFiles::Buffer& buffer : files.buffers) buffers += buffer.length;
+    memory.keep({buffers, (root / "buffers").where(), "its buffers", "split the asset"});
+    // tinygltf reads one buffer, and copies it.
+    memory.require({buffers, (root / "buffers").where(), "its buffers", "split the asset"});
     document.look = take_look(parsed);
     make_digestible(parsed);
     document.model = parse_model(root, parsed, files);

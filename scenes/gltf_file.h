@@ -5,11 +5,13 @@
 
 #include "scenes/gltf_place.h"
 #include "scenes/limits.h"
+#include "scenes/memory_budget.h"
 
 #include <tiny_gltf.h>
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -29,12 +31,14 @@ struct Document {
     /// not.
     nlohmann::json look;
     std::filesystem::path folder; ///< of the asset
+    /// Of this reading: what the document holds, and whatever is made of it.
+    std::shared_ptr<MemoryAccount> memory = std::make_shared<MemoryAccount>();
 
     Place root() const { return Place(file); }
 };
 
-/// Throws Error.
-Document read_document(const std::filesystem::path& file);
+/// Throws Error, also where the budget does not suffice.
+Document read_document(const std::filesystem::path& file, const MemoryBudget& budget = {});
 
 /// A checked index of tinygltf's; it must not be -1.
 inline std::size_t as_index(int index) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <numeric>
@@ -20,6 +21,7 @@ enum class Mode : std::uint8_t { points, lines, line_loop, line_strip, triangles
 std::vector<glm::uvec3> assemble(Mode mode, const std::vector<std::uint32_t>& indices) {
     std::vector<glm::uvec3> triangles;
     const std::size_t n = indices.size();
+    triangles.reserve(mode == Mode::triangles ? n / 3 : n);
     if (mode == Mode::triangles)
         for (std::size_t i = 0; i + 2 < n; i += 3)
             triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
@@ -82,22 +84,36 @@ std::vector<glm::vec3> world_positions(const Placement& placement, const Part& p
     return world;
 }
 
+/// Bytes of a primitive's vertices while they are baked: where they lie in the world, their order,
+/// which of them are used. And of its triangles: indices, one triangle for each where it is a
+/// strip.
+constexpr std::uint64_t baking_vertex = sizeof(glm::vec3) + 2 * sizeof(std::uint32_t);
+constexpr std::uint64_t baking_index = sizeof(std::uint32_t) + sizeof(glm::uvec3);
+/// Of what stays in the scene: a vertex or a triangle, three times as much while its vector grows.
+constexpr std::uint64_t baked_vertex = 3 * sizeof(glm::vec3);
+/// Of a mesh beside its name, and of a note of it.
+constexpr std::uint64_t baked_mesh = 3 * sizeof(Mesh) + 256;
+
 /// Appends `triangles` over `positions` with the vertices that are used, in order of index.
-void append(Scene& scene, const Place& primitive, const std::vector<glm::vec3>& positions,
-            std::vector<glm::uvec3> triangles) {
+void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
+            const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles) {
     std::vector<std::uint32_t> baked(positions.size(), 0);
     for (const glm::uvec3& triangle : triangles)
         for (int k = 0; k < 3; ++k) baked[triangle[k]] = 1;
+    const auto used =
+        static_cast<std::uint64_t>(std::count(baked.begin(), baked.end(), std::uint32_t{1}));
+    if (scene.triangles.size() + triangles.size() > limits.triangles ||
+        scene.positions.size() + used > limits.triangles)
+        primitive.refuse(
+            fmt::format("brings the scene above {} triangles or vertices", limits.triangles),
+            "split the asset");
+    memory.keep({baked_vertex * (used + triangles.size()), primitive.where(), "its triangles",
+                 "split the asset"});
     for (std::size_t i = 0; i < positions.size(); ++i) {
         if (baked[i] == 0) continue;
         baked[i] = static_cast<std::uint32_t>(scene.positions.size());
         scene.positions.push_back(positions[i]);
     }
-    if (scene.triangles.size() + triangles.size() > limits.triangles ||
-        scene.positions.size() > limits.triangles)
-        primitive.refuse(
-            fmt::format("brings the scene above {} triangles or vertices", limits.triangles),
-            "split the asset");
     for (const glm::uvec3& triangle : triangles)
         scene.triangles.emplace_back(baked[triangle.x], baked[triangle.y], baked[triangle.z]);
 }
@@ -122,8 +138,21 @@ std::vector<std::uint32_t> vertex_order(AccessorReader& reader, const Part& part
     return order;
 }
 
+MemoryHold hold_for_baking(AccessorReader& reader, const Part& part, std::size_t vertices) {
+    const std::uint64_t indices =
+        part.primitive.indices >= 0
+            ? reader.document().model.accessors[as_index(part.primitive.indices)].count
+            : vertices;
+    return reader.memory().hold({baking_vertex * vertices + baking_index * indices,
+                                 part.place.where(), "its vertices", "split the primitive"});
+}
+
 void bake_primitive(AccessorReader& reader, const Placement& placement, const Part& part,
                     const Materials& materials, Scene& scene) {
+    // Each costs time however little it holds: a mesh may stand in the scene many times.
+    reader.charge(part.place, 1 + placement.weights.size());
+    reader.memory().keep({baked_mesh + placement.name.size(), part.place.where(), "its name",
+                          "merge meshes, or shorten their names"});
     const auto mode = static_cast<Mode>(part.primitive.mode);
     if (mode < Mode::triangles) {
         scene.notes.push_back(part.place.pointer() + ": points and lines are left out");
@@ -138,6 +167,7 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
     if (placement.skin)
         influences =
             read_influences(reader, part.place, part.primitive, *placement.skin, local.count);
+    const MemoryHold baking = hold_for_baking(reader, part, local.count);
     const std::vector<glm::vec3> positions = world_positions(placement, part, local, influences);
     const std::vector<std::uint32_t> indices = vertex_order(reader, part, positions.size());
     std::vector<glm::uvec3> triangles = assemble(mode, indices);
@@ -155,7 +185,7 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
         for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
-    append(scene, part.place, positions, std::move(triangles));
+    append(scene, reader.memory(), part.place, positions, triangles);
     if (count > 0)
         scene.meshes.push_back({placement.name, first, count, material,
                                 placement.node.casts.value_or(true),

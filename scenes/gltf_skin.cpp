@@ -9,9 +9,11 @@ namespace shadowproof::gltf {
 
 Skin read_skin(AccessorReader& reader, const NodeGraph& graph, std::size_t skin) {
     const tinygltf::Skin& source = reader.document().model.skins[skin];
+    const Place whole = reader.document().root() / "skins" / skin;
+    reader.charge(whole / "joints", source.joints.size());
     std::optional<Elements> inverse_bind;
     if (source.inverseBindMatrices >= 0) {
-        const Place place = reader.document().root() / "skins" / skin / "inverseBindMatrices";
+        const Place place = whole / "inverseBindMatrices";
         inverse_bind = reader.read(place, source.inverseBindMatrices, TINYGLTF_TYPE_MAT4, floats);
         if (inverse_bind->count < source.joints.size())
             place.refuse(fmt::format("has {} matrices for {} joints", inverse_bind->count,
@@ -19,6 +21,9 @@ Skin read_skin(AccessorReader& reader, const NodeGraph& graph, std::size_t skin)
                          "give each joint one");
     }
     Skin result;
+    result.held = reader.memory().hold(
+        {source.joints.size() * sizeof(glm::dmat4), whole.where(), "its joints", "merge joints"});
+    result.world_from_mesh.reserve(source.joints.size());
     for (std::size_t i = 0; i < source.joints.size(); ++i) {
         glm::dmat4 joint_from_mesh(1.0);
         if (inverse_bind) joint_from_mesh = glm::make_mat4(inverse_bind->values.data() + i * 16);

@@ -13,6 +13,7 @@ namespace shadowproof::gltf {
 /// in it.
 struct Skin {
     std::vector<glm::dmat4> world_from_mesh;
+    MemoryHold held{}; ///< for them
 };
 
 /// Joints and weights by set (JOINTS_0, JOINTS_1, ...), each element four of them.

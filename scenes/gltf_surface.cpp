@@ -24,6 +24,10 @@ Attribute coordinates(std::size_t set) {
             floats | normalized_integers, plain_integers};
 }
 
+/// Bytes of a corner while normals and tangents are made: below, and what make_tangents holds.
+constexpr std::uint64_t corner_bytes = sizeof(std::uint32_t) + 3 * sizeof(glm::dvec3) +
+                                       sizeof(glm::vec4) + 2 * sizeof(glm::vec2) + tangent_bytes;
+
 /// Corner by corner, in the mesh's space.
 struct Local {
     std::vector<std::uint32_t> vertices;
@@ -60,6 +64,7 @@ void read_normals(AccessorReader& reader, const PosedPart& posed, Local& local) 
     std::optional<Elements> given;
     if (has_attribute(posed.part, normals))
         given = read_morphed(reader, posed.part, normals, posed.weights, posed.positions.count);
+    local.normals.reserve(local.vertices.size());
     for (std::size_t i = 0; i < local.vertices.size(); ++i) {
         const glm::dvec3 flat = flat_normal(posed, local, i);
         local.normals.push_back(given ? unit_or(given->vec3(local.vertices[i]), flat) : flat);
@@ -178,6 +183,13 @@ void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Mater
         posed.part.place.refuse(
             fmt::format("brings a scene with bump maps above {} triangles", limits.surfaces),
             "split the asset, or take its bump maps away");
+    const std::uint64_t corners = 3 * posed.triangles.size();
+    const std::string where = posed.part.place.where();
+    const char* const split = "split the asset, or take its bump maps away";
+    reader.memory().keep(
+        {3 * corners * sizeof(Surface), where, "its corners' normals and tangents", split});
+    const MemoryHold held =
+        reader.memory().hold({corners * corner_bytes, where, "making its tangents", split});
     Local local;
     local.vertices = vertices_of(posed.triangles);
     read_normals(reader, posed, local);

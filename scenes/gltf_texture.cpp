@@ -26,12 +26,15 @@ Bytes bytes_in_view(const Document& document, std::size_t index) {
                                 view.byteOffset + view.byteLength, buffer.size()),
                     "mend byteOffset and byteLength");
     const auto first = buffer.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+    document.memory->require({view.byteLength, (document.root() / "bufferViews" / index).where(),
+                              "its bytes", "mend byteLength"});
     return {first, first + static_cast<std::ptrdiff_t>(view.byteLength)};
 }
 
 Bytes bytes_in_uri(const Document& document, const std::string& uri, const Place& place) {
     if (!uri.starts_with("data:"))
-        return read_bytes(resolve_uri(document.folder, uri, place), place);
+        return read_bytes(resolve_uri(document.folder, uri, place), place, *document.memory);
+    document.memory->require({3 * uri.size(), place.where(), "decoding it", "write a file"});
     Bytes bytes;
     std::string type;
     const std::string known = // as tinygltf knows it
@@ -75,12 +78,19 @@ TextureImage TextureReader::decode(const Place& reference, std::size_t texture, 
     const std::size_t image = source["source"];
     TextureImage read{.name = place.pointer()};
     if (source.contains("sampler")) set_sampler(source["sampler"], read);
-    const Picture picture =
-        decode_picture(image_bytes(document_, look_["images"][image], image),
-                       (document_.root() / "images" / image).where(), limits.texels - texels_);
+    const std::string where = (document_.root() / "images" / image).where();
+    MemoryAccount& memory = *document_.memory;
+    const Bytes bytes = image_bytes(document_, look_["images"][image], image);
+    const MemoryHold held = memory.hold({bytes.size(), where, "its bytes", "scale it down"});
+    const Picture picture = decode_picture(bytes, where,
+                                           {.memory = memory,
+                                            .most_pixels = limits.texels - texels_,
+                                            .bytes_made_of_pixel = sizeof(glm::vec4)});
     read.bits = picture.bits;
     read.texels = texels_of(picture, encoding);
     texels_ += read.texels.pixels.size();
+    memory.keep(
+        {read.texels.pixels.size() * sizeof(glm::vec4), where, "its texels", "scale it down"});
     return read;
 }
 

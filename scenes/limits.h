@@ -5,8 +5,8 @@
 
 namespace shadowproof {
 
-/// What one asset may ask for. Far above what a verifier is used on, far below what would exhaust
-/// a machine: a JSON value takes some 50 bytes, a baked vertex 12, a triangle 12.
+/// What one asset may ask for, whatever the budget in bytes (memory_budget.h): these bound the time
+/// that reading takes, and keep every count and offset far from overflow.
 struct Limits {
     std::uint64_t bytes = 1ULL << 30;       ///< of the file, and of all its buffers together
     std::uint64_t json_bytes = 1ULL << 28;  ///< 256 MiB
@@ -14,9 +14,8 @@ struct Limits {
     std::uint64_t json_depth = 64;          ///< nested objects and arrays
     std::uint64_t elements = 1ULL << 26;    ///< accessor elements read, all reads together
     std::uint64_t triangles = 1ULL << 24;   ///< baked, all nodes together; vertices as many
-    /// Triangles baked for lighting, 132 bytes each, and some 900 while their tangents are made.
-    std::uint64_t surfaces = 1ULL << 21;
-    std::uint64_t texels = 1ULL << 26; ///< of all textures together, 16 bytes each
+    std::uint64_t surfaces = 1ULL << 21;    ///< triangles baked for lighting
+    std::uint64_t texels = 1ULL << 26;      ///< of all textures together
 };
 inline constexpr Limits limits;
 

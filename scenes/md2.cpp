@@ -60,32 +60,40 @@ std::string stem_of(const Model& model, const std::filesystem::path& file) {
 }
 
 /// Index of the new texture; no_texture where there is no such file.
-std::uint32_t read_texture(const std::filesystem::path& file, Encoding encoding, Scene& scene) {
+std::uint32_t read_texture(const std::filesystem::path& file, Encoding encoding,
+                           MemoryAccount& memory, Scene& scene) {
     std::error_code failure;
     if (!std::filesystem::exists(file, failure)) return no_texture;
     const std::string name = file.string();
     std::uint64_t texels = 0;
     for (const TextureImage& texture : scene.textures) texels += texture.texels.pixels.size();
-    const Picture picture =
-        decode_picture(gltf::read_bytes(file, gltf::Place(name)), name, limits.texels - texels);
+    const gltf::Bytes bytes = gltf::read_bytes(file, gltf::Place(name), memory);
+    const MemoryHold held = memory.hold({bytes.size(), name, "its bytes", "scale it down"});
+    const Picture picture = decode_picture(bytes, name,
+                                           {.memory = memory,
+                                            .most_pixels = limits.texels - texels,
+                                            .bytes_made_of_pixel = sizeof(glm::vec4)});
+    memory.keep({sizeof(glm::vec4) * static_cast<std::uint64_t>(picture.width) *
+                     static_cast<std::uint64_t>(picture.height),
+                 name, "its texels", "scale it down"});
     scene.textures.push_back(
         {.name = name, .texels = texels_of(picture, encoding), .bits = picture.bits});
     return static_cast<std::uint32_t>(scene.textures.size() - 1);
 }
 
 /// What lies beside the model.
-void dress(const Model& model, Scene& scene) {
+void dress(const Model& model, MemoryAccount& memory, Scene& scene) {
     const std::string stem = stem_of(model, scene.file);
     const std::filesystem::path beside = scene.file.parent_path();
     const std::string map = stem + "_normal.png";
     const std::string skin = stem + ".png";
     Material material{.name = stem};
-    material.bump_map = read_texture(beside / map, Encoding::plain, scene);
+    material.bump_map = read_texture(beside / map, Encoding::plain, memory, scene);
     if (material.bump_map != no_texture) {
         material.bump = Bump::normal_map;
         material.specular = glm::dvec3(0.25);
         scene.ambient = glm::dvec3(0.125);
-        material.decal = read_texture(beside / skin, Encoding::srgb, scene);
+        material.decal = read_texture(beside / skin, Encoding::srgb, memory, scene);
         scene.notes.push_back(material.decal != no_texture
                                   ? fmt::format("wears {} and {}", map, skin)
                                   : fmt::format("wears {}; no {} beside the model, so its colour "
@@ -102,12 +110,17 @@ glm::vec2 coordinates_of(const Model& model, std::uint32_t place) {
     return glm::vec2((glm::dvec2(model.places[place]) + 0.5) / glm::dvec2(model.size));
 }
 
-void append_surfaces(const Model& model, const std::vector<glm::dvec3>& positions, Scene& scene) {
+void append_surfaces(const Model& model, const std::vector<glm::dvec3>& positions,
+                     MemoryAccount& memory, Scene& scene) {
     if (model.triangles.size() > limits.surfaces)
         throw Error(
             model.file,
             fmt::format("has more than {} triangles, too many for bump maps", limits.surfaces),
             "split the model, or take its normal map away");
+    memory.keep({3 * model.triangles.size() *
+                     (tangent_bytes + 2 * sizeof(TexturedCorner) + 3 * sizeof(Surface)),
+                 model.file, "its corners' normals and tangents",
+                 "split the model, or take its normal map away"});
     const std::vector<glm::dvec3> normals = smooth_normals(positions, scene.triangles);
     std::vector<TexturedCorner> corners;
     for (std::size_t i = 0; i < model.triangles.size(); ++i)
@@ -133,19 +146,24 @@ void refuse_choices(const SceneRequest& request, const std::string& file) {
 } // namespace
 
 Scene load_md2(const std::filesystem::path& file, const SceneRequest& request) {
-    const Model model = read_model(file);
+    MemoryAccount memory(request.memory);
+    const Model model = read_model(file, memory);
     refuse_choices(request, model.file);
     Scene scene;
     scene.name = file.stem().string();
     scene.file = file;
+    // Of a vertex: two frames and their blend, a normal, what stays of it; vectors grow threefold.
+    constexpr std::uint64_t vertex = 4 * sizeof(glm::dvec3) + 3 * sizeof(glm::vec3);
+    memory.keep({vertex * model.vertex_count + 3 * sizeof(glm::uvec3) * model.triangles.size(),
+                 model.file, "its triangles", "split the model"});
     const std::vector<glm::dvec3> positions = pose(model, request.time, scene.notes);
     for (const glm::dvec3& position : positions) scene.positions.emplace_back(position);
     for (const Triangle& triangle : model.triangles)
         scene.triangles.emplace_back(triangle.corners[0].vertex, triangle.corners[2].vertex,
                                      triangle.corners[1].vertex);
-    dress(model, scene);
+    dress(model, memory, scene);
     scene.meshes.push_back({scene.name, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0});
-    if (scene.materials[0].bump != Bump::none) append_surfaces(model, positions, scene);
+    if (scene.materials[0].bump != Bump::none) append_surfaces(model, positions, memory, scene);
     scene.camera = default_camera(request, scene);
     add_default_light(scene);
     return scene;

@@ -117,10 +117,11 @@ std::vector<Triangle> read_triangles(const std::string& file, Bytes bytes, const
 
 } // namespace
 
-Model read_model(const std::filesystem::path& path) {
+Model read_model(const std::filesystem::path& path, MemoryAccount& memory) {
     Model model;
     model.file = path.string();
-    const gltf::Bytes all = gltf::read_bytes(path, gltf::Place(model.file));
+    const gltf::Bytes all = gltf::read_bytes(path, gltf::Place(model.file), memory);
+    const MemoryHold held = memory.hold({all.size(), model.file, "its bytes", "split the model"});
     const Bytes bytes(all);
     const Header header = read_header(model.file, bytes);
     const auto find = [&](const char* what, std::uint64_t offset, std::uint64_t count,
@@ -132,6 +133,10 @@ Model read_model(const std::filesystem::path& path) {
     const Bytes triangles =
         find("triangles", header.triangles_at, header.triangles, triangle_bytes);
     const Bytes frames = find("frames", header.frames_at, header.frames, header.frame_bytes);
+    // Places grow as a vector does, to three times as much.
+    memory.keep({frames.size() + header.triangles * std::uint64_t{sizeof(Triangle)} +
+                     3 * sizeof(glm::ivec2) * std::uint64_t{header.places},
+                 model.file, "its frames and triangles", "split the model"});
     if (!skins.empty()) model.skin = text_in(skins.first(name_bytes));
     model.size = {static_cast<int>(header.skin_width), static_cast<int>(header.skin_height)};
     for (std::size_t i = 0; i < header.places; ++i)

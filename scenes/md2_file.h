@@ -2,6 +2,8 @@
 // used. Little-endian, as published with the game's source (id Software, qfiles.h, 2001).
 #pragma once
 
+#include "scenes/memory_budget.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -40,8 +42,9 @@ struct Model {
     std::vector<unsigned char> bytes; ///< of all frames
 };
 
-/// Throws Error naming the file, the thing and the remedy.
-Model read_model(const std::filesystem::path& file);
+/// Throws Error naming the file, the thing and the remedy. What is kept of the file is in the
+/// account then.
+Model read_model(const std::filesystem::path& file, MemoryAccount& memory);
 
 /// Throws Error where a position is not finite.
 Frame read_frame(const Model& model, std::uint32_t frame);

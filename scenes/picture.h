@@ -1,5 +1,8 @@
-// Pictures as files hold them, through OpenImageIO.
+// Pictures as files hold them: PNG by libpng, JPEG and OpenEXR through OpenImageIO. Sizes are known
+// and asked for before anything is decoded.
 #pragma once
+
+#include "scenes/memory_budget.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -18,12 +21,22 @@ struct Picture {
     std::vector<float> values; ///< width * height * channels, rows from the top, all finite
 };
 
-/// A PNG or JPEG file's bytes. Throws Error naming `where`: neither of them, damaged, or more than
-/// `most_pixels` of them, which is known before any is decoded.
-Picture decode_picture(std::span<const unsigned char> bytes, const std::string& where,
-                       std::uint64_t most_pixels);
+/// What a picture may take.
+struct PictureRoom {
+    const MemoryAccount& memory;
+    std::uint64_t most_pixels = 0;
+    /// Bytes that the caller makes of each pixel while the picture is still there.
+    std::uint64_t bytes_made_of_pixel = 0;
+};
 
-/// A file of any format that OpenImageIO knows. Throws Error naming the file.
-Picture read_picture(const std::filesystem::path& file, std::uint64_t most_pixels);
+/// A PNG or JPEG file's bytes, which are in the account already. Throws Error naming `where`:
+/// neither of them, damaged, more than `most_pixels`, or more than the account has left, both of
+/// which is known before any is decoded.
+Picture decode_picture(std::span<const unsigned char> bytes, const std::string& where,
+                       const PictureRoom& room);
+
+/// A PNG, JPEG or OpenEXR file (flat, of one part). Others are not read, for what their decoders
+/// take cannot be told from the file before they take it. Throws Error naming the file.
+Picture read_picture(const std::filesystem::path& file, const PictureRoom& room);
 
 } // namespace shadowproof

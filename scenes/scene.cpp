@@ -1,7 +1,8 @@
 #include "scenes/scene.h"
 
+#include "scenes/orientation.h"
+
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <utility>
 
 namespace shadowproof {
@@ -27,7 +28,7 @@ double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point)
         std::swap(a, b);
         std::swap(b, c);
     }
-    return glm::dot(glm::cross(b - a, c - a), glm::dvec3(point) - point.w * a);
+    return orientation(a, b, c, point);
 }
 
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle) {

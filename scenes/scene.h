@@ -83,6 +83,8 @@ glm::dvec4 homogeneous(const Light& light);
 struct Scene {
     std::string name;                   ///< bundled name, or the file's stem
     std::filesystem::path file;         ///< as given
+    double unit = 1;                    ///< what a length of 1 is in the file's units: a power of
+                                        ///< two, 1 unless the file's scale is extreme (admission.h)
     std::vector<glm::vec3> positions;   ///< world space; the same array goes to OpenGL
     std::vector<glm::uvec3> triangles;  ///< into positions; counter-clockwise from the front, the
                                         ///< flip of mirroring nodes already made
@@ -111,8 +113,8 @@ inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
 }
 
 /// Positive where a triangle is wound counter-clockwise as seen from a homogeneous point (l, w),
-/// negative where clockwise: (b - a) x (c - a) . (l - w a) in double, from the first of its corners
-/// (by x, y, z) on. Zero without area or in its plane.
+/// negative where clockwise: (b - a) x (c - a) . (l - w a), from the first of its corners (by x, y,
+/// z) on, with an exact sign (orientation.h). Zero without area or in its plane.
 double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
 
 /// Whether lighting by bump maps is asked for: some mesh's material has one.

@@ -1,6 +1,8 @@
 // What a scene is asked for, whatever its file's format.
 #pragma once
 
+#include "scenes/memory_budget.h"
+
 #include <optional>
 #include <string>
 
@@ -15,6 +17,7 @@ struct SceneRequest {
     double time = 0;                   ///< seconds: animations, skins and morphs are posed here
     int width = 512;                   ///< pixels
     int height = 512;                  ///< pixels
+    MemoryBudget memory{};             ///< of the run: what reading would need more for is refused
 };
 
 } // namespace shadowproof

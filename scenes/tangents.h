@@ -2,6 +2,7 @@
 // none.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -34,6 +35,13 @@ struct TexturedCorner {
 /// tangent of the first triangle at the same vertex, else any at right angles to the normal; and
 /// all three of them the w of its first corner.
 std::vector<glm::vec4> make_tangents(const std::vector<TexturedCorner>& corners);
+
+/// Bytes for each corner that make_tangents takes, at most, the corners and the tangents among
+/// them: a corner 32; its vertex number 4, its place in the table of vertices 64 and up to 16; a
+/// third of a chart, 11, and twice as much while they grow; its group 4; the edge that waits for
+/// its neighbour 64, 32 for its list, up to 16 for its place; the sum 24, the first corner 4, the
+/// tangent 16.
+inline constexpr std::size_t tangent_bytes = 32 + 4 + 80 + 33 + 4 + 112 + 24 + 4 + 16;
 
 /// A unit vector at right angles to a unit vector: the axis on which it has its smallest component
 /// (the first of equals) less its part along `normal`, made of unit length.

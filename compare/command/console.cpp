@@ -1,11 +1,11 @@
 #include "compare/command/console.h"
 
+#include "compare/command/standard_output.h"
 #include "compare/escape.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -23,6 +23,7 @@ std::string_view color_of(const Cell& cell) {
         return "33";
     case Verdict::defect:
     case Verdict::unexplained:
+    case Verdict::timed_out:
         break;
     }
     return "1;31";
@@ -56,21 +57,22 @@ Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) ==
 }
 
 Console::~Console() {
-    clear_progress();
+    try {
+        clear_progress();
+    } catch (const OutputLost&) { // was said where it mattered
+    }
 }
 
 void Console::clear_progress() {
     if (!progress_shown_) return;
-    fmt::print("\r\x1b[K");
-    std::fflush(stdout);
     progress_shown_ = false;
+    shadowproof::print("\r\x1b[K");
 }
 
 void Console::progress(const std::string& text) {
     if (quiet_ || !terminal_) return;
     clear_progress();
-    fmt::print("{}", printable(text));
-    std::fflush(stdout);
+    shadowproof::print(printable(text));
     progress_shown_ = true;
 }
 
@@ -88,7 +90,7 @@ void Console::cell(const SceneResult& scene, const Cell& cell, const ColumnWidth
     if (quiet_ && !failed) return;
     std::string text = printable(cell_line(scene, cell, widths));
     if (color_) {
-        const std::string verdict(cell.error.empty() ? name_of(cell.verdict) : "error");
+        const std::string verdict(outcome_name(cell));
         const std::size_t at =
             text.find("  " + verdict, cell.technique.size() + 2 + printable(scene.name).size());
         if (at != std::string::npos)
@@ -103,19 +105,13 @@ void Console::always(const std::string& text) {
 
 void Console::commands(const std::string& lines) {
     clear_progress();
-    fmt::print("{}", lines);
-    std::fflush(stdout);
+    shadowproof::print(lines);
 }
 
 void Console::print(const std::string& text) {
     clear_progress();
-    fmt::print("{}\n", on_github_ ? without_commands(text) : text);
     // Each line at once also into a pipe: who waits for a build reads along.
-    std::fflush(stdout);
-}
-
-void complain(std::string_view message) {
-    fmt::print(stderr, "shadowproof: {}\n", printable(message));
+    shadowproof::print((on_github_ ? without_commands(text) : text) + "\n");
 }
 
 } // namespace shadowproof

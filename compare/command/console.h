@@ -6,7 +6,6 @@
 #include "compare/report.h"
 
 #include <string>
-#include <string_view>
 
 namespace shadowproof {
 
@@ -20,6 +19,8 @@ public:
 
     /// What is being done now; the next call of any kind replaces it.
     void progress(const std::string& text);
+    /// Takes it away.
+    void clear_progress();
     /// A line of results; not printed where quiet.
     void line(const std::string& text);
     /// A heading, bold where colour is.
@@ -35,7 +36,6 @@ public:
 
 private:
     void print(const std::string& text);
-    void clear_progress();
 
     bool quiet_ = false;
     bool on_github_ = false;
@@ -43,8 +43,5 @@ private:
     bool color_ = false;
     bool progress_shown_ = false;
 };
-
-/// "shadowproof: ..." on stderr, printable.
-void complain(std::string_view message);
 
 } // namespace shadowproof

@@ -1,14 +1,16 @@
 #include "compare/blank.h"
 #include "compare/color_words.h"
 #include "compare/command/commands.h"
-#include "compare/command/console.h"
 #include "compare/command/drawing.h"
+#include "compare/command/guard.h"
+#include "compare/command/standard_output.h"
 #include "compare/escape.h"
 #include "compare/memory.h"
+#include "compare/output/write_file.h"
 #include "compare/pixel_record.h"
-#include "compare/write_file.h"
 #include "raster/render.h"
 #include "reference/ledger.h"
+#include "scenes/admission.h"
 #include "scenes/catalog.h"
 
 #include <fmt/format.h>
@@ -252,8 +254,11 @@ std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>
 int explain(const ExplainOptions& options) {
     for (const std::string& file : {options.json, options.svg})
         if (!file.empty()) check_writable(file);
-    refuse_too_large(options.picture.size.width, options.picture.size.height, comparison_bytes());
+    const MemoryBudget& memory = options.picture.memory;
+    require_picture(memory, options.picture.size.width, options.picture.size.height,
+                    Workload::comparison);
     const Scene scene = load_scene(options.scene, options.picture.request());
+    require_scene(memory, scene, Workload::comparison);
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
     const Tracer tracer(scene, options.picture.threads);
@@ -267,11 +272,13 @@ int explain(const ExplainOptions& options) {
         record.techniques.push_back(
             ask(*technique, record, tracer, silhouette, truth, depths, plan, gpu));
     }
-    if (!options.quiet) fmt::print("{}", as_text(scene, record));
+    const Scene told = in_file_units(scene);
+    record = in_units(std::move(record), scene.unit);
+    if (!options.quiet) print(as_text(told, record));
     for (const TechniqueAtPixel& technique : record.techniques)
-        if (options.quiet && !technique.error.empty()) complain(technique.error);
+        if (!technique.error.empty()) complain(technique.error);
     const std::string json =
-        to_json(scene, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+        to_json(told, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!options.json.empty()) write_file(options.json, json + "\n");
     const std::optional<std::size_t> drawn = technique_to_draw(record.techniques);
     if (!options.svg.empty() && drawn) write_file(options.svg, draw_cutaway(json, *drawn));
@@ -317,7 +324,7 @@ Work add_explain(CLI::App& app) {
         ->check(not_empty());
     command->add_flag("-q,--quiet", options->quiet, "No output but errors, and the files");
     command->final_callback([options] { check_inside(*options); });
-    return [options] { return explain(*options); };
+    return [options] { return guarded([&] { return explain(*options); }); };
 }
 
 } // namespace shadowproof

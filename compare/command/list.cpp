@@ -1,4 +1,5 @@
 #include "compare/command/commands.h"
+#include "compare/command/standard_output.h"
 #include "scenes/catalog.h"
 
 #include <fmt/format.h>
@@ -80,7 +81,7 @@ Work add_list(CLI::App& app) {
     const auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "As JSON");
     return [json] {
-        fmt::print("{}", *json ? as_json().dump(1) + "\n" : as_text());
+        print(*json ? as_json().dump(1) + "\n" : as_text());
         return exit_passed;
     };
 }

@@ -1,15 +1,13 @@
 #include "compare/command/commands.h"
-#include "compare/command/console.h"
-#include "compare/memory.h"
-#include "compare/unfinished.h"
+#include "compare/command/guard.h"
+#include "compare/command/signals.h"
+#include "compare/command/standard_output.h"
 #include "reference/trace.h"
 
 #include <fmt/format.h>
 
-#include <csignal>
-#include <cstdio>
-#include <exception>
-#include <new>
+#include <iostream>
+#include <sstream>
 
 using namespace shadowproof;
 
@@ -31,7 +29,8 @@ constexpr const char* footer =
     "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
     "\nExit codes:\n"
     "  0  every technique agrees with the truth, or fails as was predicted\n"
-    "  1  a defect, an unexplained pixel, or a scene that stopped provoking its causes\n"
+    "  1  a defect, an unexplained pixel, a cell above --timeout, or a scene that stopped\n"
+    "     provoking its causes\n"
     "  2  wrong usage\n"
     "  3  could not run: unreadable scene, no OpenGL, a blank or NaN render\n";
 
@@ -52,13 +51,16 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
-        return app.exit(success);
+        std::ostringstream words;
+        const int code = app.exit(success, words, words);
+        print(words.str());
+        return code;
     } catch (const CLI::ParseError& error) {
         const std::vector<CLI::App*> chosen = app.get_subcommands();
         const std::string_view first = argc > 1 ? argv[1] : "";
         if (!chosen.empty()) {
             complain(error.what());
-            fmt::print(stderr, "See shadowproof {} --help.\n", chosen.front()->get_name());
+            std::cerr << "See shadowproof " << chosen.front()->get_name() << " --help.\n";
         } else if (first.empty() || first.front() == '-') {
             complain(fmt::format("{}; there are {}", error.what(), offered));
         } else {
@@ -74,15 +76,9 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    remove_unfinished_at_signals();
-    // Who closes the pipe that we print into ends the run as an error does, not by a signal.
-    std::signal(SIGPIPE, SIG_IGN);
-    try {
+    open_standard_streams();
+    return run_to_exit_code([&] {
+        handle_signals();
         return run(argc, argv);
-    } catch (const std::bad_alloc&) {
-        complain(out_of_memory);
-    } catch (const std::exception& error) {
-        complain(error.what());
-    }
-    return exit_could_not;
+    });
 }

@@ -1,16 +1,12 @@
 #include "compare/command/map_file.h"
 
 #include "compare/command/options.h"
-#include "compare/write_file.h"
-#include "scenes/error.h"
-
-#include <OpenImageIO/imageio.h>
+#include "compare/command/picture_bytes.h"
+#include "compare/output/write_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <vector>
 
 namespace shadowproof {
@@ -35,15 +31,7 @@ void write_as(const Image<glm::dvec4>& map, const char* format, TypeDesc type,
     values.reserve(4 * map.pixels.size());
     for (const glm::dvec4& texel : map.pixels)
         for (int k = 0; k < 4; ++k) values.push_back(convert(texel[k]));
-    write_beside(file, [&](const std::filesystem::path& beside) {
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-        if (output && output->open(beside.string(), spec_of(map, type)) &&
-            output->write_image(type, values.data()) && output->close())
-            return;
-        throw Error(file,
-                    "cannot be written (" + (output ? output->geterror() : OIIO::geterror()) + ")",
-                    "name a file in a folder that exists and is writable");
-    });
+    write_file(file, picture_bytes(format, spec_of(map, type), type, values.data(), file));
 }
 
 template <class T>

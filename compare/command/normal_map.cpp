@@ -1,7 +1,8 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/command/guard.h"
 #include "compare/command/map_file.h"
-#include "compare/write_file.h"
+#include "compare/output/write_file.h"
 #include "scenes/error.h"
 #include "scenes/picture.h"
 #include "scenes/relief.h"
@@ -24,9 +25,16 @@ struct NormalMapOptions {
     int level = 0;
     bool green_down = false;
     bool quiet = false;
+    MemoryBudget memory{};
 };
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26U;
+
+/// Bytes made of each pixel, all there at once at most: its height, slopes, normal, the map's
+/// texel, and that texel as it is written, once more in the writer.
+constexpr std::uint64_t bytes_made_of_pixel = sizeof(double) + sizeof(glm::dvec2) +
+                                              sizeof(glm::dvec3) + sizeof(glm::dvec4) +
+                                              2 * 4 * sizeof(float);
 
 /// The first channel: of gray pictures the gray, else the red.
 Image<double> heights_of(const Picture& picture) {
@@ -40,7 +48,10 @@ Image<double> heights_of(const Picture& picture) {
 int make_normal_map(const NormalMapOptions& options) {
     Console console(options.quiet);
     check_writable(options.output);
-    const Picture picture = read_picture(options.heights, most_pixels);
+    const MemoryAccount memory(options.memory);
+    const Picture picture = read_picture(
+        options.heights,
+        {.memory = memory, .most_pixels = most_pixels, .bytes_made_of_pixel = bytes_made_of_pixel});
     const int levels = levels_of(picture.width, picture.height);
     if (options.level >= levels)
         throw Error(options.heights,
@@ -63,7 +74,7 @@ Work add_normal_map(CLI::App& app) {
     const auto options = std::make_shared<NormalMapOptions>();
     command
         ->add_option("HEIGHT", options->heights,
-                     "A picture of heights: its gray, or its red; 16 bits show no steps")
+                     "A .png, .jpg or .exr of heights: its gray, or its red; 16 bits show no steps")
         ->required()
         ->check(not_empty());
     command
@@ -78,15 +89,17 @@ Work add_normal_map(CLI::App& app) {
                        ? ""
                        : "'" + file + "' is neither; name a file that ends in .png or .exr";
         });
+    add_memory_flag(*command, options->memory);
     command
-        ->add_option("--scale", options->scale, "How many texels high white is against black (1)")
-        ->type_name("TEXELS")
-        ->check([](const std::string& text) {
-            double value = 0;
-            return CLI::detail::lexical_cast(text, value) && std::isfinite(value)
-                       ? ""
-                       : "'" + text + "' is not a number";
-        });
+        ->add_option_function<std::string>(
+            "--scale",
+            [options](const std::string& text) {
+                const std::optional<double> scale = parse_number(text);
+                if (!scale) throw CLI::ValidationError("--scale", "'" + text + "' is not a number");
+                options->scale = *scale;
+            },
+            "How many texels high white is against black (1)")
+        ->type_name("TEXELS");
     const std::map<std::string, Wrap> wraps{{"repeat", Wrap::repeat},
                                             {"mirror", Wrap::mirrored_repeat},
                                             {"clamp", Wrap::clamp_to_edge}};
@@ -106,7 +119,7 @@ Work add_normal_map(CLI::App& app) {
     command->add_flag("--green-down", options->green_down,
                       "y down the picture, as some engines have it");
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
-    return [options] { return make_normal_map(*options); };
+    return [options] { return guarded([&] { return make_normal_map(*options); }); };
 }
 
 } // namespace shadowproof

@@ -1,5 +1,7 @@
 #include "compare/command/options.h"
 
+#include "scenes/available_memory.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -93,8 +95,12 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
 } // namespace
 
 SceneRequest SceneOptions::request() const {
-    return {
-        .camera = camera, .light = light, .time = time, .width = size.width, .height = size.height};
+    return {.camera = camera,
+            .light = light,
+            .time = time,
+            .width = size.width,
+            .height = size.height,
+            .memory = memory};
 }
 
 bool SceneOptions::is_default() const {
@@ -122,16 +128,47 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         .add_option("--light", options.light,
                     "Light, by name or index (verify: each in turn, others: the first)")
         ->type_name("LIGHT");
-    command.add_option("--time", options.time, "Seconds at which animations are posed (0)")
-        ->type_name("T")
-        ->check([](const std::string& text) {
-            double time = 0;
-            const bool good = CLI::detail::lexical_cast(text, time) && std::isfinite(time);
-            return good ? "" : "'" + text + "' is not a time; give seconds, as 1.5";
-        });
+    command
+        .add_option_function<std::string>(
+            "--time",
+            [&](const std::string& text) {
+                const std::optional<double> time = parse_number(text);
+                if (!time)
+                    throw CLI::ValidationError(
+                        "--time", "'" + text + "' is not a time; give seconds, as 1.5");
+                options.time = *time;
+            },
+            "Seconds at which animations are posed (0)")
+        ->type_name("T");
+    add_memory_flag(command, options.memory);
     command.add_option("--threads", options.threads, "Threads (0: one per core)")
         ->type_name("N")
         ->check(CLI::Range(0, 1024));
+}
+
+void add_memory_flag(CLI::App& command, MemoryBudget& budget) {
+    budget = default_memory_budget();
+    command
+        .add_option_function<std::string>(
+            "--memory",
+            [&](const std::string& text) {
+                const auto bytes = parse_bytes(text);
+                if (!bytes)
+                    throw CLI::ValidationError(
+                        "--memory", "'" + text + "' is no size; give bytes, as 2GB or 1.5GiB");
+                budget = {*bytes, "--memory"};
+            },
+            "Bytes that may be taken in all, as 2GB (three quarters of what is available)")
+        ->type_name("SIZE");
+}
+
+std::optional<double> parse_number(const std::string& text) {
+    const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* const end = text.data() + text.size();
+    double value = 0;
+    const auto parsed = std::from_chars(first, end, value);
+    if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
+    return value;
 }
 
 void add_technique_flags(CLI::App& command, TechniqueOptions& options) {

@@ -5,6 +5,7 @@
 #include "raster/context.h"
 #include "raster/technique.h"
 #include "scenes/lighting_settings.h"
+#include "scenes/memory_budget.h"
 #include "scenes/scene_request.h"
 
 #include <CLI/CLI.hpp>
@@ -39,6 +40,7 @@ struct SceneOptions {
     std::optional<std::string> light;
     double time = 0; ///< seconds
     int threads = 0; ///< 0: one per core
+    MemoryBudget memory{};
 
     SceneRequest request() const;
     /// Nothing here asks for other than a scene's own default picture.
@@ -57,6 +59,12 @@ struct TechniqueOptions {
 /// and its message says what is possible.
 void add_scene_flags(CLI::App& command, SceneOptions& options);
 void add_technique_flags(CLI::App& command, TechniqueOptions& options);
+
+/// --memory, whose default is default_memory_budget().
+void add_memory_flag(CLI::App& command, MemoryBudget& budget);
+
+/// A finite number as std::from_chars reads it, the same in every locale, a + before it allowed.
+std::optional<double> parse_number(const std::string& text);
 
 /// A check for CLI11: the path may not be empty.
 CLI::Validator not_empty();

@@ -1,9 +1,12 @@
 #include "compare/command/outcome.h"
 
 #include "compare/command/options.h"
-#include "compare/write_file.h"
+#include "compare/command/output_files.h"
+#include "compare/command/standard_output.h"
+#include "compare/output/write_file.h"
 #include "raster/technique.h"
 #include "scenes/catalog.h"
+#include "scenes/error.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -11,20 +14,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 
 namespace shadowproof {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file in the report's folder is written after the folder is.
-bool lies_in(const fs::path& file, const fs::path& folder) {
-    const fs::path relative = fs::absolute(file).lexically_normal().lexically_relative(
-        fs::absolute(folder / ".").lexically_normal());
-    return !relative.empty() && *relative.begin() != ".." && *relative.begin() != ".";
-}
 
 bool is_default_picture(const Report& report) {
     const auto& words = report.arguments;
@@ -34,9 +29,10 @@ bool is_default_picture(const Report& report) {
 }
 
 int exit_code(const Report& report) {
-    const auto has_error = [](const auto& thing) { return !thing.error.empty(); };
     for (const SceneResult& scene : report.scenes)
-        if (has_error(scene) || std::any_of(scene.cells.begin(), scene.cells.end(), has_error))
+        if (!scene.error.empty() ||
+            std::any_of(scene.cells.begin(), scene.cells.end(),
+                        [](const Cell& cell) { return could_not_run(cell); }))
             return exit_could_not;
     return report.passed ? exit_passed : exit_failed;
 }
@@ -45,11 +41,12 @@ int exit_code(const Report& report) {
 void append_step_summary(const Report& report) {
     const char* file = std::getenv("GITHUB_STEP_SUMMARY");
     if (file == nullptr || *file == '\0') return;
-    std::ofstream stream(file, std::ios::binary | std::ios::app);
-    stream << to_step_summary(report);
-    stream.close();
-    // What the run says is said elsewhere too: a lost summary fails no build.
-    if (!stream) complain(fmt::format("GITHUB_STEP_SUMMARY={}: cannot be written", file));
+    try {
+        append_to_file(file, to_step_summary(report));
+    } catch (const Error& error) {
+        // What the run says is said elsewhere too: a lost summary fails no build.
+        complain(fmt::format("GITHUB_STEP_SUMMARY={}", error.what()));
+    }
 }
 
 void conclude_reproducing(Console& console, const Report& report) {
@@ -90,8 +87,18 @@ std::string timestamp_now() {
 }
 
 void check_outputs(const OutputOptions& options) {
-    for (const std::string& file : {options.json, options.junit})
-        if (!file.empty() && !lies_in(file, options.out)) check_writable(file);
+    check_output(options.json, options.out, Output::results);
+    check_output(options.junit, options.out, Output::other);
+}
+
+void finish(ReportFolder& folder, Console& console, const Report& report,
+            const OutputOptions& options, const std::string& started) {
+    const std::optional<std::string> json = name_in_report(options.json, options.out);
+    if (json && *json != results_name) folder.add_requested(*json, to_json(report));
+    if (const std::optional<std::string> junit = name_in_report(options.junit, options.out))
+        folder.add_requested(*junit, to_junit(report, started));
+    folder.finish(report);
+    for (const std::string& note : folder.notes()) console.always(note);
 }
 
 std::vector<std::string> stopped_provoking(const Report& report,
@@ -128,8 +135,11 @@ bool passes(const Report& report) {
 
 int conclude(Console& console, const Report& report, const OutputOptions& options,
              const std::string& started) {
-    if (!options.json.empty()) write_file(options.json, to_json(report));
-    if (!options.junit.empty()) write_file(options.junit, to_junit(report, started));
+    const auto lies_elsewhere = [&](const std::string& file) {
+        return !file.empty() && !name_in_report(file, options.out);
+    };
+    if (lies_elsewhere(options.json)) write_file(options.json, to_json(report));
+    if (lies_elsewhere(options.junit)) write_file(options.junit, to_junit(report, started));
     if (report.baseline)
         for (const std::string& note : report.baseline->notes) console.line("baseline: " + note);
     conclude_reproducing(console, report);

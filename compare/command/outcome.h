@@ -26,8 +26,14 @@ std::vector<std::string> stopped_provoking(const Report& report,
 /// A scene or a gate that fails a run fails it, whatever else passes.
 bool passes(const Report& report);
 
-/// Writes --json and --junit; under GitHub Actions the lines that it shows as errors, and the step
-/// summary; says how to see again what failed, and where the report lies. Returns the exit code.
+/// Finishes the report, with --json and --junit in it where they lie in its folder, and says what
+/// it kept there.
+void finish(ReportFolder& folder, Console& console, const Report& report,
+            const OutputOptions& options, const std::string& started);
+
+/// Writes --json and --junit where they lie elsewhere; under GitHub Actions the lines that it shows
+/// as errors, and the step summary; says how to see again what failed, and where the report lies.
+/// Returns the exit code.
 int conclude(Console& console, const Report& report, const OutputOptions& options,
              const std::string& started);
 

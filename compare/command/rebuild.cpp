@@ -1,10 +1,12 @@
 #include "compare/command/rebuild.h"
 
 #include "compare/command/console.h"
+#include "compare/command/guard.h"
 #include "compare/command/options.h"
+#include "compare/command/output_files.h"
 #include "compare/merge.h"
+#include "compare/output/write_file.h"
 #include "compare/results_check.h"
-#include "compare/write_file.h"
 #include "raster/technique.h"
 #include "scenes/catalog.h"
 #include "scenes/error.h"
@@ -40,12 +42,13 @@ void refuse_to_lose(const fs::path& results, const fs::path& out) {
 
 /// Copies what the results name. The report is made all the same where some of it is damaged: the
 /// viewer looks for itself, and shows what is missing as missing.
-void take_over_all(const std::vector<ReportFile>& files, const fs::path& folder, Console& console) {
+void take_over_all(const std::vector<ReportFile>& files, const ReportFolder& folder,
+                   const MemoryAccount& memory, Console& console) {
     constexpr std::size_t most_lines = 12; // a whole folder that is missing is said once
     std::size_t damaged = 0;
     for (const ReportFile& file : files) {
         console.progress("copying " + file.to);
-        const std::optional<std::string> damage = take_over(file, folder);
+        const std::optional<std::string> damage = take_over(file, folder, memory);
         if (damage && ++damaged <= most_lines)
             console.always(fmt::format("damaged: {} {}", file.from.string(), *damage));
     }
@@ -79,10 +82,12 @@ Outcome count_outcome(const ResultsJson& results, Console& console) {
             ++outcome.cells;
             if (cell.at("fails") != true) continue;
             ++outcome.failing;
-            if (could_not_run(cell)) ++outcome.not_run;
-            console.always(fmt::format(
-                "fails: {} on {}: {}", shown(cell.at("name")), name,
-                could_not_run(cell) ? "could not run" : cell.at("verdict").get<std::string>()));
+            // A verdict beside the error: given up, as was asked for.
+            const bool ran = !could_not_run(cell) || cell.contains("verdict");
+            if (!ran) ++outcome.not_run;
+            console.always(
+                fmt::format("fails: {} on {}: {}", shown(cell.at("name")), name,
+                            ran ? cell.at("verdict").get<std::string>() : "could not run"));
         }
         if (scene.at("no_longer_provoked").empty()) continue;
         ++outcome.unprovoked;
@@ -113,23 +118,37 @@ void add_rebuild_flags(CLI::App& command, RebuildOptions& options) {
     command.add_option("--out", options.out, "Folder of the report (report)")
         ->type_name("DIR")
         ->check(not_empty());
+    add_memory_flag(command, options.memory);
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
 }
 
-int rebuild(const RebuildOptions& options) {
+namespace {
+
+int rebuild_here(const RebuildOptions& options) {
     Console console(options.quiet);
+    MemoryAccount memory(options.memory);
     std::vector<ResultsFile> runs;
     for (const std::string& path : options.from) {
         console.progress("reading " + path);
-        refuse_to_lose(runs.emplace_back(read_results(path)).path, options.out);
+        refuse_to_lose(runs.emplace_back(read_results(path, &memory)).path, options.out);
     }
+    check_output(options.json, options.out, Output::results);
     ReportFolder folder(options.out);
     const Merged merged = merge(runs, whole_matrix());
-    take_over_all(merged.files, folder.unfinished(), console);
+    take_over_all(merged.files, folder, memory, console);
     const std::string text = results_text(merged.results);
+    const std::optional<std::string> inside = name_in_report(options.json, options.out);
+    if (inside && *inside != results_name) folder.add_requested(*inside, text);
     folder.finish(text);
-    if (!options.json.empty()) write_file(options.json, text);
+    for (const std::string& note : folder.notes()) console.always(note);
+    if (!options.json.empty() && !inside) write_file(options.json, text);
     return conclude(merged.results, options.out, console);
+}
+
+} // namespace
+
+int rebuild(const RebuildOptions& options) {
+    return guarded([&] { return rebuild_here(options); }, options.out);
 }
 
 } // namespace shadowproof

@@ -1,6 +1,8 @@
 // A report made again from the results and pictures of earlier runs, for report and merge.
 #pragma once
 
+#include "scenes/memory_budget.h"
+
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
@@ -12,14 +14,15 @@ struct RebuildOptions {
     std::string out = "report";
     std::string json;
     bool quiet = false;
+    MemoryBudget memory{};
 };
 
-/// --out and -q.
+/// --out, --memory and -q.
 void add_rebuild_flags(CLI::App& command, RebuildOptions& options);
 
-/// Joins the results, takes over their pictures and data, and writes the report; says which of
-/// them are missing or damaged. Returns the exit code that the results deserve. Throws Error where
-/// results are damaged or do not belong together.
+/// In a process of its own, joins the results, takes over their pictures and data, and writes the
+/// report; says which of them are missing or damaged. Returns the exit code that the results
+/// deserve. Throws Error where results are damaged or do not belong together.
 int rebuild(const RebuildOptions& options);
 
 } // namespace shadowproof

@@ -1,10 +1,11 @@
 #include "compare/color_picture.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
+#include "compare/command/guard.h"
 #include "compare/command/truth_exr.h"
 #include "compare/memory.h"
+#include "compare/output/write_file.h"
 #include "compare/png.h"
-#include "compare/write_file.h"
 #include "scenes/catalog.h"
 #include "scenes/error.h"
 
@@ -43,9 +44,10 @@ bool wants_lighting(const RenderOptions& options, const Scene& scene) {
     return asked || (is_exr(options) && is_bump_lit(scene));
 }
 
-/// Bytes a pixel of what lighting adds, at most.
-std::size_t lighting_bytes(const RenderOptions& options) {
-    return is_exr(options) || wants_terms(options) ? sizeof(Shading) : sizeof(glm::dvec3);
+Workload work_of(const RenderOptions& options, bool lit) {
+    if (is_exr(options)) return lit ? Workload::lit_truth : Workload::truth;
+    if (wants_terms(options)) return Workload::terms;
+    return lit ? Workload::colors : Workload::class_map;
 }
 
 Image<Rgb> lit_picture(const RenderOptions& options, const Tracer& tracer,
@@ -61,23 +63,18 @@ void write_truth(const RenderOptions& options, const Tracer& tracer, const Groun
     if (is_exr(options))
         return write_truth_exr(tracer.scene(), truth,
                                lit ? shade_terms(tracer, truth) : Image<Shading>(), options.output);
-    write_beside(options.output, [&](const std::filesystem::path& beside) {
-        if (lit)
-            write_png(beside, lit_picture(options, tracer, truth), options.output);
-        else
-            write_png(beside, truth.visibility, options.output);
-    });
+    write_file(options.output,
+               lit ? to_png(lit_picture(options, tracer, truth)) : to_png(truth.visibility));
 }
 
 int render_truth(const RenderOptions& options) {
     Console console(options.quiet);
     check_writable(options.output);
-    refuse_too_large(options.picture.size.width, options.picture.size.height, truth_bytes());
+    require_picture(options.picture.memory, options.picture.size.width, options.picture.size.height,
+                    work_of(options, false));
     const Scene scene = load_scene(options.scene, options.picture.request());
     for (const std::string& note : scene.notes) console.line("note: " + note);
-    if (wants_lighting(options, scene))
-        refuse_too_large(options.picture.size.width, options.picture.size.height,
-                         truth_bytes() + lighting_bytes(options));
+    require_scene(options.picture.memory, scene, work_of(options, wants_lighting(options, scene)));
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     write_truth(options, tracer, truth);
@@ -131,7 +128,7 @@ Work add_render(CLI::App& app) {
     add_scene_flags(*command, options->picture);
     command->final_callback([options] { check_together(*options); });
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
-    return [options] { return render_truth(*options); };
+    return [options] { return guarded([&] { return render_truth(*options); }); };
 }
 
 } // namespace shadowproof

@@ -1,9 +1,7 @@
 #include "compare/command/truth_exr.h"
 
-#include "compare/write_file.h"
-#include "scenes/error.h"
-
-#include <OpenImageIO/imageio.h>
+#include "compare/command/picture_bytes.h"
+#include "compare/output/write_file.h"
 
 #include <glm/geometric.hpp>
 
@@ -71,12 +69,12 @@ glm::dvec3 seen_normal(const Scene& scene, std::uint32_t triangle, const glm::dv
 Pixel pixel_of(const Scene& scene, const GroundTruth& truth, int x, int y) {
     Pixel pixel{};
     pixel.triangle = truth.triangle.at(x, y);
-    pixel.depth = static_cast<float>(truth.depth.at(x, y));
+    pixel.depth = static_cast<float>(scene.unit * truth.depth.at(x, y));
     pixel.visibility = static_cast<float>(static_cast<double>(truth.visibility.at(x, y)) / 255.0);
     pixel.exactness = static_cast<float>(truth.exactness.at(x, y));
     if (pixel.triangle == no_triangle) return pixel;
     const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
-    const glm::dvec3 position = scene.camera.eye + truth.depth.at(x, y) * direction;
+    const glm::dvec3 position = scene.unit * (scene.camera.eye + truth.depth.at(x, y) * direction);
     const glm::dvec3 normal = seen_normal(scene, pixel.triangle, direction);
     for (int k = 0; k < 3; ++k) {
         pixel.position[k] = static_cast<float>(position[k]);
@@ -106,17 +104,9 @@ LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
 template <class T>
 void write_pixels(const OIIO::ImageSpec& spec, const Image<T>& picture,
                   const std::filesystem::path& file) {
-    write_beside(file, [&](const std::filesystem::path& beside) {
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
-        // An unknown format means: each channel in its own.
-        if (output && output->open(beside.string(), spec) &&
-            output->write_image(OIIO::TypeDesc::UNKNOWN, picture.pixels.data(), sizeof(T)) &&
-            output->close())
-            return;
-        throw Error(file.string(),
-                    "cannot be written (" + (output ? output->geterror() : OIIO::geterror()) + ")",
-                    "name a file in a folder that exists and is writable");
-    });
+    // An unknown type means: each channel in its own.
+    write_file(file, picture_bytes("openexr", spec, OIIO::TypeDesc::UNKNOWN, picture.pixels.data(),
+                                   file.string()));
 }
 
 } // namespace

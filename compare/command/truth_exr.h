@@ -11,7 +11,7 @@ namespace shadowproof {
 /// background; depth.Z (view depth, +infinity at background); visibility.<light> (the class map's
 /// value over 255: 0 background, 64/255 shadowed, 1 lit); exactness (0 filtered, 1 exact,
 /// 2 degenerate); primId (UINT32, 0xffffffff at background; the others are FLOAT). OpenEXR
-/// orders channels by name: look them up by name. Written beside and renamed; throws Error.
+/// orders channels by name: look them up by name. By write_file; throws Error.
 ///
 /// With shadings (of scenes with bump maps; else an empty picture) also, 0 at background: R G B,
 /// the linear colour, and its summands diffuse.R to B, specular.R to B, ambient.R to B and

@@ -8,7 +8,7 @@ const allCells = (results) => results.scenes.flatMap((scene) =>
 const sceneFails = (scene) => Boolean(scene.error) || (scene.no_longer_provoked ?? []).length > 0 ||
   (scene.techniques ?? []).some(isFailing);
 
-const severity = (cell) => (isFailing(cell) ? 10 : 0) + 5 - verdictNames.indexOf(verdictOf(cell));
+const severity = (cell) => (isFailing(cell) ? 10 : 0) + verdictNames.length - 1 - verdictNames.indexOf(verdictOf(cell));
 
 const worstOf = (scene) =>
   (scene.error ? 20 : Math.max(0, ...(scene.techniques ?? []).map(severity)));

@@ -3,6 +3,7 @@
 const verdicts = {
   unexplained: { mark: '?', words: 'unexplained', meaning: 'a difference that nothing predicts' },
   defect: { mark: '✕', words: 'defect', meaning: 'a cause that is not known of the technique' },
+  timed_out: { mark: '…', words: 'timed out', meaning: 'given up after --timeout seconds' },
   error: { mark: '!', words: 'could not run', meaning: 'no result' },
   fails_as_predicted: { mark: '≈', words: 'fails as predicted',
                         meaning: 'only causes that technique and scene are known for' },
@@ -10,7 +11,7 @@ const verdicts = {
 };
 const verdictNames = Object.keys(verdicts);
 
-const verdictOf = (cell) => (cell.error ? 'error' : cell.verdict);
+const verdictOf = (cell) => cell.verdict ?? 'error';
 
 /** A cell that could not run fails under every gate. */
 const isFailing = (cell) => Boolean(cell.error) || cell.fails === true;

@@ -1,5 +1,6 @@
-// Whether the light sees a triangle's front, in double, with the products of raster/volume.cpp in
-// their order: both sides must find the same.
+// Whether the light sees a triangle's front: the determinant of scenes/orientation.h, in double.
+// Where rounding decides its sign, another than the exact one may come out; but the same for all who
+// ask.
 
 layout(location = 11) uniform float light_w; // 0: the light is a direction
 

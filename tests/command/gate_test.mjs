@@ -1,7 +1,7 @@
 // The gate as a build server meets it: allowances, baselines, GitHub's lines, JUnit, signals.
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
-import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
 import { scratch, shadowproof } from './shadowproof.mjs';
@@ -14,10 +14,10 @@ let differing; // near_plane pixels of zpass
 /** `verify ARGS` that has begun its report: the process, and the report's folder while unfinished. */
 async function startedInto(out, args) {
   const child = spawn(process.env.SHADOWPROOF, ['verify', ...args, '--out', out], { cwd: scratch });
-  const unfinished = () => readdirSync(scratch).find((name) => name.startsWith(`${out}.writing-`));
-  while (!unfinished() && child.exitCode === null)
+  const unfinished = join(scratch, `${out}.writing/report`);
+  while (!existsSync(unfinished) && child.exitCode === null)
     await new Promise((resolve) => setTimeout(resolve, 20));
-  return [child, unfinished()];
+  return [child, unfinished];
 }
 
 /** How it ended, as shadowproof() has it. */
@@ -183,19 +183,32 @@ test('outputs that cannot be written are refused before any work', () => {
 
 test('a report that cannot be written any more ends the run, and is no fault of a scene', async () => {
   const [child, unfinished] = await startedInto('blocked', ['ordinary', 'near_plane', 'far_plane']);
-  writeFileSync(join(scratch, unfinished, 'near_plane'), 'in the way of a folder');
+  writeFileSync(join(unfinished, 'near_plane'), 'in the way of a folder');
   const { code, out, err } = await ended(child);
   assert.equal(code, 3, out + err);
-  assert.match(err, /^shadowproof: \S+blocked: the report cannot be written \([^\n]+--out\n$/);
-  assert.match(out, /^zpass +near_plane /m);
-  assert.doesNotMatch(out, /zfail +near_plane |far_plane\n/);
-  assert.deepEqual(readdirSync(scratch).filter((name) => name.startsWith('blocked')), []);
+  assert.match(err, /^shadowproof: blocked\/near_plane\S+: the report cannot be written \([^\n]+--out\n$/);
+  assert.match(out, /^near_plane$/m);
+  assert.doesNotMatch(out, /zpass +near_plane |far_plane\n/);
+  // What this program did not write is not its to remove.
+  assert.deepEqual(readdirSync(scratch).filter((name) => name.startsWith('blocked')),
+                   ['blocked.writing']);
+  assert.deepEqual(readdirSync(unfinished), ['near_plane']);
 });
 
-test('an interrupted run leaves nothing unfinished behind', async () => {
-  const [child] = await startedInto('cut', ['--size', '2048x2048']);
-  child.kill('SIGINT');
-  const { code, signal } = await ended(child);
-  assert.ok(signal === 'SIGINT' || code === 130, `${code} ${signal}`);
-  assert.deepEqual(readdirSync(scratch).filter((name) => name.startsWith('cut')), []);
+test('an interrupted run says so and leaves nothing unfinished behind, nor a process', async () => {
+  for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
+    const [child] = await startedInto('cut', ['--size', '2048x2048']);
+    const children = `/proc/${child.pid}/task/${child.pid}/children`;
+    let worker = '';
+    while (worker === '') {
+      worker = readFileSync(children, 'utf8').trim();
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+    child.kill(name);
+    const { code, signal, err } = await ended(child);
+    assert.equal(signal, name, `${code} ${err}`);
+    assert.match(err, /^shadowproof: ended by signal \d+ \([A-Z][a-z]+\); what was unfinished is removed/);
+    assert.deepEqual(readdirSync(scratch).filter((file) => file.startsWith('cut')), []);
+    assert.ok(!existsSync(`/proc/${worker}`), 'the worker goes on');
+  }
 });

@@ -188,7 +188,7 @@ test('heights that cannot be read end with 3, and nothing is left behind', () =>
   writeFileSync(join(scratch, 'short.png'), grayPng(64, 64, (x, y) => x * y).subarray(0, 90));
   const before = readdirSync(scratch);
   for (const [args, sentence] of [
-    [['nowhere.png', '-o', 'left.png'], /nowhere\.png: cannot be read/],
+    [['nowhere.png', '-o', 'left.png'], /nowhere\.png: does not exist; check the path/],
     [['text.png', '-o', 'left.png'], /text\.png/],
     [['short.png', '-o', 'left.png'], /short\.png/],
     [['h.png', '-o', 'left.png', '--level', '9'], /has 3 levels/],

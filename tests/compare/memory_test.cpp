@@ -3,38 +3,55 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 
 namespace shadowproof {
 namespace {
 
-TEST(Memory, a_picture_that_just_fits_is_taken_and_one_byte_less_refuses_it) {
-    EXPECT_NO_THROW(refuse_too_large(100, 10, 7, 7000));
+std::string refusal(const std::function<void()>& ask) {
     try {
-        refuse_too_large(100, 10, 7, 6999);
-        FAIL() << "a picture that does not fit was taken";
+        ask();
     } catch (const Error& error) {
-        const std::string words = error.what();
-        EXPECT_NE(words.find("--size 100x10: needs at least"), std::string::npos) << words;
-        EXPECT_NE(words.find("7 bytes a pixel"), std::string::npos) << words;
+        return error.what();
     }
+    return "";
+}
+
+TEST(Memory, a_picture_that_just_fits_is_taken_and_one_byte_less_refuses_it) {
+    const std::uint64_t needed = program_bytes + 1000 * pixel_bytes(Workload::comparison, false);
+    const auto ask = [&](std::uint64_t bytes) {
+        return refusal([&] {
+            require_picture({bytes, "--memory"}, 100, 10, Workload::comparison);
+        });
+    };
+    EXPECT_EQ(ask(needed), "");
+    EXPECT_EQ(ask(needed - 1).find("--size 100x10: needs "), 0U) << ask(needed - 1);
 }
 
 TEST(Memory, the_largest_size_that_parses_does_not_overflow) {
-    EXPECT_THROW(refuse_too_large(16384, 16384, comparison_bytes(), 1ULL << 33U), Error);
+    EXPECT_NE(refusal([] {
+                  require_picture({1ULL << 33U, "--memory"}, 16384, 16384, Workload::comparison);
+              }),
+              "");
 }
 
-TEST(Memory, each_picture_that_is_held_counts) {
-    EXPECT_EQ(truth_bytes(), 14U); // visibility 1, triangle 4, depth 8, exactness 1
-    // Four shadow depths of 4, and again with the prediction, 4; claim 1, counter 4, volumes 1,
-    // depth 4, triangle 4; cause 1, miss 1, prediction 4; and in OpenGL claim 1, triangle 4, sum 4,
-    // depth and stencil 4.
-    EXPECT_EQ(comparison_bytes() - truth_bytes(), 16U + 20U + 14U + 6U + 13U);
-}
-
-TEST(Memory, this_machine_has_some) {
-    EXPECT_GT(memory_there_is(), 1ULL << 20U);
-    EXPECT_NO_THROW(refuse_too_large(64, 64, comparison_bytes()));
+TEST(Memory, a_scene_that_does_not_fit_is_told_by_what_takes_most_of_it) {
+    Scene scene;
+    scene.file = "model.glb";
+    scene.camera.width = scene.camera.height = 10;
+    scene.triangles.resize(1000);
+    const MemoryBudget budget{program_bytes + 1000, "--memory"};
+    const auto ask = [&] {
+        return refusal([&] { require_scene(budget, scene, Workload::truth); });
+    };
+    EXPECT_NE(ask().find("model.glb: needs "), std::string::npos) << ask();
+    EXPECT_NE(ask().find("1000 triangles"), std::string::npos) << ask();
+    scene.textures.push_back({.name = "map", .texels = Image<glm::vec4>(100, 100)});
+    EXPECT_NE(ask().find("10000 texels"), std::string::npos) << ask();
+    EXPECT_NE(ask().find("make its textures smaller"), std::string::npos) << ask();
+    scene.camera.width = 100000;
+    EXPECT_NE(ask().find("a picture of 100000x10"), std::string::npos) << ask();
 }
 
 } // namespace

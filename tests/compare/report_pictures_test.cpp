@@ -1,5 +1,5 @@
+#include "compare/output/write_file.h"
 #include "compare/report_pictures.h"
-#include "scenes/error.h"
 #include "tests/compare/handmade_report.h"
 
 #include <OpenImageIO/imageio.h>
@@ -69,7 +69,7 @@ TEST(ReportPictures, a_png_reads_back_as_it_was) {
     const SceneResult scene = handmade_scene("x", Cause::edge, Verdict::agrees);
     const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                        ("shadowproof-" + std::to_string(getpid()) + ".png");
-    write_png(file, scene.truth.visibility);
+    write_file(file, to_png(scene.truth.visibility));
     const auto input = OIIO::ImageInput::open(file.string());
     ASSERT_TRUE(input) << OIIO::geterror();
     EXPECT_EQ(input->spec().nchannels, 1);
@@ -78,10 +78,6 @@ TEST(ReportPictures, a_png_reads_back_as_it_was) {
     for (std::size_t i = 0; i < bytes.size(); ++i)
         EXPECT_EQ(bytes[i], static_cast<std::uint8_t>(scene.truth.visibility.pixels[i]));
     std::filesystem::remove(file);
-}
-
-TEST(ReportPictures, a_picture_that_cannot_be_written_is_an_error_that_names_it) {
-    EXPECT_THROW(write_png("/nowhere/at/all.png", Image<Visibility>(2, 2)), Error);
 }
 
 TEST(ReportPictures, a_scene_s_name_never_leaves_the_folder) {

@@ -1,5 +1,5 @@
+#include "compare/output/write_file.h"
 #include "compare/report_page.h"
-#include "compare/write_file.h"
 #include "scenes/error.h"
 #include "tests/compare/handmade_report.h"
 
@@ -148,7 +148,7 @@ TEST(ReportFolder, times_stand_in_the_results_and_nowhere_else) {
     write_report(report, scratch.path / "b");
     auto a = files_of(scratch.path / "a");
     auto b = files_of(scratch.path / "b");
-    for (const char* file : {"results.json", "results.js"}) {
+    for (const char* file : {"results.json", "results.js", "manifest.json"}) {
         EXPECT_NE(a.at(file), b.at(file));
         a.erase(file);
         b.erase(file);
@@ -168,7 +168,7 @@ TEST(ReportFolder, two_writings_have_the_same_bytes) {
     write_report(handmade_report(), scratch.path / "a");
     write_report(handmade_report(), scratch.path / "b");
     const auto a = files_of(scratch.path / "a");
-    EXPECT_EQ(a.size(), 3 + 2 * 7U); // the page and the results; two scenes of one cell each
+    EXPECT_EQ(a.size(), 4 + 2 * 7U); // page, results, manifest; two scenes of one cell each
     EXPECT_TRUE(a.contains("index.html"));
     EXPECT_EQ(a, files_of(scratch.path / "b"));
 }

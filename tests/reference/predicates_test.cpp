@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory_resource>
 #include <random>
@@ -14,6 +15,19 @@ namespace shadowproof {
 namespace {
 
 constexpr std::uint32_t seed = 20260101;
+
+/// What the arithmetics of exact.h are held against.
+struct RationalArithmetic {
+    struct Number {
+        mpq_class value;
+        int sign() const { return sgn(value); }
+        friend Number operator+(const Number& a, const Number& b) { return {a.value + b.value}; }
+        friend Number operator-(const Number& a, const Number& b) { return {a.value - b.value}; }
+        friend Number operator*(const Number& a, const Number& b) { return {a.value * b.value}; }
+    };
+    Number number(double a) const { return {mpq_class(a)}; }
+    Number difference(double a, double b) const { return {mpq_class(a) - mpq_class(b)}; }
+};
 
 /// Doubles of many magnitudes, some equal, some zero.
 double any_double(std::mt19937& random) {
@@ -28,7 +42,8 @@ TEST(Expansion, sums_and_products_of_random_doubles_have_the_sign_of_their_ratio
     std::mt19937 random(seed);
     for (int trial = 0; trial < 20000; ++trial) {
         std::pmr::monotonic_buffer_resource arena;
-        const ExpansionArithmetic exact{&arena};
+        bool left_range = false;
+        const ExpansionArithmetic exact{&arena, &left_range};
         std::array<double, 6> x{};
         for (double& value : x) value = any_double(random);
         // A determinant whose value is the rounding error of a larger one.
@@ -41,6 +56,61 @@ TEST(Expansion, sums_and_products_of_random_doubles_have_the_sign_of_their_ratio
         ASSERT_EQ(formula(exact).sign(), formula(RationalArithmetic{}).sign())
             << "seed " << seed << ", trial " << trial;
     }
+}
+
+TEST(Expansion, an_input_beyond_its_range_is_noticed) {
+    const auto leaves = [](const auto& use) {
+        std::pmr::monotonic_buffer_resource arena;
+        bool left_range = false;
+        use(ExpansionArithmetic{&arena, &left_range});
+        return left_range;
+    };
+    for (const double inside : {0.0, -0.0, 1e-20, -1e20})
+        EXPECT_FALSE(leaves([&](const auto& a) { a.number(inside), a.difference(1, inside); }));
+    for (const double beyond : {0.99e-20, -1.01e20, 5e-324, 1e308}) {
+        EXPECT_TRUE(leaves([&](const auto& a) { a.number(beyond); })) << beyond;
+        EXPECT_TRUE(leaves([&](const auto& a) { a.difference(beyond, 1); })) << beyond;
+        EXPECT_TRUE(leaves([&](const auto& a) { a.difference(1, beyond); })) << beyond;
+    }
+    EXPECT_FALSE(leaves([](const auto& a) { a.direction(1e-90); }));
+    EXPECT_TRUE(leaves([](const auto& a) { a.direction(0.99e-90); }));
+}
+
+/// Any finite double at all, by its bits; every tenth is zero.
+double any_finite_double(std::mt19937_64& random) {
+    for (;;) {
+        const std::uint64_t bits = random();
+        const double value = bits % 10 == 0 ? 0 : std::bit_cast<double>(bits);
+        if (std::isfinite(value)) return value;
+    }
+}
+
+TEST(Dyadic, sums_and_products_of_any_finite_doubles_have_the_sign_of_their_rationals) {
+    std::mt19937_64 random(seed);
+    for (int trial = 0; trial < 5000; ++trial) {
+        std::array<double, 6> x{};
+        for (double& value : x) value = any_finite_double(random);
+        // Every other time a difference that cancels, but for its smallest term.
+        if (trial % 2 == 0) x[2] = x[0], x[3] = -x[1];
+        const auto formula = [&](const auto& arithmetic) {
+            const auto sum = arithmetic.number(x[0]) * arithmetic.number(x[1]) +
+                             arithmetic.number(x[2]) * arithmetic.number(x[3]);
+            return (sum - arithmetic.number(x[4])) * arithmetic.difference(x[5], x[4]);
+        };
+        ASSERT_EQ(formula(DyadicArithmetic{}).sign(), formula(RationalArithmetic{}).sign())
+            << "seed " << seed << ", trial " << trial;
+    }
+}
+
+TEST(Predicates, inputs_that_expansions_would_lose_are_decided_all_the_same) {
+    const Predicates predicates;
+    // The normal is (1e-120, -1e-30, -1e-30), and what is seen of it 1e-90 - 2 * 0.75e-90: the
+    // first term is a product of numbers of which expansions would lose the last bits.
+    const Corners t{{0, 0, 0}, {1e30, 1e-60, 0}, {1e30, 0, 1e-60}};
+    const glm::dvec3 above{1e30, 0.75e-60, 0.75e-60};
+    EXPECT_EQ(predicates.side({above, 1}, t).sign, 1);
+    EXPECT_EQ(predicates.side({-above, 1}, t).sign, -1);
+    EXPECT_EQ(predicates.side({0.5 * (t.b + t.c), 1}, t).sign, 0);
 }
 
 TEST(Bounded, a_sign_it_is_certain_of_is_right_and_near_zero_it_is_not_certain) {

@@ -265,6 +265,18 @@ TEST(file, deep_nesting_is_refused_before_it_is_parsed) {
     EXPECT_NE(refusal_of_file(folder.path() / "deep.gltf").find("nests deeper"), std::string::npos);
 }
 
+TEST(file, the_refusal_of_what_is_no_json_is_short_whatever_it_holds) {
+    const Folder folder;
+    const auto refusal_of = [&](const std::string& text) {
+        write_bytes(folder.path() / "no.gltf", Bytes(text.begin(), text.end()));
+        return refusal_of_file(folder.path() / "no.gltf");
+    };
+    const std::string endless = refusal_of("{\"uri\": \"" + std::string(100000, 'A') + "\x01\"}");
+    EXPECT_NE(endless.find("is not JSON at byte 100010"), std::string::npos) << endless;
+    EXPECT_LT(endless.size(), 500U);
+    EXPECT_NE(refusal_of("{\"byteLength\": 1e999}").find("beyond every double"), std::string::npos);
+}
+
 TEST(file, a_link_out_of_the_folder_is_not_followed) {
     const Folder outside;
     const Folder folder;

@@ -1,0 +1,45 @@
+// Work in a child process: a crash of ours, of the driver or of a library ends the child alone, and
+// its parent can say so and go on.
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace shadowproof {
+
+/// How a child ended: by itself with a code, or by a signal.
+struct ChildEnd {
+    std::optional<int> code;
+    int signal = 0;
+};
+
+/// "was ended by signal 11 (Segmentation fault)", "ended with code 3"
+std::string words_of(const ChildEnd& end);
+
+/// A child process of its own pipe. It is killed where its parent ends before it, and where this
+/// goes before it was waited for; so are children of its own, which hold the pipe too. One at a
+/// time.
+class ChildProcess {
+public:
+    /// Forks. The child calls `work` with the writing end of the pipe and ends with the code that
+    /// it returns; `work` must not throw. Threads of the parent are not in the child, so neither
+    /// Embree nor OpenGL may have been used before. Throws Error where there can be no process.
+    explicit ChildProcess(const std::function<int(int pipe)>& work);
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// The reading end of the pipe: at its end when the child is.
+    int pipe() const { return pipe_; }
+    void kill();
+    ChildEnd wait();
+
+private:
+    pid_t process_ = -1;
+    int pipe_ = -1;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,44 @@
+#include "compare/command/output_files.h"
+
+#include "compare/output/followed.h"
+#include "compare/output/manifest.h"
+#include "compare/output/write_file.h"
+#include "compare/report.h"
+#include "scenes/error.h"
+
+#include <filesystem>
+#include <system_error>
+
+namespace shadowproof {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> name_in_report(const std::string& file, const std::string& out) {
+    if (file.empty()) return std::nullopt;
+    try {
+        if (open_descriptor(file)) return std::nullopt;
+        const fs::path relative = followed(file).lexically_relative(followed(out));
+        if (relative.empty() || *relative.begin() == ".." || *relative.begin() == ".")
+            return std::nullopt;
+        return relative.generic_string();
+    } catch (const std::system_error&) {
+        return std::nullopt; // check_writable says why
+    }
+}
+
+void check_output(const std::string& file, const std::string& out, Output output) {
+    if (file.empty()) return;
+    const std::optional<std::string> name = name_in_report(file, out);
+    if (!name) return check_writable(file);
+    const bool is_results = *name == results_name;
+    if ((is_results && output != Output::results) || *name == page_name ||
+        *name == results_script_name || *name == manifest_name)
+        throw Error(file, "is a file of the report itself", "name another file");
+    std::error_code ignored;
+    const fs::file_status status = fs::symlink_status(fs::path(out) / *name, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw Error(file, "lies in the report's folder, and is no regular file",
+                    "name a file elsewhere");
+}
+
+} // namespace shadowproof

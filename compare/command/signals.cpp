@@ -1,0 +1,94 @@
+#include "compare/command/signals.h"
+
+#include "compare/output/unfinished.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+namespace shadowproof {
+
+namespace {
+
+// Signals come to the process, and so these are the process's.
+std::atomic<pid_t> running_child = -1;
+std::atomic<int> pipe_of_child = -1;
+std::atomic<bool> is_ending = false;
+
+/// Ignored signals stay ignored (nohup).
+bool is_default(int signal) {
+    struct sigaction action {};
+    return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_DFL;
+}
+
+/// It may write where files are about to be removed.
+void end_child() {
+    const pid_t child = running_child;
+    if (child <= 0) return;
+    kill(child, SIGKILL);
+    wait_for_end_of(pipe_of_child);
+}
+
+[[noreturn]] void end_by(int signal) {
+    is_ending = true;
+    end_child();
+    remove_unfinished();
+    const std::string words =
+        fmt::format("shadowproof: ended by signal {} ({}); what was unfinished is removed, and "
+                    "what was there before is as it was\n",
+                    signal, strsignal(signal));
+    // Nobody is left to hear that it cannot be written.
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
+    // The program ends as the signal ends programs, and its parent can tell.
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
+    std::raise(signal);
+    _exit(128 + signal);
+}
+
+[[noreturn]] void wait_for(sigset_t signals) {
+    int signal = 0;
+    while (sigwait(&signals, &signal) != 0) {
+    }
+    end_by(signal);
+}
+
+} // namespace
+
+void handle_signals() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (is_default(signal)) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread(wait_for, signals).detach();
+}
+
+void set_running_child(pid_t process, int pipe) {
+    pipe_of_child = pipe;
+    running_child = process;
+}
+
+void wait_for_end_of(int pipe) {
+    std::array<char, 4096> ignored{};
+    while (true) {
+        const ssize_t got = read(pipe, ignored.data(), ignored.size());
+        if (got == 0 || (got < 0 && errno != EINTR)) return;
+    }
+}
+
+void wait_if_ending() {
+    while (is_ending) pause();
+}
+
+} // namespace shadowproof

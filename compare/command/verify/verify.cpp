@@ -1,0 +1,77 @@
+#include "compare/command/commands.h"
+#include "compare/command/guard.h"
+#include "compare/command/outcome.h"
+#include "compare/command/stopwatch.h"
+#include "compare/command/verify/supervisor.h"
+#include "compare/memory.h"
+
+#include <memory>
+
+namespace shadowproof {
+
+namespace {
+
+/// What stands in results.json before the first scene is tried.
+Report begin_report(const VerifyOptions& options) {
+    Report report;
+    report.version = SHADOWPROOF_VERSION;
+    report.arguments = settings(options.scene, options.technique);
+    const std::vector<std::string> gate = settings(options.gate);
+    report.arguments.insert(report.arguments.end(), gate.begin(), gate.end());
+    report.gate = options.gate.gate;
+    return report;
+}
+
+/// `waited`: milliseconds since the program was started.
+int verify(const VerifyOptions& options, double waited) {
+    const Stopwatch stopwatch;
+    const std::string started = timestamp_now();
+    Console console(options.output.quiet);
+    // What cannot be read or written is refused before the work is done, not after.
+    std::optional<ResultsFile> baseline;
+    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
+    check_outputs(options.output);
+    require_picture(options.scene.memory, options.scene.size.width, options.scene.size.height,
+                    Workload::comparison);
+    for (const Allowance& allowance : options.gate.gate.allow)
+        if (allowance.cause == Cause::edge)
+            console.line("note: --allow edge changes nothing: edge pixels never fail");
+    ReportFolder folder(options.output.out);
+    Report report = begin_report(options);
+    try_scenes_guarded(options, baseline, console, folder, report);
+    if (baseline)
+        report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
+                                   notes_on(*baseline, report)};
+    report.passed = passes(report);
+    report.milliseconds = waited + stopwatch.milliseconds();
+    finish(folder, console, report, options.output, started);
+    return conclude(console, report, options.output, started);
+}
+
+} // namespace
+
+Work add_verify(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("verify", "Every technique against the truth; a report of the pixels");
+    const auto options = std::make_shared<VerifyOptions>();
+    command
+        ->add_option("SCENE", options->scenes,
+                     "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
+        ->check(not_empty());
+    add_technique_flags(*command, options->technique);
+    add_scene_flags(*command, options->scene);
+    add_gate_flags(*command, options->gate);
+    add_output_flags(*command, options->output);
+    command
+        ->add_option("--timeout", options->timeout,
+                     "Seconds for a cell, and for reading or tracing a scene, above which it is "
+                     "given up (600; 0: any number)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 1e9).description(""));
+    return [options] {
+        const double waited = milliseconds_since_start_of_process().value_or(0);
+        return guarded([&] { return verify(*options, waited); }, options->output.out);
+    };
+}
+
+} // namespace shadowproof

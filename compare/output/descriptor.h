@@ -1,0 +1,53 @@
+// Open files, and the calls on them that may fail: each is checked, repeated where a signal cut it
+// short, and throws std::system_error with the kernel's reason. Who calls them knows the name that
+// the user gave, and says it (compare/output/unwritable.h).
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace shadowproof {
+
+/// Throws std::system_error of errno.
+[[noreturn]] void throw_errno();
+
+/// An open file; closed with this.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor();
+    Descriptor(Descriptor&& other) noexcept;
+    Descriptor& operator=(Descriptor&& other) noexcept;
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int number() const { return number_; }
+    explicit operator bool() const { return number_ >= 0; }
+    /// Closes it now, so that what the file system says then is heard.
+    void close();
+
+private:
+    int number_ = -1;
+};
+
+/// open(2), closed on exec. `mode`: of a file that is created, before the umask.
+Descriptor open_file(const std::filesystem::path& file, int flags, mode_t mode = 0666);
+
+/// Calls `take` with all bytes of a regular file, piece by piece. Links are not followed; what is
+/// no regular file is EINVAL, and never waited for.
+void read_pieces(const std::filesystem::path& file,
+                 const std::function<void(std::string_view)>& take);
+
+/// All of it, however many calls that takes.
+void write_all(const Descriptor& to, std::string_view bytes);
+
+/// fsync(2); what cannot be synced (a pipe, a device) needs no sync.
+void sync_to_disk(const Descriptor& file);
+/// The same for the names in a folder.
+void sync_folder(const std::filesystem::path& folder);
+
+} // namespace shadowproof

@@ -1,0 +1,278 @@
+#include "compare/output/replaced_folder.h"
+
+#include "compare/output/followed.h"
+#include "compare/output/kept.h"
+#include "compare/output/report_place.h"
+#include "compare/output/unwritable.h"
+#include "scenes/error.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+namespace shadowproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& path) {
+    return fs::exists(fs::symlink_status(path));
+}
+
+fs::path place_of(const fs::path& folder) {
+    try {
+        return followed(folder);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(folder, error.code().value());
+    }
+}
+
+/// Makes the folders above `place`. Returns those that were not there, from the top.
+std::vector<fs::path> make_parents(const fs::path& place) {
+    std::vector<fs::path> missing;
+    for (fs::path at = place.parent_path(); !is_there(at); at = at.parent_path())
+        missing.insert(missing.begin(), at);
+    for (const fs::path& folder : missing)
+        if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) throw_errno();
+    return missing;
+}
+
+FateOf fate_of_old_content(const fs::path& folder, const std::set<std::string>& replaced) {
+    return [manifest = read_manifest(folder).value_or(Manifest()),
+            &replaced](const std::string& name, const fs::path& file) {
+        if (name == manifest_name || replaced.contains(name)) return Fate::remove;
+        const auto entry = manifest.find(name);
+        const bool as_written = entry != manifest.end() &&
+                                fs::is_regular_file(fs::symlink_status(file)) &&
+                                fingerprint_of(file) == entry->second;
+        return as_written ? Fate::remove : Fate::bring_home;
+    };
+}
+
+FateOf fate_of_new_content(const JournalRecord& record, bool has_home) {
+    return [&record, has_home](const std::string& name, const fs::path&) {
+        const bool ours =
+            name == manifest_name ? record.folder.has_value() : record.begun.contains(name);
+        if (ours) return Fate::remove;
+        return has_home && record.kept.contains(name) ? Fate::bring_home : Fate::leave;
+    };
+}
+
+/// Removes what a run has left in its work folder, this one or one that died: new content that was
+/// not finished, old content that was exchanged. `replaced`: names of old files that need not be
+/// kept though no manifest lists them. Returns what is nobody's, and left.
+std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path& place,
+                                           const std::set<std::string>& replaced) {
+    const fs::path content = work / "report";
+    const fs::path older = work / "older";
+    const JournalRecord record = read_journal(work / "journal");
+    std::vector<std::string> left;
+    if (is_there(older)) {
+        // It stepped aside, and nothing came in its place.
+        if (!is_there(place) && ::rename(older.c_str(), place.c_str()) != 0) throw_errno();
+        if (is_there(older)) left = empty_out(older, place, fate_of_old_content(older, replaced));
+    }
+    if (is_there(content)) {
+        const bool is_new = !record.folder || identity_of(content) == *record.folder;
+        const std::vector<std::string> more =
+            empty_out(content, place,
+                      is_new ? fate_of_new_content(record, is_there(place))
+                             : fate_of_old_content(content, replaced));
+        left.insert(left.end(), more.begin(), more.end());
+    }
+    if (left.empty() && ::unlink((work / "journal").c_str()) != 0 && errno != ENOENT) throw_errno();
+    return left;
+}
+
+/// A folder where there is none yet, also under a plain file's name.
+void make_folders_for(const fs::path& file) {
+    fs::create_directories(file.parent_path());
+}
+
+void sync_file_system(const fs::path& folder) {
+    const Descriptor opened = open_file(folder, O_RDONLY | O_DIRECTORY);
+    if (::syncfs(opened.number()) != 0) throw_errno();
+}
+
+bool cannot_rename_so(int reason) {
+    return reason == EINVAL || reason == ENOSYS || reason == EOPNOTSUPP;
+}
+
+/// "a, b, c, d and 3 more"
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 4;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+        text += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+    return text;
+}
+
+/// Foreign folders stand for what they hold.
+std::vector<std::string> names_to_say(const std::vector<KeptFile>& kept, bool changed) {
+    std::vector<std::string> names;
+    for (const KeptFile& each : kept) {
+        if (each.changed != changed) continue;
+        const bool said =
+            !names.empty() && names.back().ends_with('/') && each.name.starts_with(names.back());
+        if (!said) names.push_back(each.name + (each.is_folder ? "/" : ""));
+    }
+    return names;
+}
+
+/// Whether a kept file stands where the new content has a file, or a folder, or the other way.
+bool is_in_the_way(const KeptFile& kept, const Manifest& manifest) {
+    if (manifest.contains(kept.name)) return true;
+    if (!kept.is_folder && lists_below(manifest, kept.name)) return true;
+    for (fs::path above = fs::path(kept.name).parent_path(); !above.empty();
+         above = above.parent_path())
+        if (manifest.contains(above.string())) return true;
+    return false;
+}
+
+} // namespace
+
+ReplacedFolder::ReplacedFolder(const fs::path& folder, const std::vector<std::string>& fixed)
+    : named_(folder), place_(place_of(folder)), work_(place_.string() + ".writing"),
+      content_(work_ / "report"), fixed_(fixed), unfinished_([this] { clean_up(); }) {
+    const auto lock = hold_unfinished();
+    check_report_place(named_, place_, fixed_);
+    try {
+        made_parents_ = make_parents(place_);
+        lock_ = FolderLock(work_, named_);
+        prepare();
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_, error.code().value());
+    }
+}
+
+void ReplacedFolder::prepare() {
+    const std::vector<std::string> left = empty_work_folder(work_, place_, {});
+    if (!left.empty() || is_there(content_))
+        throw Error((work_ / "report").string(),
+                    fmt::format("is left of a run that was cut off, and holds {}, which this "
+                                "program did not write",
+                                left.empty() ? "a folder" : listed(left)),
+                    "move it away, or name another folder with --out");
+    if (::mkdir(content_.c_str(), 0777) != 0) throw_errno();
+    journal_ = Journal(work_ / "journal", identity_of(content_));
+}
+
+void ReplacedFolder::add(const std::string& name, std::string_view bytes) const {
+    try {
+        if (!is_name_below(name)) throw std::system_error(EINVAL, std::generic_category());
+        const Fingerprint fingerprint = fingerprint_of(bytes);
+        journal_.begin(name);
+        make_folders_for(content_ / name);
+        Descriptor file = open_file(content_ / name, O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW);
+        write_all(file, bytes);
+        file.close();
+        journal_.complete(name, fingerprint);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_ / name, error.code().value());
+    }
+}
+
+void ReplacedFolder::add_requested(const std::string& name, std::string_view bytes) {
+    requested_.insert(name);
+    add(name, bytes);
+}
+
+void ReplacedFolder::keep_what_is_foreign(const Manifest& manifest) {
+    std::vector<KeptFile> kept = kept_in(place_, read_manifest(place_).value_or(Manifest()));
+    std::erase_if(kept, [&](const KeptFile& each) { return requested_.contains(each.name); });
+    for (const KeptFile& each : kept)
+        if (is_in_the_way(each, manifest)) refuse_in_the_way(named_, each.name);
+    for (const KeptFile& each : kept) {
+        if (!each.is_folder) journal_.keep(each.name);
+        try {
+            link_kept(each, place_, content_);
+        } catch (const std::system_error& error) {
+            throw Error((named_ / each.name).string(),
+                        fmt::format("is not of this program, and cannot be kept beside the new "
+                                    "report ({})",
+                                    error.code().message()),
+                        "move it away, or name another folder with --out");
+        }
+    }
+    take_over_folder_modes(kept, place_, content_);
+    const std::vector<std::string> foreign = names_to_say(kept, false);
+    const std::vector<std::string> changed = names_to_say(kept, true);
+    if (!foreign.empty())
+        notes_.push_back(fmt::format("{}: kept {}, which this program did not write",
+                                     named_.string(), listed(foreign)));
+    if (!changed.empty())
+        notes_.push_back(fmt::format("{}: kept {}, changed since this program wrote {}",
+                                     named_.string(), listed(changed),
+                                     changed.size() == 1 ? "it" : "them"));
+}
+
+void ReplacedFolder::exchange() {
+    const char* const to = place_.c_str();
+    if (!is_there(place_)) {
+        if (::renameat2(AT_FDCWD, content_.c_str(), AT_FDCWD, to, RENAME_NOREPLACE) == 0) return;
+        // rename(2) replaces no folder that holds anything.
+        if (!cannot_rename_so(errno) || ::rename(content_.c_str(), to) != 0) throw_errno();
+        return;
+    }
+    if (::renameat2(AT_FDCWD, content_.c_str(), AT_FDCWD, to, RENAME_EXCHANGE) == 0) return;
+    if (!cannot_rename_so(errno)) throw_errno();
+    const fs::path older = work_ / "older";
+    if (::rename(to, older.c_str()) != 0) throw_errno();
+    if (::rename(content_.c_str(), to) == 0) return;
+    const int reason = errno;
+    static_cast<void>(::rename(older.c_str(), to)); // else clean_up() tries again
+    throw std::system_error(reason, std::generic_category());
+}
+
+void ReplacedFolder::finish() {
+    const auto lock = hold_unfinished();
+    try {
+        const JournalRecord record = read_journal(work_ / "journal");
+        for (const std::string& name : record.begun) {
+            if (record.written.contains(name)) continue;
+            // A process that wrote it has died.
+            if (::unlink((content_ / name).c_str()) != 0 && errno != ENOENT) throw_errno();
+        }
+        check_report_place(named_, place_, fixed_);
+        const bool replaces = is_there(place_);
+        if (replaces) keep_what_is_foreign(record.written);
+        Descriptor file = open_file(content_ / manifest_name, O_CREAT | O_EXCL | O_WRONLY);
+        write_all(file, to_json(record.written));
+        file.close();
+        if (replaces) take_over_mode(place_, content_);
+        sync_file_system(content_);
+        exchange();
+        made_parents_.clear();
+        sync_folder(place_.parent_path());
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_, error.code().value());
+    }
+    clean_up();
+    if (lock_)
+        notes_.push_back(fmt::format("{}: could not be removed whole; the next run into {} tries "
+                                     "again",
+                                     work_.string(), named_.string()));
+}
+
+void ReplacedFolder::clean_up() {
+    constexpr int tries = 2; // what fails for a moment must not leave anything
+    for (int i = 0; i < tries && lock_; ++i) {
+        try {
+            if (empty_work_folder(work_, place_, requested_).empty()) lock_.give_back();
+        } catch (const std::exception&) {
+            continue;
+        }
+    }
+    for (auto folder = made_parents_.rbegin(); folder != made_parents_.rend(); ++folder)
+        ::rmdir(folder->c_str()); // fails where something is in it
+}
+
+} // namespace shadowproof

@@ -1,0 +1,68 @@
+// A folder that replaces another at once: the report's. It is written beside its place, in
+// DIR.writing/, which holds
+//   lock      held by the process that writes; its first line names it
+//   journal   what has been written so far, for the one who finishes or cleans up
+//   report/   the new content; then, for a moment, the old one that was exchanged for it
+//   older/    the old one, where the file system cannot exchange two folders
+#pragma once
+
+#include "compare/output/folder_lock.h"
+#include "compare/output/journal.h"
+#include "compare/output/unfinished.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof {
+
+/// At each moment, also where the process is killed, the old content or the new one stands whole at
+/// the folder's place (where the file system can exchange two folders; else there is a moment
+/// without either, which the next run mends). What this program did not write stays at its place.
+/// Dropped before finish(), or ended by a signal, it leaves nothing behind.
+class ReplacedFolder {
+public:
+    /// `fixed`: names of files that the new content will have in any case, manifest.json not among
+    /// them. Throws Error where the folder must not be replaced, where another process is writing
+    /// it, and where it cannot be written.
+    ReplacedFolder(const std::filesystem::path& folder, const std::vector<std::string>& fixed);
+    ReplacedFolder(const ReplacedFolder&) = delete;
+    ReplacedFolder& operator=(const ReplacedFolder&) = delete;
+    ~ReplacedFolder() = default;
+
+    /// Writes a file of the new content; `name` is relative to the folder, with slashes. Several
+    /// threads may, and processes forked from the one that made this. Throws Error naming the file,
+    /// also where one of that name was added already.
+    void add(const std::string& name, std::string_view bytes) const;
+    /// The same for a file that the user asked for by its name: it replaces what has that name.
+    void add_requested(const std::string& name, std::string_view bytes);
+
+    /// Puts the new content in its place, with manifest.json, and removes the old one. By the
+    /// process that made this. Throws Error, with the old content untouched.
+    void finish();
+
+    /// What a person should hear of: files that were kept.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    void prepare();
+    void keep_what_is_foreign(const Manifest& manifest);
+    void exchange();
+    void clean_up();
+
+    std::filesystem::path named_; ///< as the user gave it
+    std::filesystem::path place_; ///< without links
+    std::filesystem::path work_;
+    std::filesystem::path content_;                   ///< work_/report
+    std::vector<std::filesystem::path> made_parents_; ///< folders that were made for it
+    std::vector<std::string> fixed_;
+    std::set<std::string> requested_;
+    std::vector<std::string> notes_;
+    FolderLock lock_;
+    Journal journal_;
+    Unfinished unfinished_; ///< last: its removal needs all the others
+};
+
+} // namespace shadowproof

@@ -1,0 +1,22 @@
+// Which folders a report may be written to: a new one, an empty one, or an older report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// Throws Error, naming `named`, the folder as the user gave it, where `place`, the same without
+/// links, must not be replaced: the current folder, a home, those that hold them, a mount point, a
+/// folder with version control in it, and what is neither empty nor a report with a manifest.
+/// `fixed`: names that every report has. A file of such a name that the older report's manifest
+/// does not list, or that was changed, is refused too.
+void check_report_place(const std::filesystem::path& named, const std::filesystem::path& place,
+                        const std::vector<std::string>& fixed);
+
+/// Throws Error: `name`, in the folder, is not what this program wrote, and stands where the new
+/// report has a file of its own.
+[[noreturn]] void refuse_in_the_way(const std::filesystem::path& folder, const std::string& name);
+
+} // namespace shadowproof

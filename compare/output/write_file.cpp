@@ -1,0 +1,230 @@
+#include "compare/output/write_file.h"
+
+#include "compare/output/descriptor.h"
+#include "compare/output/followed.h"
+#include "compare/output/unfinished.h"
+#include "compare/output/unwritable.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <thread>
+
+namespace shadowproof {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Status = struct stat;
+
+/// Of what links lead to; none where nothing is there.
+std::optional<Status> status_of(const fs::path& file) {
+    Status status{};
+    if (::stat(file.c_str(), &status) == 0) return status;
+    if (errno == ENOENT) return std::nullopt;
+    throw_errno();
+}
+
+[[noreturn]] void throw_code(int reason) {
+    throw std::system_error(reason, std::generic_category());
+}
+
+/// Where a file goes: all that is asked before anything is written.
+struct Destination {
+    std::optional<int> descriptor; ///< an open one of this process
+    std::optional<Status> there;   ///< what is there already
+    fs::path place;                ///< of a regular file: itself, behind all links
+};
+
+Destination destination_of(const fs::path& file) {
+    if (!file.has_filename()) throw_code(EISDIR); // "name/"
+    Destination to;
+    to.descriptor = open_descriptor(file);
+    if (to.descriptor) return to;
+    to.there = status_of(file);
+    if (to.there && S_ISDIR(to.there->st_mode)) throw_code(EISDIR);
+    if (!to.there || S_ISREG(to.there->st_mode)) to.place = followed(file);
+    return to;
+}
+
+bool is_written_into(const Destination& to) {
+    return to.descriptor || (to.there && !S_ISREG(to.there->st_mode));
+}
+
+/// A pipe without a reader is waited for a while: who reads may be starting.
+Descriptor open_to_write_into(const fs::path& file) {
+    using namespace std::chrono_literals;
+    constexpr auto pause = 50ms;
+    constexpr auto patience = 5s;
+    for (auto waited = 0ms;; waited += pause) {
+        try {
+            Descriptor opened = open_file(file, O_WRONLY | O_NOCTTY | O_NONBLOCK);
+            const int flags = ::fcntl(opened.number(), F_GETFL);
+            if (flags < 0 || ::fcntl(opened.number(), F_SETFL, flags & ~O_NONBLOCK) != 0)
+                throw_errno();
+            return opened;
+        } catch (const std::system_error& error) {
+            if (error.code().value() != ENXIO || waited >= patience) throw;
+        }
+        std::this_thread::sleep_for(pause);
+    }
+}
+
+void write_into(const Destination& to, const fs::path& file, std::string_view bytes) {
+    if (to.descriptor) std::fflush(nullptr); // what was printed before comes before
+    Descriptor opened = to.descriptor ? Descriptor(::fcntl(*to.descriptor, F_DUPFD_CLOEXEC, 0))
+                                      : open_to_write_into(file);
+    if (!opened) throw_errno();
+    write_all(opened, bytes);
+    sync_to_disk(opened);
+    opened.close();
+}
+
+constexpr std::string_view passing_prefix = ".shadowproof-";
+
+/// A name that no file of this run has, nor of another that is running.
+fs::path passing_name(const fs::path& folder) {
+    static std::atomic<int> number = 0;
+    return folder / fmt::format("{}{}-{}", passing_prefix, getpid(), number++);
+}
+
+/// Files under a passing name are locked as long as their writer lives: others are what a run left
+/// that was killed.
+void remove_leftovers(const fs::path& folder) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        const bool ours =
+            name.starts_with(passing_prefix) && name.size() > passing_prefix.size() &&
+            name.find_first_not_of("0123456789-", passing_prefix.size()) == std::string::npos;
+        if (!ours || !fs::is_regular_file(entry.symlink_status(ignored))) continue;
+        const Descriptor file(
+            ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+        if (file && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+    }
+}
+
+/// A new file in `folder`: without a name where the file system can, else under a passing one.
+struct NewFile {
+    Descriptor opened;
+    fs::path name; ///< empty: it has none
+};
+
+bool takes_no_unnamed(int reason) {
+    return reason == EOPNOTSUPP || reason == EISDIR || reason == EINVAL || reason == ENOENT;
+}
+
+NewFile make_file(const fs::path& folder) {
+    try {
+        return {open_file(folder, O_TMPFILE | O_WRONLY), {}};
+    } catch (const std::system_error& error) {
+        if (!takes_no_unnamed(error.code().value())) throw;
+    }
+    NewFile made{{}, passing_name(folder)};
+    made.opened = open_file(made.name, O_CREAT | O_EXCL | O_WRONLY);
+    return made;
+}
+
+void give_name(const Descriptor& unnamed, const fs::path& name) {
+    const std::string itself = fmt::format("/proc/self/fd/{}", unnamed.number());
+    if (::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+        throw_errno();
+}
+
+/// Whose it was, and who may read it, stays.
+void take_over_mode(const Descriptor& file, const Status& from) {
+    // Only root may give files away: its owner may then be another, and the mode is what counts.
+    if (::fchown(file.number(), from.st_uid, from.st_gid) != 0 && errno != EPERM) throw_errno();
+    if (::fchmod(file.number(), from.st_mode & 07777U) != 0) throw_errno();
+}
+
+void put_in_place(const Destination& to, std::string_view bytes) {
+    const fs::path folder = to.place.parent_path();
+    remove_leftovers(folder);
+    NewFile made = make_file(folder);
+    const auto remove = [&made] {
+        if (!made.name.empty()) ::unlink(made.name.c_str());
+    };
+    Unfinished unfinished(remove);
+    // Not every file system has locks; a file that kill -9 leaves is then taken for one of another
+    // run at the worst, and stays.
+    static_cast<void>(::flock(made.opened.number(), LOCK_EX | LOCK_NB));
+    if (to.there) take_over_mode(made.opened, *to.there);
+    write_all(made.opened, bytes);
+    sync_to_disk(made.opened);
+    const bool is_new = !to.there && made.name.empty();
+    if (is_new) give_name(made.opened, to.place);
+    if (!is_new && made.name.empty()) {
+        const fs::path name = passing_name(folder);
+        give_name(made.opened, name);
+        made.name = name;
+    }
+    if (!is_new && ::rename(made.name.c_str(), to.place.c_str()) != 0) throw_errno();
+    unfinished.done();
+    made.opened.close();
+    sync_folder(folder);
+}
+
+} // namespace
+
+void write_file(const fs::path& file, std::string_view bytes) {
+    const auto lock = hold_unfinished();
+    try {
+        const Destination to = destination_of(file);
+        if (is_written_into(to)) return write_into(to, file, bytes);
+        put_in_place(to, bytes);
+    } catch (const std::system_error& error) {
+        throw unwritable(file, error.code().value());
+    }
+}
+
+void check_writable(const fs::path& file) {
+    try {
+        const Destination to = destination_of(file);
+        if (to.descriptor) {
+            const int flags = ::fcntl(*to.descriptor, F_GETFL);
+            if (flags < 0) throw_errno();
+            if ((flags & O_ACCMODE) == O_RDONLY) throw_code(EBADF);
+            return;
+        }
+        // Never opened: a pipe's reader would see it end.
+        if (to.there && ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0) throw_errno();
+        if (is_written_into(to)) return;
+        const fs::path folder = to.place.parent_path();
+        if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) throw_errno();
+        try {
+            open_file(folder, O_TMPFILE | O_WRONLY); // gone again with its descriptor
+        } catch (const std::system_error& error) {
+            if (!takes_no_unnamed(error.code().value())) throw;
+        }
+        // A name too long for the file system.
+        Status ignored{};
+        if (::lstat(to.place.c_str(), &ignored) != 0 && errno != ENOENT) throw_errno();
+    } catch (const std::system_error& error) {
+        throw unwritable(file, error.code().value());
+    }
+}
+
+void append_to_file(const fs::path& file, std::string_view bytes) {
+    try {
+        Descriptor opened = open_file(file, O_WRONLY | O_APPEND | O_CREAT | O_NOCTTY);
+        write_all(opened, bytes);
+        opened.close();
+    } catch (const std::system_error& error) {
+        throw unwritable(file, error.code().value());
+    }
+}
+
+} // namespace shadowproof

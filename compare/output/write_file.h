@@ -1,0 +1,28 @@
+// Files that the user names: --json, --junit, -o and the like. Their bytes are made in memory, and
+// written here, so that every writer has the same checks.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace shadowproof {
+
+/// A file appears whole or not at all, and is on the disk when this returns. Links are followed,
+/// and stay. A regular file that is there keeps its mode, and its owner where that is allowed; it
+/// is replaced by a new one, so that other hard links to it keep the old content, and extended
+/// attributes and access control lists are not taken over. What is no regular file (a device, a
+/// pipe, /dev/stdout, /dev/fd/3) is written into. Where the file system takes files without a name
+/// (O_TMPFILE), kill -9 leaves nothing behind, unless it comes between the two calls that give the
+/// file its name; the next file that is written into that folder removes what is left then.
+/// Throws Error naming `file`, with what was there untouched.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// Throws Error, naming the file, where write_file could not write it now: for asking before the
+/// work, not after. Changes and leaves nothing.
+void check_writable(const std::filesystem::path& file);
+
+/// Adds to the end of a file that others add to as well, and makes it where there is none. Throws
+/// Error naming it.
+void append_to_file(const std::filesystem::path& file, std::string_view bytes);
+
+} // namespace shadowproof

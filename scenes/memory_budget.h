@@ -1,0 +1,78 @@
+// How much memory a run may take, and the account of what it holds. What would be large is asked
+// for here before it is allocated: an allocation that fails in the middle of the work ends it
+// without a reason, and where the kernel gives more than it has, with the death of some process.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace shadowproof {
+
+/// What the program takes before it has read anything, bytes: its libraries, OpenGL in software
+/// with its compiler, the stacks of its threads. Measured (190 to 228 MB), and held by
+/// tests/command/peaks_test.mjs.
+inline constexpr std::uint64_t program_bytes = 240'000'000;
+
+/// Bytes that the whole process may take, and who says so.
+struct MemoryBudget {
+    static constexpr std::uint64_t no_limit = ~std::uint64_t{0};
+    std::uint64_t bytes = no_limit;
+    std::string origin = "no limit"; ///< "--memory", or "three quarters of what is available"
+};
+
+/// Something that is about to be allocated.
+struct MemoryNeed {
+    std::uint64_t bytes = 0;
+    std::string where;  ///< names the file and the place in it, or the flag
+    std::string what;   ///< "its texels"
+    std::string remedy; ///< other than more memory
+};
+
+/// "4.4 GB", "12 MB"
+std::string bytes_in_words(std::uint64_t bytes);
+
+/// Throws Error saying what is needed, what the budget is and where it comes from, where `need`
+/// beside `held` bytes is above the budget.
+void require_memory(const MemoryBudget& budget, std::uint64_t held, const MemoryNeed& need);
+
+class MemoryAccount;
+
+/// Bytes of an account, given back at the end of its life, which must not outlast the account's.
+class MemoryHold {
+public:
+    MemoryHold() = default;
+    MemoryHold(MemoryAccount& account, std::uint64_t bytes);
+    ~MemoryHold();
+    MemoryHold(MemoryHold&& other) noexcept;
+    MemoryHold& operator=(MemoryHold&& other) noexcept;
+    MemoryHold(const MemoryHold&) = delete;
+    MemoryHold& operator=(const MemoryHold&) = delete;
+
+private:
+    MemoryAccount* account_ = nullptr;
+    std::uint64_t bytes_ = 0;
+};
+
+/// What one piece of work holds of a budget, the program itself included. For one thread.
+class MemoryAccount {
+public:
+    explicit MemoryAccount(MemoryBudget budget = {}) : budget_(std::move(budget)) {}
+    MemoryAccount(const MemoryAccount&) = delete;
+    MemoryAccount& operator=(const MemoryAccount&) = delete;
+
+    /// Each throws Error where the need is more than is left. For a moment, until the hold ends, or
+    /// as long as the account is kept.
+    void require(const MemoryNeed& need) const { require_memory(budget_, held_, need); }
+    MemoryHold hold(const MemoryNeed& need);
+    void keep(const MemoryNeed& need);
+
+    std::uint64_t held() const { return held_; }
+
+private:
+    friend class MemoryHold;
+    MemoryBudget budget_;
+    std::uint64_t held_ = program_bytes;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,24 @@
+// On which side of a plane a point lies, with a sign that is always right.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace shadowproof {
+
+/// (b - a) x (c - a) . (l - w a): positive where the triangle is wound counter-clockwise as seen
+/// from the homogeneous point (l, w), negative where clockwise. The sign is exact, and zero exactly
+/// where there is no area or the point lies in the plane; the size is that of doubles. All inputs
+/// must be finite.
+double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                   const glm::dvec4& point);
+
+/// The sign (-1, 0 or 1) of ((w a - l) x (b - a)) . (place - a): the side of the plane through the
+/// edge and the light L = (l, w) on which a place lies. Exact, and with ties broken as if the place
+/// were moved by (e, e^2, e^3) with an e that is smaller than anything (Edelsbrunner & Muecke 1990,
+/// Simulation of Simplicity): who counts faces by it counts a place on an edge as one beside it.
+/// Zero only where there is no such plane.
+int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b,
+                 const glm::dvec3& place);
+
+} // namespace shadowproof

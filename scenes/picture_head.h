@@ -1,0 +1,32 @@
+// What the first bytes of a picture say of its size, before any decoder is asked: decoders of JPEG
+// and OpenEXR allocate, and of progressive JPEG decode, as soon as they open a file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace shadowproof {
+
+enum class PictureFormat : std::uint8_t { png, jpeg, openexr };
+
+/// By the first bytes.
+std::optional<PictureFormat> format_of(std::span<const unsigned char> bytes);
+
+/// What a decoder will make of a file.
+struct PictureHead {
+    std::uint64_t width = 0;
+    std::uint64_t height = 0;
+    std::uint64_t channels = 0;
+    /// Bytes that the decoder takes beside the values that it hands out, at most.
+    std::uint64_t decoder_bytes = 0;
+};
+
+/// Throws Error naming `where`: no such head, or a kind that is not decoded.
+/// JPEG (ITU T.81, B.2): progressive ones of up to 100 scans, for each goes through all of it.
+/// OpenEXR ("OpenEXR File Layout"): flat, one part, and tiles of up to 4096 a side.
+PictureHead jpeg_head(std::span<const unsigned char> bytes, const std::string& where);
+PictureHead openexr_head(std::span<const unsigned char> bytes, const std::string& where);
+
+} // namespace shadowproof

@@ -1,0 +1,126 @@
+// A crash, an abort or a hang in one cell, of the driver or of Embree, loses that cell alone.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { existsSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { filesBelow, scratch, shadowproof } from './shadowproof.mjs';
+
+const size = ['--size', '48x48'];
+const techniques = ['zpass', 'zfail', 'zfail_clamp'];
+const verify = ['verify', 'near_plane', 'many_lights', '--technique', techniques.join(), ...size];
+const resultsOf = (file) => JSON.parse(readFileSync(join(scratch, file), 'utf8'));
+const fault = (words, once) => ({
+  env: { LD_PRELOAD: process.env.FAULTY_DRIVER, SHADOWPROOF_FAULT: words,
+         ASAN_OPTIONS: 'verify_asan_link_order=0',
+         ...(once && { SHADOWPROOF_FAULT_ONCE: join(scratch, once) }) },
+});
+
+/** Figures that two runs have in common. */
+const withoutTimes = (cell) => ({ ...cell, ms: 0, saved: null });
+
+/** The call of glReadPixels, counted over the run, that is the first of a scene's second cell. */
+function secondCell(words) {
+  // Each technique reads back as often as the next one on this scene; found by trying.
+  for (let call = 2; call < 200; ++call) {
+    const run = shadowproof(verify, fault(`glReadPixels:${call}:${words}`, `mark-${words}`));
+    const mark = join(scratch, `mark-${words}`);
+    if (existsSync(mark)) rmSync(mark);
+    const [scene] = resultsOf('report/results.json').scenes;
+    if (scene.techniques[1].error) return { call, run };
+  }
+  return assert.fail('no call of glReadPixels is the second technique’s');
+}
+
+test('an aborted cell says so, all others are as in an undisturbed run', () => {
+  const plain = shadowproof([...verify, '--out', 'plain']);
+  assert.equal(plain.code, 0, plain.err);
+  const { run } = secondCell('6');
+  assert.equal(run.code, 3);
+  assert.match(run.out, /zfail +near_plane +error +zfail: .*signal 6 \(Aborted\)/);
+  const whole = resultsOf('plain/results.json').scenes;
+  const broken = resultsOf('report/results.json').scenes;
+  assert.deepEqual(broken.map(({ name }) => name), whole.map(({ name }) => name));
+  for (const [i, scene] of broken.entries())
+    for (const [k, cell] of scene.techniques.entries()) {
+      if (i === 0 && k === 1)
+        assert.match(cell.error, /^zfail: the process that tried it was ended by signal 6/);
+      else
+        assert.deepEqual(withoutTimes(cell), withoutTimes(whole[i].techniques[k]));
+    }
+  const cells = (folder) => filesBelow(join(scratch, folder))
+    .filter((file) => /\.(png|js)$/.test(file) && file !== 'results.js');
+  assert.deepEqual(cells('report').filter((file) => !file.startsWith('near_plane/zfail/')),
+                   cells('plain').filter((file) => !file.startsWith('near_plane/zfail/')));
+  for (const file of cells('report').filter((name) => !name.startsWith('near_plane/zfail/')))
+    assert.deepEqual(readFileSync(join(scratch, 'report', file)),
+                     readFileSync(join(scratch, 'plain', file)), file);
+});
+
+test('a fault at each cell in turn loses no other cell', () => {
+  // Without a mark each new process counts from one: the fault meets every cell that begins one.
+  const run = shadowproof(verify, fault('glReadPixels:1:11'));
+  assert.equal(run.code, 3);
+  const { scenes } = resultsOf('report/results.json');
+  assert.equal(scenes.length, 4);
+  for (const scene of scenes)
+    assert.deepEqual(scene.techniques.map(({ name, error }) => [name, /signal 11/.test(error)]),
+                     techniques.map((name) => [name, true]));
+});
+
+test('a cell that hangs is given up after --timeout, with a verdict of its own that fails', () => {
+  const run = shadowproof([...verify, '--timeout', '20', '--junit', 'junit.xml'],
+                          fault('glReadPixels:1:hang', 'hung'));
+  assert.equal(run.code, 1, run.err);
+  assert.match(run.out, /^zpass +near_plane +timed_out +zpass: took longer than --timeout 20; /m);
+  assert.match(run.out, /^reproduce: .*--technique zpass/m);
+  const [scene] = resultsOf('report/results.json').scenes;
+  assert.equal(scene.techniques[0].verdict, 'timed_out');
+  assert.equal(scene.techniques[0].fails, true);
+  assert.deepEqual(scene.techniques.slice(1).map(({ verdict }) => verdict), ['agrees', 'agrees']);
+  assert.match(readFileSync(join(scratch, 'junit.xml'), 'utf8'), /<failure type="timed_out"/);
+  const again = shadowproof(['report', '--from', 'report', '--out', 'again']);
+  assert.equal(again.code, 1, again.err);
+  assert.match(again.out, /^fails: "zpass" on "near_plane": timed_out$/m);
+});
+
+test('a crash of Embree is the scene’s own', () => {
+  const run = shadowproof(verify, fault('rtcBuildBVH:1:6', 'built'));
+  assert.equal(run.code, 3);
+  assert.match(run.err, /near_plane: tracing: .*signal 6/);
+  const { scenes } = resultsOf('report/results.json');
+  assert.match(scenes[0].error, /signal 6/);
+  assert.equal(scenes.length, 4);
+  for (const scene of scenes.slice(1))
+    for (const cell of scene.techniques) assert.ok(cell.verdict, `${scene.name} ${cell.error}`);
+});
+
+test('render and explain end with a sentence where a library crashes', () => {
+  for (const [args, words] of [
+    [['render', 'ordinary', '-o', 'truth.png'], 'rtcBuildBVH:1:11'],
+    [['explain', 'ordinary', '--pixel', '3,3', '--technique', 'zpass'], 'glReadPixels:1:6'],
+  ]) {
+    const run = shadowproof([...args, ...size], fault(words));
+    assert.equal(run.code, 3);
+    assert.match(run.err, /^shadowproof: the process that did the work was ended by signal/m);
+  }
+  assert.ok(!existsSync(join(scratch, 'truth.png')));
+});
+
+test('output that cannot be printed is no success', () => {
+  for (const args of [[...verify], ['list'], ['--help'], ['verify', '--help'], ['--version'],
+                      ['explain', 'ordinary', '--pixel', '3,3', '--technique', 'zpass', ...size],
+                      ['render', 'ordinary', '-o', 'r.png', ...size]]) {
+    const words = args.map((word) => `'${word}'`).join(' ');
+    for (const where of ['>/dev/full', '>&-']) {
+      const run = spawnSync('sh', ['-c', `"$SHADOWPROOF" ${words} ${where}`],
+                            { cwd: scratch, encoding: 'utf8' });
+      assert.equal(run.status, 3, `${args} ${where}: ${run.stderr}`);
+      assert.match(run.stderr, /^shadowproof: standard output cannot be written \(/m);
+    }
+  }
+});
+
+test('nothing is left in the folder but what was asked for', () => {
+  assert.deepEqual(readdirSync(scratch).filter((name) => /writing|older|core/.test(name)), []);
+});

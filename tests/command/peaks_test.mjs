@@ -1,0 +1,59 @@
+// The figures behind a refusal, against what runs really take: what a run took, less a tenth, is
+// refused, and three times what it took beside the program itself is enough.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { evenPng, textured, triangle } from './hostile.mjs';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const program = 240e6; // program_bytes in scenes/memory_budget.h
+
+function peakOf(args) {
+  const file = join(scratch, 'peak');
+  const run = spawnSync('/usr/bin/time', ['-f', '%M', '-o', file, process.env.SHADOWPROOF, ...args],
+                        { cwd: scratch, encoding: 'utf8' });
+  assert.ok([0, 1].includes(run.status), run.stderr);
+  return 1024 * Number(readFileSync(file, 'utf8').trim().split('\n').at(-1));
+}
+
+/** Triangles without a byte in the file, side by side. */
+function manyTriangles(count) {
+  const gltf = triangle();
+  const positions = new Float32Array(9 * count);
+  for (let i = 0; i < count; ++i)
+    positions.set([i % 1000, 0, i / 1000, i % 1000 + 1, 0, i / 1000, i % 1000, 1, i / 1000], 9 * i);
+  writeFileSync(join(scratch, 'many.bin'), Buffer.from(positions.buffer));
+  gltf.buffers = [{ byteLength: positions.byteLength, uri: 'many.bin' }];
+  gltf.bufferViews[0].byteLength = positions.byteLength;
+  Object.assign(gltf.accessors[0], { count: 3 * count, min: [0, 0, 0], max: [1000, 1, 1000] });
+  return gltf;
+}
+
+writeFileSync(join(scratch, 'many.gltf'), JSON.stringify(manyTriangles(300_000)));
+writeFileSync(join(scratch, 'texture.gltf'), JSON.stringify(textured(evenPng(3000, 3000))));
+writeFileSync(join(scratch, 'heights.png'), evenPng(3000, 3000));
+
+const cases = [
+  ['verify', 'ordinary', '--technique', 'zfail', '--size', '2000x2000'],
+  ['verify', 'near_plane', '--technique', 'zpass,zfail_geometry_shader', '--size', '2000x2000'],
+  ['verify', 'hammered_silver', '--technique', 'bump_reflective', '--size', '1500x1500'],
+  ['explain', 'ordinary', '--pixel', '9,9', '--technique', 'zfail', '--size', '2000x2000'],
+  ['render', 'ordinary', '-o', 'a.exr', '--size', '3000x3000'],
+  ['render', 'bumpy_sphere', '-o', 'a.exr', '--size', '1000x1000'],
+  ['render', 'bumpy_sphere', '-o', 'a.png', '--aov', 'normal', '--size', '1000x1000'],
+  ['verify', 'many.gltf', '--technique', 'zfail', '--size', '64x64'],
+  ['verify', 'texture.gltf', '--technique', 'bump_tangent_space', '--size', '64x64'],
+  ['normal-map', 'heights.png', '-o', 'n.png'],
+];
+for (const args of cases)
+  test(`what it takes is bounded from both sides: ${args.join(' ')}`, () => {
+    const peak = peakOf(args);
+    assert.ok(peak > program, `${peak}: too little to tell`);
+    const less = shadowproof([...args, '--memory', String(Math.floor(peak * 0.98))]);
+    assert.equal(less.code, 3, `took ${peak}: ${less.out}${less.err}`);
+    assert.match(less.err, /needs .* of memory .*\(--memory\)/);
+    const more = shadowproof([...args, '--memory', String(program + 3 * (peak - 0.8 * program))]);
+    assert.ok([0, 1].includes(more.code), `took ${peak}: ${more.err}`);
+  });

@@ -1,0 +1,161 @@
+// Mutation goes through admission, truth, all techniques and the judge.
+//   SHADOWPROOF_SEEDS="FIRST COUNT" tries other seeds than the fixed ones.
+#include "compare/verdict.h"
+#include "scenes/admission.h"
+#include "scenes/error.h"
+#include "tests/compare/traced_scene.h"
+#include "tests/odd_geometry/mutations.h"
+#include "tests/reference/rational_witness.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+#include <iostream>
+#include <sstream>
+
+namespace shadowproof::tests {
+namespace {
+
+struct Seeds {
+    std::uint64_t first = 1;
+    std::uint64_t count = 250;
+    bool by_hand = false; ///< then each is said as it is tried
+};
+
+Seeds seeds_to_try() {
+    Seeds seeds;
+    if (const char* given = std::getenv("SHADOWPROOF_SEEDS"); given != nullptr)
+        seeds.by_hand = bool(std::istringstream(given) >> seeds.first >> seeds.count);
+    return seeds;
+}
+
+bool names_its_thing(const std::string& message) {
+    const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
+    return (says("vertex") && says("mesh \"")) || says("the camera") || says("the light");
+}
+
+/// A few pixels against brute force over rationals, which takes no size of number for special.
+void check_against_witness(const TracedScene& traced, Dice& dice) {
+    const witness::Witness witness(traced.scene);
+    const Camera& camera = traced.scene.camera;
+    for (int i = 0; i < 4; ++i) {
+        const int x = static_cast<int>(dice.below(static_cast<std::uint64_t>(camera.width)));
+        const int y = static_cast<int>(dice.below(static_cast<std::uint64_t>(camera.height)));
+        const witness::Answer expected = witness.look(ray_direction(camera, x + 0.5, y + 0.5));
+        EXPECT_EQ(traced.truth.triangle.at(x, y), expected.triangle) << "at " << x << ", " << y;
+        EXPECT_EQ(traced.truth.visibility.at(x, y), expected.visibility) << "at " << x << ", " << y;
+    }
+}
+
+std::string words_of(const Comparison& comparison) {
+    std::string words;
+    for (const CauseWords& cause : all_causes)
+        if (const std::uint64_t pixels = pixels_of(comparison, cause.cause); pixels > 0)
+            words += fmt::format(" {} {}", pixels, cause.name);
+    if (comparison.ledger.unexplained > 0)
+        words += fmt::format(", {} counters unexplained, first at ({},{})",
+                             comparison.ledger.unexplained, comparison.ledger.first_x,
+                             comparison.ledger.first_y);
+    if (comparison.first)
+        words += fmt::format(", first at ({},{})", comparison.first->x, comparison.first->y);
+    return words;
+}
+
+/// Whether the eye lies in the plane of a triangle, or at a vertex as near as doubles may put it.
+bool eye_touches(const Scene& scene) {
+    const glm::dvec3& eye = scene.camera.eye;
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (side(scene, triangle, glm::dvec4(eye, 1)) == 0) return true;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 vertex = corner(scene, triangle, k);
+            if (glm::distance(vertex, eye) <= 0x1p-50 * glm::length(vertex)) return true;
+        }
+    }
+    return false;
+}
+
+/// Known, and not tried:
+/// - a light inside a closed caster: the geometry shader gives the light caps that are turned round
+///   another depth than their surfaces have, and loses some;
+/// - an eye in the plane of a light cap: where it also lies on the volume's edge, the order in
+///   which rays leave it through side and cap is decided for sums of all faces, but not for each,
+///   and counters that depend on each come out differently.
+bool is_known(const Technique& technique, const TracedScene& traced) {
+    if (technique.name == "zfail_geometry_shader") return !traced.plan.around_light.empty();
+    return (technique.name == "zfail_saturate" || technique.name == "zfail_no_light_cap") &&
+           eye_touches(traced.scene);
+}
+
+void try_techniques(const TracedScene& traced, Gpu& gpu) {
+    for (const Technique& technique : all_techniques()) {
+        if (!suits(technique, traced.scene) || is_known(technique, traced)) continue;
+        SCOPED_TRACE(technique.name);
+        try {
+            const Comparison comparison = compared(traced, technique, gpu);
+            const Verdict verdict =
+                judge(traced.scene, technique.fails_at, technique.by_nature, comparison);
+            EXPECT_TRUE(verdict == Verdict::agrees || verdict == Verdict::fails_as_predicted)
+                << "FAULT " << technique.name << " " << name_of(verdict) << ":"
+                << words_of(comparison);
+        } catch (const Error& error) {
+            ADD_FAILURE() << "FAULT " << technique.name << " refused: " << error.what();
+        }
+    }
+}
+
+void try_seed(std::uint64_t seed, bool by_hand, const std::vector<Scene>& scenes, Gpu& gpu) {
+    Dice dice(seed);
+    Scene scene = dice.one_of(scenes);
+    std::string what = scene.name;
+    for (const std::string& step : mutate(scene, dice)) what += "; " + step;
+    SCOPED_TRACE(fmt::format("seed {}: {}", seed, what));
+    if (by_hand) std::cout << "seed " << seed << ": " << what << std::endl;
+    const bool finite = is_finite(scene);
+    try {
+        admit(scene);
+    } catch (const Error& error) {
+        EXPECT_TRUE(names_its_thing(error.what())) << error.what();
+        return;
+    }
+    EXPECT_TRUE(finite) << "was admitted";
+    if (!finite) return;
+    const TracedScene traced(std::move(scene));
+    check_against_witness(traced, dice);
+    try_techniques(traced, gpu);
+}
+
+TEST(OddGeometry, mutated_scenes_are_refused_or_explained_to_the_last_pixel) {
+    const std::vector<Scene> scenes = scenes_to_mutate();
+    Gpu gpu(GlPlatform::osmesa);
+    const Seeds seeds = seeds_to_try();
+    for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed)
+        try_seed(seed, seeds.by_hand, scenes, gpu);
+}
+
+void try_seeds(std::initializer_list<std::uint64_t> seeds) {
+    const std::vector<Scene> scenes = scenes_to_mutate();
+    Gpu gpu(GlPlatform::osmesa);
+    for (const std::uint64_t seed : seeds) try_seed(seed, false, scenes, gpu);
+}
+
+TEST(OddGeometry, an_eye_on_a_caster_or_on_an_edges_line_is_explained) {
+    try_seeds({31, 131, 178, 263, 375, 406});
+}
+
+TEST(OddGeometry, triangles_that_doubles_see_from_the_wrong_side_are_explained) {
+    try_seeds({253, 417});
+}
+
+TEST(OddGeometry, a_triangle_with_one_corner_far_away_has_its_true_depth_near_by) {
+    try_seeds({204});
+}
+
+TEST(OddGeometry, a_tiny_scene_with_one_huge_coordinate_is_refused) {
+    try_seeds({533});
+}
+
+} // namespace
+} // namespace shadowproof::tests

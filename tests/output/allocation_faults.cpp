@@ -1,0 +1,115 @@
+// A shared object for LD_PRELOAD: memory that runs out where a test says so. It counts the
+// allocations of the process from main() to its end, since nobody can answer for those before; of
+// the processes that it forks, each goes on from the count of its parent.
+//   ALLOCATION_AT     the allocation that fails, from 1; none: all are counted and none fails
+//   ALLOCATION_KIND   new: those of operator new alone; else all that come to malloc too
+//   ALLOCATION_COUNT  a file that gets the number of allocations when the process ends
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+// What glibc's own are called as well, so that these need not be looked up, which allocates.
+extern "C" {
+void* __libc_malloc(std::size_t);              // NOLINT
+void* __libc_calloc(std::size_t, std::size_t); // NOLINT
+void* __libc_realloc(void*, std::size_t);      // NOLINT
+}
+
+namespace {
+
+std::atomic<bool> in_main = false;
+std::atomic<unsigned long> count = 0;
+unsigned long at = 0;
+bool counts_new = false;
+bool counts_malloc = false;
+
+[[gnu::constructor]] void begin() {
+    if (const char* text = std::getenv("ALLOCATION_AT")) at = std::strtoul(text, nullptr, 10);
+    const char* const kind = std::getenv("ALLOCATION_KIND");
+    if (kind == nullptr) return;
+    counts_new = std::strcmp(kind, "new") == 0;
+    counts_malloc = !counts_new;
+}
+
+[[gnu::destructor]] void end() {
+    const char* const file = std::getenv("ALLOCATION_COUNT");
+    if (file == nullptr) return;
+    char text[32];
+    const int length = std::snprintf(text, sizeof text, "%lu", count.load());
+    const int opened = ::open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (opened < 0) return;
+    if (::write(opened, text, static_cast<std::size_t>(length)) != length) ::abort();
+    ::close(opened);
+}
+
+bool fails(bool counted) {
+    if (!counted || !in_main || count.fetch_add(1) + 1 != at) return false;
+    errno = ENOMEM;
+    return true;
+}
+
+using Main = int(int, char**, char**);
+Main* real_main = nullptr;
+
+int counted_main(int argc, char** argv, char** environment) {
+    in_main = true;
+    const int code = real_main(argc, argv, environment);
+    in_main = false;
+    return code;
+}
+
+void* allocate(std::size_t size) {
+    void* const memory = fails(counts_new || counts_malloc) ? nullptr : __libc_malloc(size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+} // namespace
+
+extern "C" {
+// What calls main(), as glibc has it.
+int __libc_start_main(Main* given, int argc, char** argv, void (*begin_all)(),
+                      void (*end_all)(), // NOLINT
+                      void (*end_loader)(), void* stack_end) {
+    using Start = int(Main*, int, char**, void (*)(), void (*)(), void (*)(), void*);
+    real_main = given;
+    auto* const start = reinterpret_cast<Start*>(dlsym(RTLD_NEXT, "__libc_start_main"));
+    return start(counted_main, argc, argv, begin_all, end_all, end_loader, stack_end);
+}
+void* malloc(std::size_t size) noexcept {
+    return fails(counts_malloc) ? nullptr : __libc_malloc(size);
+}
+void* calloc(std::size_t number, std::size_t size) noexcept {
+    return fails(counts_malloc) ? nullptr : __libc_calloc(number, size);
+}
+void* realloc(void* memory, std::size_t size) noexcept {
+    return fails(counts_malloc) ? nullptr : __libc_realloc(memory, size);
+}
+}
+
+void* operator new(std::size_t size) {
+    return allocate(size == 0 ? 1 : size);
+}
+void* operator new[](std::size_t size) {
+    return allocate(size == 0 ? 1 : size);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}

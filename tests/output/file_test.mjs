@@ -1,0 +1,212 @@
+// Files that the user names: what may stand there already, and what is left where writing fails.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { chmodSync, closeSync, copyFileSync, linkSync, lstatSync, mkdirSync, openSync, readFileSync,
+         readdirSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { assertRefused, contentOf, faults, operationsOf, run, scratch } from './faults.mjs';
+
+const program = process.env.WRITE_OUTPUT;
+const fresh = 'nnnnnnnn'; // what the program writes
+
+function folder(name, files = {}) {
+  const below = join(scratch, name);
+  mkdirSync(below);
+  for (const [file, content] of Object.entries(files)) writeFileSync(join(below, file), content);
+  return below;
+}
+
+/** Asked whether it can write a file, it changes nothing: no content, no time, no name. */
+function assertAskingChangesNothing(below, file) {
+  const times = () => readdirSync(below).map((name) => lstatSync(join(below, name), { bigint: true }))
+    .concat(lstatSync(below, { bigint: true }))
+    .map(({ ino, size, mode, mtimeNs, ctimeNs }) => [ino, size, mode, mtimeNs, ctimeNs]);
+  const before = times();
+  const done = run([program, file], { cwd: below, env: { WRITE_OUTPUT_ASKS: '1' } });
+  assert.deepEqual(times(), before);
+  return done;
+}
+
+test('a new file has the mode that the umask leaves, an old one keeps its own, also its owner', () => {
+  const below = folder('modes', { private: 'old', group: 'old' });
+  chmodSync(join(below, 'private'), 0o600);
+  chmodSync(join(below, 'group'), 0o640);
+  const own = process.getuid() === 0 ? [65534, 65534] : [process.getuid(), process.getgid()];
+  if (process.getuid() === 0) assert.equal(run(['chown', own.join(':'), 'group'], { cwd: below }).code, 0);
+  for (const [name, mode] of [['private', 0o600], ['group', 0o640], ['new', 0o666 & ~process.umask()]]) {
+    assert.equal(assertAskingChangesNothing(below, name).code, 0);
+    assert.equal(run([program, name], { cwd: below }).code, 0);
+    assert.equal(statSync(join(below, name)).mode & 0o7777, mode, name);
+    assert.equal(readFileSync(join(below, name), 'utf8'), fresh);
+  }
+  const { uid, gid } = statSync(join(below, 'group'));
+  assert.deepEqual([uid, gid], own);
+  assert.deepEqual(readdirSync(below), ['group', 'new', 'private']);
+});
+
+test('links are followed and stay, also one to nothing; a hard link keeps the old content', () => {
+  const below = folder('links', { target: 'old' });
+  mkdirSync(join(below, 'sub'));
+  symlinkSync('../target', join(below, 'sub/link'));
+  symlinkSync('sub/link', join(below, 'link'));
+  symlinkSync('sub/made', join(below, 'dangling'));
+  symlinkSync('missing/made', join(below, 'hopeless'));
+  symlinkSync('loop', join(below, 'loop'));
+  linkSync(join(below, 'target'), join(below, 'other'));
+  for (const name of ['link', 'dangling']) {
+    assert.equal(assertAskingChangesNothing(below, name).code, 0);
+    assert.equal(run([program, name], { cwd: below }).code, 0);
+    assert.ok(lstatSync(join(below, name)).isSymbolicLink(), name);
+  }
+  for (const name of ['hopeless', 'loop'])
+    assertRefused(assertAskingChangesNothing(below, name), name);
+  assert.equal(readFileSync(join(below, 'target'), 'utf8'), fresh);
+  assert.equal(readFileSync(join(below, 'sub/made'), 'utf8'), fresh);
+  assert.equal(readFileSync(join(below, 'other'), 'utf8'), 'old');
+  assert.ok(lstatSync(join(below, 'sub/link')).isSymbolicLink());
+  assert.deepEqual(readdirSync(join(below, 'sub')), ['link', 'made']);
+});
+
+test('devices stay devices: /dev/null takes all, /dev/full nothing', () => {
+  const numbers = (name) => statSync(name).rdev;
+  const before = [numbers('/dev/null'), numbers('/dev/full')];
+  assert.equal(run([program, '/dev/null', '100000']).code, 0);
+  const full = run([program, '/dev/full']);
+  assertRefused(full, '/dev/full');
+  assert.equal(full.err, 'write_output: /dev/full: cannot be written (No space left on device); ' +
+    'free some space, or name another place\n');
+  assert.deepEqual([numbers('/dev/null'), numbers('/dev/full')], before);
+  assert.ok(lstatSync('/dev/null').isCharacterDevice() && lstatSync('/dev/full').isCharacterDevice());
+});
+
+test('standard output by name gets the bytes after what was printed, as a pipe and as a file', () => {
+  const below = folder('stdout');
+  for (const name of ['/dev/stdout', '/dev/fd/1', '/proc/self/fd/1']) {
+    assert.equal(run([program, name]).out, `before ${fresh}`);
+    const shell = ['sh', '-c', `echo first > out; '${program}' ${name} >> out`];
+    assert.equal(run(shell, { cwd: below }).code, 0);
+    assert.equal(readFileSync(join(below, 'out'), 'utf8'), `first\nbefore ${fresh}`);
+  }
+  const closed = run(['sh', '-c', `'${program}' /dev/fd/9 9>&-`]);
+  assertRefused(closed, 'a descriptor that is not open');
+});
+
+test('a FIFO gets the bytes and stays; asking does not end it for its reader', async () => {
+  const below = folder('fifo');
+  assert.equal(run(['mkfifo', 'pipe'], { cwd: below }).code, 0);
+  const reader = spawn('cat', ['pipe'], { cwd: below });
+  let text = '';
+  reader.stdout.on('data', (chunk) => { text += chunk; });
+  assert.equal(assertAskingChangesNothing(below, 'pipe').code, 0);
+  const done = await new Promise((resolve) =>
+    spawn(program, ['pipe', '300000'], { cwd: below }).on('close', resolve));
+  assert.equal(done, 0);
+  await new Promise((resolve) => reader.on('close', resolve));
+  assert.equal(text, 'n'.repeat(300000));
+  assert.ok(lstatSync(join(below, 'pipe')).isFIFO());
+});
+
+test('a FIFO that nobody reads is an error, and hangs nothing', () => {
+  const below = folder('fifo-alone');
+  run(['mkfifo', 'pipe'], { cwd: below });
+  const done = run([program, 'pipe'], { cwd: below });
+  assertRefused(done, 'no reader');
+  assert.match(done.err, /pipe: cannot be written \(nobody reads from the other end\)/);
+});
+
+test('folders, places that do not exist and names that are too long are refused before', () => {
+  const below = folder('nowhere', { file: 'old' });
+  mkdirSync(join(below, 'folder'));
+  for (const name of ['folder', 'folder/', 'new/', 'missing/file', 'file/below', 'n'.repeat(300), '.']) {
+    const done = assertAskingChangesNothing(below, name);
+    assertRefused(done, name);
+    assert.ok(done.err.startsWith(`write_output: ${name}: cannot be written (`), done.err);
+  }
+});
+
+test('a read-only place is refused before, also for root where the file system is', () => {
+  const below = folder('readonly', { file: 'old', program: '' });
+  chmodSync(scratch, 0o755);
+  copyFileSync(program, join(below, 'program'));
+  chmodSync(join(below, 'program'), 0o755);
+  mkdirSync(join(below, 'locked'));
+  writeFileSync(join(below, 'locked/old'), 'old');
+  chmodSync(join(below, 'locked'), 0o555);
+  writeFileSync(join(below, 'protected'), 'old');
+  chmodSync(join(below, 'protected'), 0o444);
+  const before = contentOf(below);
+  // Root may write anywhere that is not mounted otherwise: there, somebody else tries.
+  const user = process.getuid() === 0
+    ? ['setpriv', '--reuid', '65534', '--regid', '65534', '--clear-groups'] : [];
+  for (const name of ['locked/old', 'locked/new', 'protected']) {
+    const done = run([...user, join(below, 'program'), name], { cwd: below });
+    assertRefused(done, name);
+    assert.match(done.err, /Permission denied/);
+  }
+  chmodSync(join(below, 'locked'), 0o755);
+  for (const name of ['/proc/version', '/proc/new'])
+    assertRefused(run([program, name]), name);
+  assert.deepEqual(contentOf(below), before);
+});
+
+test('a limit on the size of files is an error of its own, and the old file stays', () => {
+  const below = folder('limit', { old: 'old' });
+  for (const name of ['old', 'new']) {
+    const done = run(['sh', '-c', `ulimit -f 1; exec '${program}' ${name} 5000`], { cwd: below });
+    assertRefused(done, name);
+    assert.match(done.err, /File too large.*ulimit -f/);
+  }
+  assert.deepEqual(contentOf(below), { old: 'old' });
+});
+
+test('where any one file operation fails, the old file or the new one is whole, and alone', () => {
+  const ways = [[5, {}], [28, {}], [5, { without: 'unnamed' }]]; // EIO, ENOSPC
+  for (const name of ['old', 'new', 'link'])
+    for (const [reason, lacking] of ways) {
+      const below = folder(`fails-${name}-${reason}-${lacking.without ?? ''}`, { old: 'old' });
+      symlinkSync('old', join(below, 'link'));
+      const count = operationsOf([program, name], below, { cwd: below, ...lacking });
+      for (let at = 1; at <= count; ++at) {
+        const where = `${name}, operation ${at} of ${count}, errno ${reason}`;
+        rmSync(join(below, 'new'), { force: true });
+        writeFileSync(join(below, 'old'), 'old');
+        const done = run([program, name], { cwd: below, env: faults(below, { at, errno: reason, ...lacking }) });
+        const after = contentOf(below);
+        const target = name === 'link' ? 'old' : name;
+        if (done.code !== 0) assertRefused(done, where);
+        else assert.equal(after[target], fresh, where);
+        assert.ok([undefined, 'old', fresh].includes(after[target]), where);
+        assert.deepEqual({ ...after, new: '', old: '' }, { link: '-> old', new: '', old: '' }, where);
+        if (target === 'new') assert.equal(after.old, 'old', where);
+      }
+    }
+});
+
+test('killed at any file operation, the old file or the new one is whole, and the next run alone', () => {
+  const below = folder('killed', { old: 'old' });
+  const count = operationsOf([program, 'old'], below, { cwd: below });
+  for (let at = 1; at <= count; ++at) {
+    const where = `operation ${at} of ${count}`;
+    writeFileSync(join(below, 'old'), 'old');
+    const done = run([program, 'old'], { cwd: below, env: faults(below, { at, kill: 1 }) });
+    assert.equal(done.signal, 'SIGKILL', where);
+    assert.ok(['old', fresh].includes(readFileSync(join(below, 'old'), 'utf8')), where);
+    assert.equal(run([program, 'old'], { cwd: below }).code, 0);
+    assert.deepEqual(contentOf(below), { old: fresh }, where);
+  }
+});
+
+test('a file that another process is just giving its name is no leftover', () => {
+  const below = folder('passing');
+  const name = join(below, '.shadowproof-1-0');
+  writeFileSync(name, 'in use');
+  const held = openSync(name, 'r');
+  const done = run(['flock', name, program, 'new'], { cwd: below });
+  closeSync(held);
+  assert.equal(done.code, 0, done.err);
+  assert.deepEqual(Object.keys(contentOf(below)), ['.shadowproof-1-0', 'new']);
+  writeFileSync(join(below, '.shadowproof-notes'), 'mine');
+  assert.equal(run([program, 'new'], { cwd: below }).code, 0);
+  assert.deepEqual(Object.keys(contentOf(below)), ['.shadowproof-notes', 'new']);
+});
