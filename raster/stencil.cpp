@@ -152,7 +152,7 @@ struct Frames {
         const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
         // Shaders take triangles as they are wound; these few are made on the CPU.
         const VolumeMaking making = part.turned ? VolumeMaking::on_cpu : recipe.making;
-        return make_volume_pass(gl, part.scene, geometry, transform, caps, making,
+        return make_volume_pass(gl, part.scene, geometry, transform, caps, making, between(recipe),
                                 with_special_caps(recipe.extruder(part.scene), special));
     }
 

@@ -31,14 +31,15 @@ std::vector<std::span<const glm::uvec3>> drawn_parts(const ShadowVolume& volume,
     return parts;
 }
 
-VolumePass cpu_pass(const Making& making, const Extruder& extruder) {
+VolumePass cpu_pass(const Making& making, Between surfaces, const Extruder& extruder) {
     struct Made {
         Program program;
         Triangles faces;
         Triangles turned;
     };
     const auto made = std::make_shared<Made>();
-    made->program = link_projection(making.gl, "volume.frag", making.transform, making.geometry);
+    made->program =
+        link_projection(making.gl, "volume.frag", making.transform, making.geometry, surfaces);
     return {.update =
                 [made, making, extruder] {
                     const ShadowVolume volume = extruder();
@@ -210,7 +211,7 @@ void set_worth(const GlFunctions& gl, const VolumePass& pass, float front, float
 
 VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
                             const ClipTransform& transform, const VolumeCaps& caps,
-                            VolumeMaking making, const Extruder& extruder) {
+                            VolumeMaking making, Between surfaces, const Extruder& extruder) {
     const Making all{gl, scene, geometry, transform, caps};
     switch (making) {
     case VolumeMaking::on_cpu:
@@ -220,7 +221,7 @@ VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geo
     case VolumeMaking::geometry_shader:
         return geometry_shader_pass(all);
     }
-    return cpu_pass(all, extruder);
+    return cpu_pass(all, surfaces, extruder);
 }
 
 } // namespace shadowproof

@@ -39,9 +39,10 @@ struct VolumePass {
 void set_worth(const GlFunctions& gl, const VolumePass& pass, float front, float back);
 
 /// Keeps references to all but `caps`; corners at a volume's far end are transformed as
-/// set_transform says. Throws Error where the driver fails.
+/// set_transform says. `surfaces`: how those are drawn whose depths the light caps must have.
+/// Throws Error where the driver fails.
 VolumePass make_volume_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
                             const ClipTransform& transform, const VolumeCaps& caps,
-                            VolumeMaking making, const Extruder& extruder);
+                            VolumeMaking making, Between surfaces, const Extruder& extruder);
 
 } // namespace shadowproof

@@ -146,6 +146,19 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
     return with_sign_of(t.denominator * base + t.numerator * along, t.denominator);
 }
 
+/// The side of a plane to which the move (e, e^2, e^3), e -> 0, leads a point on it: that of the
+/// first component of the plane's normal that is not zero.
+template <class NormalOf>
+Decision moved_against(const NormalOf& normal_of) {
+    Decision moved;
+    for (int axis = 0; axis < 3 && moved.sign == 0; ++axis)
+        moved = decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+            const Vector<A> n = normal_of(arithmetic);
+            return sign_of(axis == 0 ? n.x : (axis == 1 ? n.y : n.z));
+        });
+    return {moved.sign, Exactness::degenerate};
+}
+
 } // namespace
 
 Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
@@ -199,20 +212,21 @@ Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, co
     if (tied.sign != 0) return tied;
     // Not all three are zero: then light, a and b would be collinear, and the light would lie in
     // the plane of the triangle, which takes no part.
-    for (const int axis : {0, 1, 2}) {
-        const Decision moved = decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
-            const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
-            return sign_of(axis == 0 ? plane.x : (axis == 1 ? plane.y : plane.z));
-        });
-        if (moved.sign != 0) return {moved.sign, Exactness::degenerate};
-    }
-    return tied;
+    return moved_against(
+        [&]<class A>(const A& arithmetic) { return edge_plane(arithmetic, ray.light, a, b); });
 }
 
 Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
     return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
         return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
     });
+}
+
+Decision Predicates::side_of_point_untied(const EyeRay& ray, const RayPoint& q,
+                                          const Corners& u) const {
+    const Decision tied = side_of_point(ray, q, u);
+    if (tied.sign != 0) return tied;
+    return moved_against([&]<class A>(const A& arithmetic) { return normal(arithmetic, u); });
 }
 
 bool Predicates::runs_from_light(const EyeRay& ray) const {

@@ -78,6 +78,9 @@ public:
     /// surface point; for the point at infinity that of the direction D.
     Decision side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const;
 
+    /// The same with ties broken, by the move of shadow_edge_untied. U must not be degenerate.
+    Decision side_of_point_untied(const EyeRay& ray, const RayPoint& q, const Corners& u) const;
+
     /// Whether D is exactly a negative multiple of the direction to a directional light: the one
     /// direction in which shadow volumes never end.
     bool runs_from_light(const EyeRay& ray) const;

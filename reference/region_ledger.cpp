@@ -14,31 +14,68 @@ namespace shadowproof {
 
 namespace {
 
-/// Where the eye goes when ties are broken (Predicates::shadow_edge_untied): along (e, e^2, e^3),
-/// with an e that tells the three apart, and that no rounding reaches.
-constexpr glm::dvec3 tie_breaker{1, 0x1p-30, 0x1p-60};
+/// d x m, any length, where m is the way on which the eye goes when ties are broken
+/// (Predicates::shadow_edge_untied): (e, e^2, e^3), with an e that tells the three apart whatever
+/// the sizes in d, and that no rounding reaches.
+glm::dvec3 cross_with_move(const glm::dvec3& d) {
+    constexpr double e = 0x1p-60;
+    glm::dvec3 sum(0);
+    double weight = 1;
+    for (const glm::dvec3& part :
+         {glm::dvec3(0, d.z, -d.y), glm::dvec3(-d.z, 0, d.x), glm::dvec3(d.y, -d.x, 0)}) {
+        if (part == glm::dvec3(0)) continue;
+        sum += part * (weight / largest(part));
+        weight *= e;
+    }
+    return sum;
+}
 
-/// A plane through the eye; if it is none, the one that it becomes when the eye is moved.
-glm::dvec3 plane_or(const glm::dvec3& plane, const glm::dvec3& when_moved) {
-    return plane == glm::dvec3(0) ? when_moved : plane;
+/// v times a power of two that leaves products of it far from the smallest doubles.
+glm::dvec3 enlarged(const glm::dvec3& v) {
+    return largest(v) < 0x1p-500 ? v * 0x1p500 : v;
+}
+
+/// v x (eye - p) for a p that may be next to the eye, any length; where they are one, that of the
+/// moved eye.
+glm::dvec3 plane_through_eye(const glm::dvec3& v, const glm::dvec3& eye, const glm::dvec3& p) {
+    const glm::dvec3 plane = glm::cross(v, enlarged(eye - p));
+    return plane == glm::dvec3(0) ? cross_with_move(v) : plane;
 }
 
 /// Normal of the plane through the eye and an edge, whichever way the edge is given. If the eye
 /// lies on its line: (a - e m) x (b - e m), e -> 0, is e (b - a) x m.
 glm::dvec3 edge_plane(const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b) {
     if (before(b, a)) return edge_plane(eye, b, a);
-    return plane_or(glm::cross(a - eye, b - eye), glm::cross(b - a, tie_breaker));
+    const glm::dvec3 plane = glm::cross(enlarged(a - eye), enlarged(b - eye));
+    return plane == glm::dvec3(0) ? cross_with_move(b - a) : plane;
 }
 
-/// The eye's side of an edge's side plane as doubles have it, with the exact sign, ties broken as
-/// the counts at the eye break them (Predicates::shadow_edge_untied): only then do the crossings of
-/// a ray and those counts add up. Where doubles have it wrong the eye is next to nothing away.
-double with_exact_sign(double eye_side, const Tracer::State& state, const glm::dvec3& a,
-                       const glm::dvec3& b) {
-    const EyeRay ray{state.eye, state.scene->camera.forward, state.light};
-    const RayPoint eye{.kind = RayPoint::Kind::depth, .depth = 0};
-    const int sign = state.predicates.shadow_edge_untied(ray, eye, a, b).sign;
-    return sign * eye_side > 0 ? eye_side : sign * std::numeric_limits<double>::denorm_min();
+/// The eye's side of a plane as doubles have it, with the exact sign, ties broken as the counts at
+/// the eye break them (Predicates::shadow_edge_untied): only then do the crossings of a ray and
+/// those counts add up. Where doubles have it wrong the eye is next to nothing away.
+double with_sign(double side, int sign) {
+    return sign * side > 0 ? side : sign * std::numeric_limits<double>::denorm_min();
+}
+
+EyeRay any_ray(const Tracer::State& state) {
+    return {state.eye, state.scene->camera.forward, state.light};
+}
+constexpr RayPoint at_eye{.kind = RayPoint::Kind::depth, .surface = {}, .depth = 0};
+
+/// Of the side over the edge from a to b.
+double eye_against_side(const Tracer::State& state, const glm::dvec3& plane, const glm::dvec3& a,
+                        const glm::dvec3& b) {
+    return with_sign(glm::dot(state.eye - side_point(state.light, a, b), plane),
+                     state.predicates.shadow_edge_untied(any_ray(state), at_eye, a, b).sign);
+}
+
+/// Of a light cap; positive behind it.
+double eye_against_cap(const Tracer::State& state, std::uint32_t triangle, const Corners& t,
+                       const glm::dvec3& plane) {
+    int sign = state.from_eye.side[triangle];
+    // The predicate's plane is that of the front, the cap's leads into the volume.
+    if (sign == 0) sign = -state.predicates.side_of_point_untied(any_ray(state), at_eye, t).sign;
+    return with_sign(glm::dot(state.eye - t.a, plane), sign);
 }
 
 /// Signs of a function that is linear in the direction, over a region.
@@ -96,8 +133,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
             numbers[position] = static_cast<std::uint32_t>(vertices_.size());
             const glm::dvec3 at(scene.positions[position]);
             const glm::dvec3 from_light = state.light.w * at - glm::dvec3(state.light);
-            vertices_.push_back({at, plane_or(glm::cross(from_light, state.eye - at),
-                                              glm::cross(from_light, tie_breaker))});
+            vertices_.push_back({at, plane_through_eye(from_light, state.eye, at)});
         }
         return numbers[position];
     };
@@ -111,8 +147,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
         // The light sees the front of the triangle on the left of a to b: its side runs back.
         side.surplus = turned ? edge.surplus : -edge.surplus;
         side.plane = turned ? side_plane(state.light, b, a) : side_plane(state.light, a, b);
-        side.eye = with_exact_sign(glm::dot(state.eye - side_point(state.light, a, b), side.plane),
-                                   state, turned ? b : a, turned ? a : b);
+        side.eye = eye_against_side(state, side.plane, turned ? b : a, turned ? a : b);
         side.edge = edge_plane(state.eye, a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
         side.turned = edge.a > edge.b;
@@ -231,10 +266,13 @@ void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
 
 void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners) {
     const Tracer::State& state = tracer_.state();
-    if (state.from_light.side[triangle] >= 0 || state.from_eye.side[triangle] == 0) return;
+    if (state.from_light.side[triangle] >= 0) return;
     const Corners t = shadowproof::corners(*state.scene, triangle);
-    const Corners plane = from_short_edge(t);
-    Cap cap{triangle, plane.a, cap_plane(plane), {}, {}};
+    Cap cap;
+    cap.triangle = triangle;
+    const Corners from = from_short_edge(t);
+    cap.plane = cap_plane(from);
+    cap.eye = eye_against_cap(state, triangle, from, cap.plane);
     const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
     for (std::size_t k = 0; k < 3; ++k) {
         cap.edges[k] = edge_plane(state.eye, loop[k], loop[k + 1]);
@@ -262,7 +300,6 @@ bool RegionLedger::Cap::is_met_by(const glm::dvec3& direction) const {
 }
 
 void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>& found) {
-    const Tracer::State& state = tracer_.state();
     found.clear();
     for (std::size_t i = 0; i < behind_.size(); ++i)
         behind_[i] = direction.x * vertices_.x[i] + direction.y * vertices_.y[i] +
@@ -281,10 +318,10 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     }
     for (const Cap& cap : caps_) {
         if (!cap.is_met_by(direction)) continue;
-        const double depth = depth_on_plane(state.eye, direction, cap.through, cap.plane);
-        if (!(depth > 0)) continue;
-        found.push_back({depth, glm::dot(direction, cap.plane) > 0 ? 1 : -1,
-                         Crossing::Part::light_cap, cap.triangle, cap.plane});
+        const double slope = glm::dot(direction, cap.plane);
+        if (slope == 0 || (slope < 0) == (cap.eye < 0)) continue;
+        found.push_back({-cap.eye / slope, slope > 0 ? 1 : -1, Crossing::Part::light_cap,
+                         cap.triangle, cap.plane});
     }
     if (ends_) cross_ends(direction, found);
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {

@@ -76,10 +76,10 @@ public:
 private:
     struct Cap {
         std::uint32_t triangle = no_triangle;
-        glm::dvec3 through{0, 0, 0};
         glm::dvec3 plane{0, 0, 0};
         std::array<glm::dvec3, 3> edges{}; ///< as Silhouette::Side::edge
         std::array<bool, 3> turned{};      ///< the triangle runs through the edge the other way
+        double eye = 0; ///< the eye against that plane; positive behind it
         bool is_met_by(const glm::dvec3& direction) const; ///< ahead of the eye or behind it
         bool may_be_met(const std::array<glm::dvec3, 4>& corners) const; ///< anywhere between them
     };

@@ -210,7 +210,7 @@ public:
         const int orientation = question_.state->from_light.side[triangle];
         Signs signs;
         const bool between =
-            signs.above_zero(predicates.side_of_point(ray, q, t), orientation) &&
+            signs.above_zero(behind(ray, q, t), orientation) &&
             signs.above_zero(predicates.shadow_edge_untied(ray, q, t.a, t.b), orientation) &&
             signs.above_zero(predicates.shadow_edge_untied(ray, q, t.b, t.c), orientation) &&
             signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation);
@@ -221,6 +221,15 @@ public:
 private:
     Question& question_;
     const Lanes<Prober::Point>& points_;
+
+    /// A surface in a cap's plane is not behind it. The eye is on one side or the other: a ray from
+    /// there has left what it began in, or has not.
+    Decision behind(const EyeRay& ray, const RayPoint& q, const Corners& t) const {
+        const Predicates& predicates = question_.state->predicates;
+        const bool at_eye = q.kind == RayPoint::Kind::depth && q.depth == 0;
+        return at_eye ? predicates.side_of_point_untied(ray, q, t)
+                      : predicates.side_of_point(ray, q, t);
+    }
 
     RayPoint exact_point(const Prober::Point& point) const {
         if (point.kind != RayPoint::Kind::surface)

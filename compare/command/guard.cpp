@@ -6,27 +6,19 @@
 #include "compare/output/unfinished.h"
 #include "compare/report.h"
 
-#include <chrono>
 #include <exception>
 #include <new>
-#include <thread>
 
 namespace shadowproof {
 
 namespace {
 
-/// Who writes a report removes first what a dead process left of it. The dead one's lock is free a
-/// moment after its end.
+/// Who writes a report removes first what a dead process left of it.
 void remove_leftovers(const std::string& report) {
-    constexpr int tries = 200;
-    constexpr std::chrono::milliseconds moment{10};
-    for (int i = 0; i < tries; ++i) {
-        try {
-            ReportFolder{report};
-            return;
-        } catch (const std::exception&) {
-            std::this_thread::sleep_for(moment);
-        }
+    try {
+        ReportFolder{report};
+    } catch (const std::exception&) {
+        // Another run writes there by now, or the place is gone: nothing is left to be said.
     }
 }
 

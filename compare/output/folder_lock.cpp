@@ -16,6 +16,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 namespace shadowproof {
 
@@ -76,13 +77,17 @@ bool is_lock_at(const fs::path& name, const Descriptor& file) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Locked, or false where another process has it.
+/// Locked, or false where another process has it and keeps it. A run that is killed ends before its
+/// children do, which share its lock: whoever comes next waits for them.
 bool take(const Descriptor& file) {
-    while (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
-        if (errno == EWOULDBLOCK) return false;
-        if (errno != EINTR) throw_errno();
+    constexpr int most_tries = 200;
+    constexpr std::chrono::milliseconds moment{10};
+    for (int i = 0; i < most_tries; ++i) {
+        if (::flock(file.number(), LOCK_EX | LOCK_NB) == 0) return true;
+        if (errno != EWOULDBLOCK && errno != EINTR) throw_errno();
+        std::this_thread::sleep_for(moment);
     }
-    return true;
+    return false;
 }
 
 bool holds_nothing_but_lock(const fs::path& work) {
@@ -158,9 +163,9 @@ std::optional<Descriptor> try_lock(const fs::path& work, const fs::path& report)
 } // namespace
 
 FolderLock::FolderLock(const fs::path& work, const fs::path& report) : work_(work) {
-    constexpr int most_tries = 100; // each, one holder came and went meanwhile
+    constexpr int most_holders = 100; // that came and went meanwhile
     try {
-        for (int i = 0; i < most_tries && !file_; ++i)
+        for (int i = 0; i < most_holders && !file_; ++i)
             if (std::optional<Descriptor> file = try_lock(work, report)) file_ = std::move(*file);
         if (!file_) refuse_held(report, "");
     } catch (...) {

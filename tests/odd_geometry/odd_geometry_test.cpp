@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <glm/geometric.hpp>
 #include <initializer_list>
 #include <iostream>
 #include <sstream>
@@ -21,7 +20,7 @@ namespace {
 
 struct Seeds {
     std::uint64_t first = 1;
-    std::uint64_t count = 250;
+    std::uint64_t count = 1000;
     bool by_hand = false; ///< then each is said as it is tried
 };
 
@@ -64,34 +63,9 @@ std::string words_of(const Comparison& comparison) {
     return words;
 }
 
-/// Whether the eye lies in the plane of a triangle, or at a vertex as near as doubles may put it.
-bool eye_touches(const Scene& scene) {
-    const glm::dvec3& eye = scene.camera.eye;
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        if (side(scene, triangle, glm::dvec4(eye, 1)) == 0) return true;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 vertex = corner(scene, triangle, k);
-            if (glm::distance(vertex, eye) <= 0x1p-50 * glm::length(vertex)) return true;
-        }
-    }
-    return false;
-}
-
-/// Known, and not tried:
-/// - a light inside a closed caster: the geometry shader gives the light caps that are turned round
-///   another depth than their surfaces have, and loses some;
-/// - an eye in the plane of a light cap: where it also lies on the volume's edge, the order in
-///   which rays leave it through side and cap is decided for sums of all faces, but not for each,
-///   and counters that depend on each come out differently.
-bool is_known(const Technique& technique, const TracedScene& traced) {
-    if (technique.name == "zfail_geometry_shader") return !traced.plan.around_light.empty();
-    return (technique.name == "zfail_saturate" || technique.name == "zfail_no_light_cap") &&
-           eye_touches(traced.scene);
-}
-
 void try_techniques(const TracedScene& traced, Gpu& gpu) {
     for (const Technique& technique : all_techniques()) {
-        if (!suits(technique, traced.scene) || is_known(technique, traced)) continue;
+        if (!suits(technique, traced.scene)) continue;
         SCOPED_TRACE(technique.name);
         try {
             const Comparison comparison = compared(traced, technique, gpu);
@@ -142,7 +116,11 @@ void try_seeds(std::initializer_list<std::uint64_t> seeds) {
 }
 
 TEST(OddGeometry, an_eye_on_a_caster_or_on_an_edges_line_is_explained) {
-    try_seeds({31, 131, 178, 263, 375, 406});
+    try_seeds({16, 31, 131, 178, 263, 285, 329, 375, 406, 6043});
+}
+
+TEST(OddGeometry, a_light_inside_a_closed_caster_is_explained) {
+    try_seeds({138, 433});
 }
 
 TEST(OddGeometry, triangles_that_doubles_see_from_the_wrong_side_are_explained) {

@@ -40,9 +40,15 @@ export function operationsOf(command, below, { cwd, ...settings } = {}) {
   return calls;
 }
 
-/** Kills a command with SIGKILL after some milliseconds, unless it ended. */
-export async function killedAfter(milliseconds, command, { cwd = scratch } = {}) {
-  const child = spawn(command[0], command.slice(1), { cwd, stdio: 'ignore' });
+/**
+ * Kills a command with SIGKILL after some milliseconds, unless it ended. Returns when it has ended:
+ * with its children, or a moment before them.
+ */
+export async function killedAfter(milliseconds, command, { cwd = scratch, children = true } = {}) {
+  // Children hold the pipe that they inherit until they end.
+  const stdio = ['ignore', children ? 'pipe' : 'ignore', 'ignore'];
+  const child = spawn(command[0], command.slice(1), { cwd, stdio });
+  child.stdout?.resume();
   const ended = new Promise((resolve) => child.on('close', resolve));
   const timer = setTimeout(() => child.kill('SIGKILL'), milliseconds);
   await ended;
