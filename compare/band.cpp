@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace shadowproof {
 
@@ -52,11 +53,11 @@ public:
         starts_ = starts();
     }
 
-    /// Finds what the counter may read if the pixel is covered as sample i is: nothing where the
-    /// shown surface cannot be seen there.
-    void collect(std::size_t i, const RayTruth& truth, std::vector<Reading>& readings) {
+    /// Finds what the counter may read if the pixel is covered as a sample's ray is: nothing where
+    /// the shown surface cannot be seen there.
+    void collect(const glm::dvec3& direction, const RayTruth& truth,
+                 std::vector<Reading>& readings) {
         bool moved = false;
-        const glm::dvec3& direction = around_.rays[i];
         const std::optional<double> depth = shown_depth(truth, direction, moved);
         if (!depth) return;
         shown_range_.nominal = *depth;
@@ -69,6 +70,16 @@ public:
         // once or, turned inside out, minus once, as rounding has it: its share of a count is
         // anything from -1 to 1, where it ought to be 0 or 1.
         move_counts(2 * volumes_.touching_light, readings);
+    }
+
+    /// Rays through all that the outlines of volumes make of the neighbourhood.
+    std::vector<glm::dvec3> rays_between_outlines() const {
+        std::vector<glm::dvec3> planes = volumes_.counted.outlines(around_.corners);
+        if (volumes_.ideal != nullptr) {
+            const std::vector<glm::dvec3> more = volumes_.ideal->outlines(around_.corners);
+            planes.insert(planes.end(), more.begin(), more.end());
+        }
+        return rays_between(around_, std::move(planes));
     }
 
     /// Appends to readings of all samples what they are with sides that are seen edge-on: no ray of
@@ -341,13 +352,23 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
     BandFinder finder(tracer, volumes, frame, far, shown, around, truth);
     PixelBand band;
     bool found = false;
-    for (std::size_t i = 0; i < around.rays.size() && !found; ++i) {
-        std::vector<Reading> readings;
-        finder.collect(i, truth[i], readings);
-        found = std::any_of(readings.begin(), readings.end(), matches);
-        band.readings.insert(band.readings.end(), readings.begin(), readings.end());
-    }
+    const auto look_along = [&](std::span<const glm::dvec3> rays,
+                                std::span<const RayTruth> truth_there) {
+        for (std::size_t i = 0; i < rays.size() && !found; ++i) {
+            std::vector<Reading> readings;
+            finder.collect(rays[i], truth_there[i], readings);
+            found = std::any_of(readings.begin(), readings.end(), matches);
+            band.readings.insert(band.readings.end(), readings.begin(), readings.end());
+        }
+    };
+    look_along(around.rays, truth);
     const bool may_mix = around.rays.size() > 1;
+    if (!found && may_mix) {
+        const std::vector<glm::dvec3> rays = finder.rays_between_outlines();
+        std::vector<RayTruth> truth_there;
+        for (const glm::dvec3& ray : rays) truth_there.push_back(trace_ray(tracer, ray));
+        look_along(rays, truth_there);
+    }
     if (!found && may_mix && frame.counting.operation == Counting::Operation::saturate)
         finder.collect_mixed(truth, band.readings);
     if (!found && may_mix) finder.add_edge_on_sides(band.readings);

@@ -26,6 +26,11 @@ struct Neighbourhood {
 };
 Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius);
 
+/// A ray within each of the parts into which planes through the eye divide the neighbourhood, of
+/// those that lie next to such a plane: however thin, they may be drawn at the pixel. Of many
+/// planes, those that pass next to the pixel's centre.
+std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<glm::dvec3> planes);
+
 /// Largest difference of a ray's component from the centre's.
 double spread(const Neighbourhood& around);
 

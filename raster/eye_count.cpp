@@ -9,16 +9,15 @@ namespace {
 
 /// Whether the way from a place to the light (l, w) meets a triangle that faces the light: the
 /// place lies behind the triangle, and on the inner side of the three planes through light and
-/// edges. A place on such a plane counts as one beside it, the same for all triangles: else an edge
-/// between two of them would be met twice, or never.
+/// edges. A place on a plane counts as one beside it, the same for all: else an edge between two of
+/// them would be met twice, or never.
 bool shadows(const Scene& scene, std::uint32_t triangle, const glm::dvec4& light,
              const glm::dvec3& place) {
-    if (side(scene, triangle, glm::dvec4(place, 1)) >= 0) return false;
-    for (int k = 0; k < 3; ++k)
-        if (side_of_edge(light, corner(scene, triangle, k), corner(scene, triangle, (k + 1) % 3),
-                         place) > 0)
-            return false;
-    return true;
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 b = corner(scene, triangle, 1);
+    const glm::dvec3 c = corner(scene, triangle, 2);
+    return side_of_triangle(a, b, c, place) < 0 && side_of_edge(light, a, b, place) < 0 &&
+           side_of_edge(light, b, c, place) < 0 && side_of_edge(light, c, a, place) < 0;
 }
 
 } // namespace

@@ -330,6 +330,22 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     });
 }
 
+std::vector<glm::dvec3> RegionLedger::outlines(const std::array<glm::dvec3, 4>& corners) const {
+    std::vector<glm::dvec3> planes;
+    const auto add = [&](const glm::dvec3& plane) {
+        if (Signs(corners, plane).mixed()) planes.push_back(plane);
+    };
+    for (std::size_t i = 0; i < vertices_.x.size(); ++i)
+        add({vertices_.x[i], vertices_.y[i], vertices_.z[i]});
+    for (const Silhouette::Side& side : sides_) add(side.edge);
+    for (const Cap& cap : caps_)
+        for (const glm::dvec3& edge : cap.edges) add(edge);
+    if (!ends_) return planes;
+    const std::vector<glm::dvec3> ends = ends_->outlines(corners);
+    planes.insert(planes.end(), ends.begin(), ends.end());
+    return planes;
+}
+
 int RegionLedger::edge_on_sides(const std::array<glm::dvec3, 4>& corners) const {
     int edge_on = 0;
     for (const Silhouette::Side& side : sides_)

@@ -69,6 +69,10 @@ public:
     /// counts.
     void crossings(const glm::dvec3& direction, std::vector<Crossing>& found);
 
+    /// Normals of the planes through the eye that pass between four rays and bound faces there: rays
+    /// on the same sides of all of them cross the same faces.
+    std::vector<glm::dvec3> outlines(const std::array<glm::dvec3, 4>& corners) const;
+
     /// How many sides are seen edge-on within the rectangle of four rays: both the line of their
     /// edges and the line in which their planes vanish pass through it.
     int edge_on_sides(const std::array<glm::dvec3, 4>& corners) const;

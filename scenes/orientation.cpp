@@ -53,6 +53,13 @@ double determinant_error(const glm::dvec3& p, const glm::dvec3& q, const glm::dv
     return 50 * 0x1p-53 * largest(p) * largest(q) * largest(r) + smallest;
 }
 
+/// The side of a plane to which the move (e, e^2, e^3), e -> 0, leads a place in it.
+int side_of_move(const Rational& normal) {
+    for (const mpq_class& component : normal)
+        if (const int sign = sgn(component); sign != 0) return sign;
+    return 0;
+}
+
 } // namespace
 
 double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
@@ -78,9 +85,15 @@ int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3&
     const Rational from = rational(a);
     const Rational plane = cross(minus(rational(b), from), towards(light, from));
     if (const int sign = sgn(dot(plane, minus(rational(place), from))); sign != 0) return sign;
-    for (const mpq_class& component : plane)
-        if (const int sign = sgn(component); sign != 0) return sign;
-    return 0;
+    return side_of_move(plane);
+}
+
+int side_of_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                     const glm::dvec3& place) {
+    const double side = orientation(a, b, c, glm::dvec4(place, 1));
+    if (side != 0) return side > 0 ? 1 : -1;
+    const Rational from = rational(a);
+    return side_of_move(cross(minus(rational(b), from), minus(rational(c), from)));
 }
 
 } // namespace shadowproof

@@ -21,4 +21,9 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b,
                  const glm::dvec3& place);
 
+/// The sign of (b - a) x (c - a) . (place - a), ties broken by the same move. Zero only where the
+/// triangle has no area.
+int side_of_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                     const glm::dvec3& place);
+
 } // namespace shadowproof

@@ -6,6 +6,7 @@
 #include "compare/verdict.h"
 #include "raster/render.h"
 #include "reference/prediction.h"
+#include "scenes/admission.h"
 #include "scenes/error.h"
 #include "scenes/gltf.h"
 #include "scenes/plan.h"
@@ -126,6 +127,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
         // Only what a scene declares is held against those that fail: these declare nothing.
         scene.declares_provokes = false;
         if (scene.triangles.size() > most_triangles) return -1;
+        admit(scene);
         truth.emplace(truth_of(scene));
     } catch (const Error& error) {
         fuzz::check_message(error.what(), file.string(), "verify", input);

@@ -2,6 +2,7 @@
 //   SHADOWPROOF_SEEDS="FIRST COUNT" tries other seeds than the fixed ones.
 #include "compare/verdict.h"
 #include "scenes/admission.h"
+#include "scenes/catalog.h"
 #include "scenes/error.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/odd_geometry/mutations.h"
@@ -133,6 +134,27 @@ TEST(OddGeometry, a_triangle_with_one_corner_far_away_has_its_true_depth_near_by
 
 TEST(OddGeometry, a_tiny_scene_with_one_huge_coordinate_is_refused) {
     try_seeds({533});
+}
+
+/// Pixel (20, 13) lies beside the volume of a sliver, a ten-thousandth of a pixel wide there, and
+/// is drawn within it.
+TEST(OddGeometry, a_volume_that_is_a_ten_thousandth_of_a_pixel_wide_is_counted_or_not) {
+    SceneRequest request;
+    request.width = request.height = 32;
+    const TracedScene traced(load_scene(ODD_SCENES "/askew_label.gltf", request));
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+    EXPECT_EQ(compared(traced, frame).ledger.unexplained, 0U);
+    const auto is_caught = [&](int x, int y, std::uint32_t counter) {
+        Frame faulty = frame;
+        faulty.counter.at(x, y) = counter;
+        return compared(traced, faulty).ledger_miss.at(x, y) == 1;
+    };
+    EXPECT_FALSE(is_caught(20, 13, 1));
+    EXPECT_FALSE(is_caught(20, 13, 2));
+    EXPECT_TRUE(is_caught(20, 13, 0));
+    EXPECT_TRUE(is_caught(20, 13, 3));
+    EXPECT_TRUE(is_caught(19, 13, 2)) << "a pixel from the sliver";
 }
 
 } // namespace

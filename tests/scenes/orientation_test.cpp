@@ -95,5 +95,23 @@ TEST(SideOfEdge, is_the_opposite_for_the_edge_run_the_other_way_and_never_zero_o
     }
 }
 
+TEST(SideOfTriangle, is_never_zero_in_its_plane_and_the_same_as_a_real_move_leads_to) {
+    const glm::dvec3 a{1, 2, 3};
+    const auto at = [&](const glm::dvec3& b, const glm::dvec3& c) {
+        const int side = side_of_triangle(a, b, c, a);
+        EXPECT_EQ(side_of_triangle(a, c, b, a), -side);
+        const double e = 0x1p-10;
+        const double moved =
+            orientation(a, b, c, glm::dvec4(a + glm::dvec3(e, e * e, e * e * e), 1));
+        EXPECT_EQ(side, moved > 0 ? 1 : -1);
+        return side;
+    };
+    EXPECT_EQ(at({1, 3, 3}, {1, 2, 4}), 1);  // normal (1, 0, 0)
+    EXPECT_EQ(at({2, 2, 3}, {1, 2, 4}), -1); // (0, -1, 0)
+    EXPECT_EQ(at({2, 2, 3}, {1, 3, 3}), 1);  // (0, 0, 1)
+    EXPECT_EQ(at({2, 4, 3}, {1, 2, 4}), 1);  // (2, -1, 0)
+    EXPECT_EQ(side_of_triangle(a, {1, 3, 3}, {1, 2, 4}, {0.5, 9, 9}), -1);
+}
+
 } // namespace
 } // namespace shadowproof
