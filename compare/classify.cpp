@@ -1,5 +1,6 @@
 #include "compare/classify.h"
 
+#include "compare/coarse_outlines.h"
 #include "compare/freedom.h"
 #include "compare/pixel_cause.h"
 #include "reference/parallel.h"
@@ -8,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -37,7 +39,10 @@ Finding look_around(const JudgedFrame& judged, PixelPlace p, const PixelBand& ba
 }
 
 /// How closely pixels are looked at.
-enum class Scrutiny : std::uint8_t { band, centre };
+struct Scrutiny {
+    bool band = true;                         ///< else at their centres only
+    const CoarseOutlines* outlines = nullptr; ///< that may be drawn further aside, where asked for
+};
 
 /// The pixel's freedom to each side. `ledger` must hold the ray.
 BandRadius band_radius(const JudgedFrame& judged, PixelPlace p, const glm::dvec3& direction,
@@ -60,6 +65,15 @@ BandRadius band_radius(const JudgedFrame& judged, PixelPlace p, const glm::dvec3
     return {at(surface), at(nearest)};
 }
 
+/// The same where clipping may have moved outlines further.
+BandRadius coarse_radius(const JudgedFrame& judged, PixelPlace p, const CoarseOutlines& outlines,
+                         const BandRadius& radius) {
+    const double reach = std::max(radius.surface, radius.nearest);
+    const double picture = std::max(judged.truth.visibility.width, judged.truth.visibility.height);
+    const double coarse = outlines.reach_at({p.x + 0.5, p.y + 0.5}, reach);
+    return {radius.surface, std::max(radius.nearest, std::min(coarse + reach, picture))};
+}
+
 /// Pixels of one region of the picture, looked at together: what is gathered for the region serves
 /// all of them.
 struct Region {
@@ -68,7 +82,7 @@ struct Region {
 };
 
 std::vector<Neighbourhood> neighbourhoods(const JudgedFrame& judged, const Region& region,
-                                          Scrutiny scrutiny) {
+                                          const Scrutiny& scrutiny) {
     const Camera& camera = judged.tracer.scene().camera;
     const int left = region.places.front().x / region_side * region_side;
     const int top = region.places.front().y / region_side * region_side;
@@ -78,9 +92,10 @@ std::vector<Neighbourhood> neighbourhoods(const JudgedFrame& judged, const Regio
     std::vector<Neighbourhood> around;
     for (const PixelPlace& p : region.places) {
         const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
-        const BandRadius radius = scrutiny == Scrutiny::band
-                                      ? band_radius(judged, p, centre, ledger, crossings)
-                                      : BandRadius{};
+        BandRadius radius;
+        if (scrutiny.band) radius = band_radius(judged, p, centre, ledger, crossings);
+        if (scrutiny.outlines != nullptr)
+            radius = coarse_radius(judged, p, *scrutiny.outlines, radius);
         around.push_back(neighbourhood(camera, p.x, p.y, radius));
     }
     return around;
@@ -149,7 +164,7 @@ constexpr std::size_t batch_size = 1024;
 constexpr std::ptrdiff_t hopeless = 2048;
 
 void look_around_batch(const JudgedFrame& judged, const std::vector<Region>& regions,
-                       Scrutiny scrutiny) {
+                       const Scrutiny& scrutiny) {
     const auto for_regions = [&](const auto& work) {
         parallel_for(static_cast<int>(regions.size()), judged.tracer.threads(),
                      [&](int i, int) { work(static_cast<std::size_t>(i)); });
@@ -170,19 +185,45 @@ void look_around_batch(const JudgedFrame& judged, const std::vector<Region>& reg
 }
 
 /// `places` sorted by region.
-std::vector<Finding> look_around(const JudgedFrame& judged, const std::vector<PixelPlace>& places) {
+std::vector<Finding> look_around(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
+                                 const CoarseOutlines* outlines) {
     std::vector<Finding> findings(places.size());
     std::ptrdiff_t unexplained = 0;
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
         const std::span batch = std::span(findings).subspan(first, count);
         look_around_batch(judged, regions_of(std::span(places).subspan(first, count), batch),
-                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre);
+                          {unexplained < hopeless, outlines});
         unexplained += std::count_if(batch.begin(), batch.end(), [](const Finding& finding) {
             return !finding.ledger_in_band;
         });
     }
     return findings;
+}
+
+bool is_explained(const JudgedFrame& judged, PixelPlace p, const Finding& finding) {
+    return finding.ledger_in_band && !(judged.differs(p) && finding.cause == Cause::unexplained);
+}
+
+/// Looks once more at what nobody has explained, with outlines where clipping may have moved them.
+void look_at_coarse_outlines(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
+                             std::vector<Finding>& findings) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (!is_explained(judged, places[i], findings[i])) open.push_back(i);
+    if (open.empty()) return;
+    const Scene& scene = judged.tracer.scene();
+    const DepthModel& model = judged.frame.depth_model;
+    const bool clips = model.finite() && !judged.frame.counting.depth_clamp;
+    const CoarseOutlines outlines(
+        scene, judged.silhouette, judged.prediction.volumes().far_ends(),
+        drawing_of(scene, judged.frame,
+                   clips ? judged.depths.far : std::numeric_limits<double>::infinity()));
+    std::vector<PixelPlace> open_places;
+    for (const std::size_t i : open) open_places.push_back(places[i]);
+    const std::vector<Finding> found = look_around(judged, open_places, &outlines);
+    for (std::size_t k = 0; k < open.size(); ++k)
+        if (is_explained(judged, open_places[k], found[k])) findings[open[k]] = found[k];
 }
 
 void record(Comparison& comparison, PixelPlace p, bool in_band) {
@@ -267,7 +308,8 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
     std::stable_sort(open.begin(), open.end(), [&](const PixelPlace& a, const PixelPlace& b) {
         return region_of(a) < region_of(b);
     });
-    const std::vector<Finding> findings = look_around(judged, open);
+    std::vector<Finding> findings = look_around(judged, open, nullptr);
+    look_at_coarse_outlines(judged, open, findings);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
         record(comparison, p, findings[i].ledger_in_band);

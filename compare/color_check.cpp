@@ -70,11 +70,9 @@ public:
     /// Of the inputs' roundings at the pixel, as a share: see attribute_freedom.
     double share(int x, int y) const {
         const SeenPoint seen = point(x, y);
-        return attribute_freedom(scene_, seen.triangle,
-                                 {.direction = seen.direction,
-                                  .reach = lateral(x, y),
-                                  .near = frame_.depth_model.near,
-                                  .far = scene_.camera.far});
+        return attribute_freedom(
+            scene_, seen.triangle,
+            {seen.direction, lateral(x, y), drawing_of(scene_, frame_, scene_.camera.far)});
     }
 
     /// Where a triangle is seen edge-on, all that is interpolated over it may come out as anything.

@@ -77,9 +77,7 @@ double FaceDepths::clip_depth(double depth, int move) const {
 }
 
 CoveredPixel FaceDepths::covered_pixel() const {
-    const double offset = frame_.depth_model.eye_relative ? 0 : glm::length(scene_.camera.eye);
-    const double near = frame_.counting.depth_clamp ? 0 : scene_.camera.near;
-    return {around_.rays.front(), around_.reach, near, clip_far(), offset};
+    return {around_.rays.front(), around_.reach, drawing_of(scene_, frame_, clip_far())};
 }
 
 double FaceDepths::setup_error(const Crossing& side) const {

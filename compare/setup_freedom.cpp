@@ -15,73 +15,15 @@ namespace {
 
 constexpr double v = 0x1p-24; ///< rounding unit of float
 
-using Polygon = std::vector<glm::dvec4>; ///< relative to the eye along right, up, forward, and w
-
-/// A homogeneous world point (p, w).
-glm::dvec4 viewed(const Camera& camera, const glm::dvec4& point) {
-    const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
-    return {glm::dot(camera.right, relative), glm::dot(camera.up, relative),
-            glm::dot(camera.forward, relative), point.w};
-}
-
-/// What of a convex polygon lies where `plane` is not negative (Sutherland & Hodgman 1974).
-Polygon clipped(const Polygon& polygon, const glm::dvec4& plane) {
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec4& from = polygon[i];
-        const glm::dvec4& to = polygon[(i + 1) % polygon.size()];
-        const double one = glm::dot(plane, from);
-        const double other = glm::dot(plane, to);
-        if (one >= 0) kept.push_back(from);
-        if ((one < 0) != (other < 0)) kept.push_back(from + one / (one - other) * (to - from));
-    }
-    return kept;
-}
-
-/// A point of the picture, in pixels, and the inverse of its view depth, which is linear there as
-/// window depth is.
-struct PicturePoint {
-    glm::dvec2 place{0, 0};
-    double inverse_depth = 0;
-    double place_error = 0; ///< of the float transform, as lateral_freedom has it
-    double depth_error = 0; ///< of it and the window's roundings, as depth_freedom has it
-};
-
-PicturePoint pictured(const Camera& camera, const glm::dvec4& view, double offset) {
-    const glm::dvec2 half = half_extent(camera);
-    PicturePoint point{{(view.x / view.z / half.x + 1) * 0.5 * camera.width,
-                        (1 - view.y / view.z / half.y) * 0.5 * camera.height},
-                       view.w / view.z};
-    const double terms = 2 * (std::sqrt(3.0) * glm::length(glm::dvec3(view)) + view.w * offset);
-    const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
-                                    double(camera.width), double(camera.height)});
-    const double scale = 0.5 * camera.height / camera.tan_half_height;
-    const double relative = 5 * v * terms / view.z;
-    point.place_error = relative * (scale + pixels) + 3 * v * pixels;
-    point.depth_error = (relative + 8 * v) * point.inverse_depth;
-    return point;
-}
-
 using PictureTriangle = std::array<PicturePoint, 3>;
 
-/// The triangles that are set up: clipped by the planes in depth, and by a guard band twice the
-/// picture's size, as Mesa's draw module has it (draw_pt_post_vs: x and y to twice w); what is left
-/// is a fan.
+/// The triangles that are set up: a fan over what clipping leaves.
 std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
                                     const CoveredPixel& pixel) {
-    const glm::dvec2 guard = 2.0 * half_extent(camera);
-    Polygon polygon;
-    for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner));
-    for (const glm::dvec4& plane : {glm::dvec4(0, 0, 1, -pixel.near), glm::dvec4(1, 0, guard.x, 0),
-                                    glm::dvec4(-1, 0, guard.x, 0), glm::dvec4(0, 1, guard.y, 0),
-                                    glm::dvec4(0, -1, guard.y, 0)})
-        polygon = clipped(polygon, plane);
-    if (std::isfinite(pixel.far)) polygon = clipped(polygon, glm::dvec4(0, 0, -1, pixel.far));
+    const std::vector<PicturePoint> polygon = clipped_polygon(camera, corners, pixel.drawing);
     std::vector<PictureTriangle> fan;
     for (std::size_t i = 2; i < polygon.size(); ++i)
-        fan.push_back({pictured(camera, polygon[0], pixel.offset),
-                       pictured(camera, polygon[i - 1], pixel.offset),
-                       pictured(camera, polygon[i], pixel.offset)});
+        fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
     return fan;
 }
 

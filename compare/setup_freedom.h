@@ -3,11 +3,11 @@
 // well-shaped triangle's. So with whatever else is interpolated.
 #pragma once
 
+#include "compare/clipped_polygon.h"
 #include "reference/ledger.h"
 #include "scenes/scene.h"
 
 #include <glm/vec3.hpp>
-#include <limits>
 #include <vector>
 
 namespace shadowproof {
@@ -16,9 +16,7 @@ namespace shadowproof {
 struct CoveredPixel {
     glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
     double reach = 0;              ///< pixels by which a face may be drawn aside
-    double near = 0; ///< depths of planes that clip; 0 where depths are clamped instead
-    double far = std::numeric_limits<double>::infinity();
-    double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
+    Drawing drawing;
 };
 
 /// Error of the inverse of a triangle's view depth at a pixel. Infinite where the triangle is seen

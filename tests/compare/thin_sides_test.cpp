@@ -68,7 +68,7 @@ double freedom_of_side(double edge_length) {
     scene.triangles = {{0, 1, 2}};
     scene.lights[0].position = {4, 1, 1};
     const Crossing side{.depth = 5, .change = 1, .part = Crossing::Part::side_0, .triangle = 0};
-    return setup_freedom(scene, nullptr, side, {.direction = {0, 0, -1}, .reach = 1, .near = 0.1});
+    return setup_freedom(scene, nullptr, side, {{0, 0, -1}, 1, {.near = 0.1}});
 }
 
 TEST(ThinSides, half_the_width_doubles_what_rounding_may_do) {

@@ -34,9 +34,10 @@ Seeds seeds_to_try() {
     return seeds;
 }
 
-/// Nobody explains these yet: coordinates of 1e17 and more beside ordinary ones, which the
-/// clipper's floats turn into something else. See nobody_explains_these_yet.
-const std::set<std::uint64_t> open_seeds{639, 713, 740, 779, 876, 928};
+/// Nobody explains these yet: a corner 4.6e18 away from a box right under the light, a light 1e18
+/// away, and one 5e-324 from a caster's corner, which the driver's doubles take for zero. See
+/// nobody_explains_these_yet.
+const std::set<std::uint64_t> open_seeds{639, 713, 928};
 
 bool names_its_thing(const std::string& message) {
     const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
@@ -155,6 +156,13 @@ TEST(OddGeometry, a_triangle_with_one_corner_far_away_has_its_true_depth_near_by
 
 TEST(OddGeometry, a_tiny_scene_with_one_huge_coordinate_is_refused) {
     try_seeds({533});
+}
+
+TEST(OddGeometry, a_floor_of_393_km_under_the_feet_is_explained) {
+    SceneRequest request;
+    request.width = request.height = 24;
+    Gpu gpu(GlPlatform::osmesa);
+    try_techniques(TracedScene(load_scene(ODD_SCENES "/large_floor.gltf", request)), gpu);
 }
 
 /// Pixel (20, 13) lies beside the volume of a sliver, a ten-thousandth of a pixel wide there, and

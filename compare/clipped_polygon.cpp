@@ -1,0 +1,116 @@
+#include "compare/clipped_polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = 0x1p-24; ///< rounding unit of float
+
+/// Relative to the eye along right, up, forward, and w, as exact numbers; and how far off floats
+/// have it.
+struct Corner {
+    glm::dvec4 at{0, 0, 0, 0};
+    glm::dvec3 error{0, 0, 0}; ///< of right, up and forward
+    double clip_error = 0; ///< that clipping added to forward and to the window depth's numerator
+    bool made_by_clipping = false;
+};
+
+Corner viewed(const Camera& camera, const glm::dvec4& point, double offset) {
+    const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
+    const glm::dvec3 at(glm::dot(camera.right, relative), glm::dot(camera.up, relative),
+                        glm::dot(camera.forward, relative));
+    const double terms = 2 * (std::sqrt(3.0) * glm::length(at) + point.w * offset);
+    return {.at = {at, point.w}, .error = glm::dvec3(5 * v * terms)};
+}
+
+// Mesa's draw module makes a corner as out + t (in - out), in each component of the clip
+// coordinates: the difference, its product and the sum round, by v of at most the larger corner's
+// size each, as t is between 0 and 1. An error of t itself moves the corner along the edge. The
+// corners' own errors weigh as they do.
+Corner between(const Corner& from, const Corner& to, double t, double standard_near) {
+    const auto numerator = [&](const Corner& corner) {
+        return standard_near > 0 ? std::abs(corner.at.z - 2 * standard_near * corner.at.w) : 0.0;
+    };
+    Corner made;
+    made.at = from.at + t * (to.at - from.at);
+    const glm::dvec3 larger = glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
+    made.error = (1 - t) * from.error + t * to.error + 3 * v * larger;
+    made.clip_error = (1 - t) * from.clip_error + t * to.clip_error +
+                      3 * v * (larger.z + std::max(numerator(from), numerator(to)));
+    made.made_by_clipping = true;
+    return made;
+}
+
+using Polygon = std::vector<Corner>;
+
+/// What of a convex polygon lies where `plane` is not negative (Sutherland & Hodgman 1974).
+Polygon clipped(const Polygon& polygon, const glm::dvec4& plane, double standard_near) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Corner& from = polygon[i];
+        const Corner& to = polygon[(i + 1) % polygon.size()];
+        const double one = glm::dot(plane, from.at);
+        const double other = glm::dot(plane, to.at);
+        if (one >= 0) kept.push_back(from);
+        if ((one < 0) != (other < 0))
+            kept.push_back(between(from, to, one / (one - other), standard_near));
+    }
+    return kept;
+}
+
+// Window depth is half the quotient of numerator and depth; the inverse depth is what is left of it
+// to 1, over the near plane.
+PicturePoint pictured(const Camera& camera, const Corner& corner, double standard_near) {
+    const glm::dvec2 half = half_extent(camera);
+    const glm::dvec4& at = corner.at;
+    PicturePoint point{.place = {(at.x / at.z / half.x + 1) * 0.5 * camera.width,
+                                 (1 - at.y / at.z / half.y) * 0.5 * camera.height},
+                       .inverse_depth = at.w / at.z,
+                       .made_by_clipping = corner.made_by_clipping};
+    const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
+                                    double(camera.width), double(camera.height)});
+    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double depth_error = corner.error.z / at.z;
+    point.place_error = std::max(corner.error.x, corner.error.y) / at.z * scale +
+                        depth_error * pixels + 3 * v * pixels;
+    point.depth_error = (depth_error + 8 * v) * point.inverse_depth;
+    if (standard_near > 0) point.depth_error += 0.5 * corner.clip_error / at.z / standard_near;
+    return point;
+}
+
+} // namespace
+
+Drawing drawing_of(const Scene& scene, const Frame& frame, double far) {
+    const DepthModel& model = frame.depth_model;
+    return {.near = frame.counting.depth_clamp ? 0 : scene.camera.near,
+            .far = far,
+            .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
+            .standard_near = model.reversed() ? 0 : model.near};
+}
+
+std::vector<PicturePoint> clipped_polygon(const Camera& camera,
+                                          const std::array<glm::dvec4, 3>& corners,
+                                          const Drawing& drawing) {
+    const glm::dvec2 guard = 2.0 * half_extent(camera);
+    Polygon polygon;
+    for (const glm::dvec4& corner : corners)
+        polygon.push_back(viewed(camera, corner, drawing.offset));
+    for (const glm::dvec4& plane : {glm::dvec4(0, 0, 1, -drawing.near),
+                                    glm::dvec4(1, 0, guard.x, 0), glm::dvec4(-1, 0, guard.x, 0),
+                                    glm::dvec4(0, 1, guard.y, 0), glm::dvec4(0, -1, guard.y, 0)})
+        polygon = clipped(polygon, plane, drawing.standard_near);
+    if (std::isfinite(drawing.far))
+        polygon = clipped(polygon, glm::dvec4(0, 0, -1, drawing.far), drawing.standard_near);
+    std::vector<PicturePoint> points;
+    for (const Corner& corner : polygon)
+        points.push_back(pictured(camera, corner, drawing.standard_near));
+    return points;
+}
+
+} // namespace shadowproof

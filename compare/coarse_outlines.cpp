@@ -1,0 +1,63 @@
+#include "compare/coarse_outlines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <utility>
+
+namespace shadowproof {
+
+CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
+                               const std::vector<glm::vec3>* far_ends, const Drawing& drawing) {
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+        add(clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawing));
+    }
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    for (const Silhouette::Side& side : silhouette.sides()) {
+        if (side.triangle == no_triangle) continue;
+        const glm::uvec3 corners = scene.triangles[side.triangle];
+        const int first = static_cast<int>(side.part);
+        const auto start = [&](std::uint32_t i) {
+            return glm::dvec4(glm::dvec3(scene.positions[i]), 1);
+        };
+        const auto end = [&](std::uint32_t i) {
+            return far_ends != nullptr ? glm::dvec4(glm::dvec3((*far_ends)[i]), 1)
+                                       : light.w * start(i) - light;
+        };
+        // Two triangles, whose common edge lies within the side: it is no outline, but both are
+        // clipped.
+        const std::uint32_t a = corners[first];
+        const std::uint32_t b = corners[(first + 1) % 3];
+        for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+            add(clipped_polygon(scene.camera, {start(one), start(other), end(other)}, drawing));
+            add(clipped_polygon(scene.camera, {start(one), end(other), end(one)}, drawing));
+        }
+    }
+}
+
+void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const PicturePoint& from = polygon[i];
+        const PicturePoint& to = polygon[(i + 1) % polygon.size()];
+        if (from.made_by_clipping || to.made_by_clipping) outlines_.push_back({from, to});
+    }
+}
+
+double CoarseOutlines::reach_at(const glm::dvec2& place, double reach) const {
+    double furthest = 0;
+    for (const auto& [from, to] : outlines_) {
+        const glm::dvec2 along = to.place - from.place;
+        const double square = glm::dot(along, along);
+        const double t =
+            square > 0 ? std::clamp(glm::dot(place - from.place, along) / square, 0.0, 1.0) : 0;
+        const double aside = (1 - t) * from.place_error + t * to.place_error;
+        if (aside > furthest && glm::length(from.place + t * along - place) <= aside + reach)
+            furthest = aside;
+    }
+    return furthest;
+}
+
+} // namespace shadowproof
