@@ -44,12 +44,12 @@ public:
           depths_(tracer.scene(), {volumes.casters, volumes.far_ends}, frame, far, around) {
         shown_range_ = shown == no_triangle ? depths_.background() : depths_.surface(shown);
         may_cover_ =
-            shown != no_triangle && may_cover(scene_, shown, around.rays.front(), spread(around));
+            shown == no_triangle || may_cover(scene_, shown, around.rays.front(), spread(around));
         std::vector<std::uint32_t> in_front;
         for (const RayTruth& t : truth)
             if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
                 in_front.push_back(t.triangle);
-        may_gape_ = may_gape(scene_, in_front);
+        may_gape_ = may_gape(scene_, in_front, around.rays);
         starts_ = starts();
     }
 
@@ -104,13 +104,7 @@ public:
             if (!depth) continue;
             shown_range_.nominal = *depth;
             const std::int64_t ideal = ideal_depth(direction);
-            volumes_.counted.crossings(direction, crossings_);
-            std::map<FaceKey, Candidate> here;
-            for (const Candidate& face : candidates(direction, 0)) {
-                if (face.certain && !face.nominally) continue;
-                const auto [same, is_new] = here.emplace(key_of(face.crossing), face);
-                if (!is_new) same->second.crossing.change += face.crossing.change;
-            }
+            const std::map<FaceKey, Candidate> here = faces_of_sample(direction);
             add_sums(here, ideal, truth[i].in_cone, sums);
             merge(here, first, faces);
             first = false;
@@ -123,6 +117,35 @@ public:
                 readings.push_back({count, sum.ideal, volumes_.ideal_at_eye, sum.in_cone, false});
     }
 
+    /// Appends what may be read where the shown surface is seen through a gap, on no sample's ray:
+    /// beside each of the surfaces that part there, so that each face comes out as one of the
+    /// samples has it, and those surfaces' own caps are not drawn.
+    void collect_in_gap(std::span<const RayTruth> truth, std::vector<Reading>& readings) {
+        if (!may_gape_ ||
+            std::ranges::any_of(truth, [&](const RayTruth& t) { return t.triangle == shown_; }))
+            return;
+        std::map<FaceKey, Candidate> faces;
+        std::int64_t last = 0;
+        std::int64_t ideal = 0;
+        bool first = true;
+        for (std::size_t i = 0; i < around_.rays.size(); ++i) {
+            bool moved = false;
+            const std::optional<double> depth = shown_depth(truth[i], around_.rays[i], moved);
+            if (!depth) continue;
+            shown_range_.nominal = *depth;
+            ideal = ideal_depth(around_.rays[i]);
+            merge(faces_of_sample(around_.rays[i]), first, faces);
+            last = dark_caps();
+            first = false;
+        }
+        if (first) return;
+        std::vector<PossibleFace> possible;
+        for (const auto& [key, face] : faces) possible.push_back({face.crossing, face.certain});
+        for (const std::int32_t start : starts_)
+            for (const std::int64_t count : possible_counts(possible, start, last, frame_.counting))
+                readings.push_back({count, ideal, volumes_.ideal_at_eye, truth[0].in_cone, true});
+    }
+
 private:
     const Tracer& tracer_;
     const PixelVolumes& volumes_;
@@ -132,7 +155,7 @@ private:
     std::uint32_t shown_;
     const Neighbourhood& around_;
     DepthRange shown_range_;
-    bool may_cover_ = false;           ///< the shown triangle may cover the pixel's centre
+    bool may_cover_ = false;           ///< what is shown may cover the pixel's centre
     bool may_gape_ = false;            ///< what is in front of it may let it be seen through a gap
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
     bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
@@ -151,7 +174,8 @@ private:
         if (truth.triangle == shown_)
             return shown_ == no_triangle ? shown_range_.nominal : truth.depth;
         if (!may_cover_) return std::nullopt;
-        const double depth = plane_depth(scene_, shown_, direction);
+        const double depth = shown_ == no_triangle ? depths_.background().nominal
+                                                   : plane_depth(scene_, shown_, direction);
         if (truth.triangle == no_triangle) return depth;
         if (!may_gape_ && certainly_in_front(truth.triangle)) return std::nullopt;
         moved = truth.depth < depth;
@@ -231,6 +255,8 @@ private:
             if (!pass && crossing.depth >= far) continue;
             const bool behind = is_never_in_front(crossing);
             const DepthRange range = depths_.face(crossing, direction);
+            // What is seen through a gap between surfaces is seen through that of their caps.
+            if (behind && crossing.triangle != shown_ && range.upper < shown_range_.lower) continue;
             const bool maybe_front = !behind && range.lower <= shown_range_.upper;
             const bool maybe_behind = behind || range.upper >= shown_range_.lower;
             if (!(pass ? maybe_front : maybe_behind)) continue;
@@ -281,6 +307,18 @@ private:
     using FaceKey = std::tuple<Crossing::Part, std::uint32_t, std::uint32_t, int>;
     static FaceKey key_of(const Crossing& face) {
         return {face.part, face.triangle, face.is_side() ? face.edge : 0, face.change};
+    }
+
+    /// Those that a sample's ray crosses and that may be counted there.
+    std::map<FaceKey, Candidate> faces_of_sample(const glm::dvec3& direction) {
+        volumes_.counted.crossings(direction, crossings_);
+        std::map<FaceKey, Candidate> faces;
+        for (const Candidate& face : candidates(direction, 0)) {
+            if (face.certain && !face.nominally) continue;
+            const auto [same, is_new] = faces.emplace(key_of(face.crossing), face);
+            if (!is_new) same->second.crossing.change += face.crossing.change;
+        }
+        return faces;
     }
 
     /// What the faces of one sample may add up to, none of them lost at a limit.
@@ -371,6 +409,7 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
     }
     if (!found && may_mix && frame.counting.operation == Counting::Operation::saturate)
         finder.collect_mixed(truth, band.readings);
+    if (!found && may_mix) finder.collect_in_gap(truth, band.readings);
     if (!found && may_mix) finder.add_edge_on_sides(band.readings);
     sort_out(band.readings);
     return band;

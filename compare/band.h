@@ -42,8 +42,8 @@ struct PixelVolumes {
 
 /// `truth`: what trace_rays finds along the neighbourhood's rays. Looks no further than to the
 /// first ray that has a reading for which `matches` holds; where none has, along rays between the
-/// outlines of volumes, at faces as several samples have them, if the counter saturates, and at
-/// sides that are seen edge-on.
+/// outlines of volumes, at faces as several samples have them, if the counter saturates or the
+/// surface is seen through a gap, and at sides that are seen edge-on.
 PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
                     double far, std::uint32_t shown, const Neighbourhood& around,
                     std::span<const RayTruth> truth,

@@ -150,23 +150,38 @@ bool share_an_edge(const Scene& scene, std::uint32_t one, std::uint32_t other) {
     return shared >= 2;
 }
 
-} // namespace
-
-bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles) {
-    std::sort(triangles.begin(), triangles.end());
-    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    if (triangles.empty()) return false;
-    std::vector<std::uint32_t> connected{triangles.back()};
+/// Takes one triangle, and all that hang together with it, out of `triangles`, which is not empty.
+std::vector<std::uint32_t> take_group(const Scene& scene, std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> group{triangles.back()};
     triangles.pop_back();
-    for (std::size_t i = 0; i < connected.size(); ++i) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
         const auto apart =
             std::partition(triangles.begin(), triangles.end(), [&](std::uint32_t triangle) {
-                return !share_an_edge(scene, connected[i], triangle);
+                return !share_an_edge(scene, group[i], triangle);
             });
-        connected.insert(connected.end(), apart, triangles.end());
+        group.insert(group.end(), apart, triangles.end());
         triangles.erase(apart, triangles.end());
     }
-    return !triangles.empty();
+    return group;
+}
+
+} // namespace
+
+bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles,
+              std::span<const glm::dvec3> rays) {
+    if (triangles.empty()) return false;
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+    while (!triangles.empty()) {
+        const std::vector<std::uint32_t> group = take_group(scene, triangles);
+        const bool covers = std::ranges::all_of(rays, [&](const glm::dvec3& ray) {
+            return std::ranges::any_of(group, [&](std::uint32_t triangle) {
+                return may_cover(scene, triangle, ray, 0);
+            });
+        });
+        if (covers) return false;
+    }
+    return true;
 }
 
 } // namespace shadowproof

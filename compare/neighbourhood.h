@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -41,8 +42,10 @@ double spread(const Neighbourhood& around);
 bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction,
                double freedom);
 
-/// Whether some of the triangles hang together with none of the others by shared edges. Their
-/// corners then move apart, and a gap may open between them (a T-junction's crack).
-bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles);
+/// Whether what lies behind triangles may be seen between them at a pixel, though none of its rays
+/// passes: those that share edges move together, so that no gap opens where such a group covers all
+/// rays; but groups that only touch move apart (a T-junction's crack).
+bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles,
+              std::span<const glm::dvec3> rays);
 
 } // namespace shadowproof

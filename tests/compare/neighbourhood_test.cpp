@@ -1,5 +1,7 @@
 #include "compare/neighbourhood.h"
 #include "scenes/camera.h"
+#include "tests/compare/traced_scene.h"
+#include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +72,47 @@ TEST(RaysBetween, are_none_where_no_plane_passes) {
     const Neighbourhood around = around_a_pixel();
     EXPECT_TRUE(rays_between(around, {}).empty());
     EXPECT_TRUE(rays_between(around, {plane_through(around, {3, -1}, {3, 1})}).empty());
+}
+
+/// Over (-1, 0) to (1, 0) at depth 5: what lies above in one triangle, what lies below in two whose
+/// upper corners are others; and far behind, one that covers everything.
+Scene t_junction() {
+    Scene scene = tests::empty_scene();
+    scene.positions = {{-1, 0, 0},     {1, 0, 0},     {0, 1, 0},              //
+                       {-2, 0, 0},     {0, 0, 0},     {2, 0, 0},  {0, -1, 0}, //
+                       {-99, -99, -9}, {99, -99, -9}, {0, 99, -9}};
+    scene.triangles = {{0, 1, 2}, {3, 6, 4}, {4, 6, 5}, {7, 8, 9}};
+    scene.meshes = {{"all", 0, 4, 0}};
+    scene.materials = {{"plain", true}};
+    return scene;
+}
+
+TEST(MayGape, only_where_groups_that_share_no_edge_part) {
+    const Scene scene = t_junction();
+    const std::vector<glm::dvec3> rays{{-0.01, 0.001, -1},  {0, 0.001, -1},  {0.01, 0.001, -1},
+                                       {-0.01, -0.001, -1}, {0, -0.001, -1}, {0.01, -0.001, -1}};
+    EXPECT_TRUE(may_gape(scene, {0, 1, 2}, rays));
+    EXPECT_FALSE(may_gape(scene, {0, 1, 2, 3}, rays)) << "the one behind has no gap";
+    EXPECT_FALSE(may_gape(scene, {1, 2}, std::span(rays).last(3))) << "they share an edge";
+    EXPECT_FALSE(may_gape(scene, {}, rays));
+}
+
+TEST(MayGape, does_not_let_the_background_shine_through_a_floor_behind_a_box) {
+    const tests::TracedScene traced(tests::box_over_floor());
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+    // Along the box's upper edge that is nearest to the eye.
+    for (const float x : {-0.5F, 0.0F, 0.3F}) {
+        const tests::Pixel p = tests::pixel_of(traced.scene, {x, 2, 1});
+        for (int dy = -1; dy <= 1; ++dy) {
+            Frame faulty = frame;
+            faulty.claim.at(p.x, p.y + dy) = Visibility::background;
+            faulty.triangle.at(p.x, p.y + dy) = no_triangle;
+            faulty.counter.at(p.x, p.y + dy) = 0;
+            const Comparison comparison = tests::compared(traced, faulty);
+            EXPECT_EQ(tests::pixels_of(comparison, Cause::unexplained), 1U) << x << ", " << dy;
+        }
+    }
 }
 
 } // namespace
