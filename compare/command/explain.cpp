@@ -81,12 +81,13 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, cons
     };
     try {
         const Frame frame = render(technique, tracer.scene(), plan, gpu);
-        refuse_blank(technique.name, truth, frame);
         const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
                                     frame.depth_model);
+        const Comparison comparison =
+            classify(tracer, silhouette, truth, depths, frame, prediction);
+        refuse_blank(technique.name, truth, frame, comparison);
         TechniqueAtPixel at_pixel =
-            technique_at(record, prediction, std::string(technique.name), frame,
-                         classify(tracer, silhouette, truth, depths, frame, prediction));
+            technique_at(record, prediction, std::string(technique.name), frame, comparison);
         if (!frame.color.pixels.empty())
             at_pixel.color = account_for_color(tracer, truth, frame, record.x, record.y);
         return at_pixel;

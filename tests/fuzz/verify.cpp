@@ -91,11 +91,11 @@ std::optional<std::string> judged(const Truth& truth, const Technique& technique
                                   Gpu& gpu) {
     try {
         const Frame frame = render(technique, truth.scene, truth.plan, gpu);
-        refuse_blank(technique.name, truth.truth, frame);
         const Prediction prediction(truth.tracer, truth.silhouette, truth.truth, truth.depths,
                                     frame.counting, frame.depth_model);
         const Comparison comparison =
             classify(truth.tracer, truth.silhouette, truth.truth, truth.depths, frame, prediction);
+        refuse_blank(technique.name, truth.truth, frame, comparison);
         const Verdict verdict =
             judge(truth.scene, technique.fails_at, technique.by_nature, comparison);
         if (verdict == Verdict::unexplained || (robust && verdict == Verdict::defect))

@@ -61,7 +61,6 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     try {
         cell.frame = render(technique, trial.scene, trial.plan, run.gpu);
         cell.milliseconds = cell.frame.milliseconds;
-        refuse_blank(technique.name, trial.truth, cell.frame);
         cell.volume_fragments = cell.frame.volume_fragments;
         cell.left_out = cell.frame.left_out;
         cell.saved = cell.frame.saved;
@@ -69,6 +68,7 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
                                     cell.frame.counting, cell.frame.depth_model);
         cell.comparison = classify(trial.tracer, trial.silhouette, trial.truth, trial.depths,
                                    cell.frame, prediction);
+        refuse_blank(technique.name, trial.truth, cell.frame, cell.comparison);
         cell.verdict = judge(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
         cell.excused =
             excused_causes(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
