@@ -94,7 +94,7 @@ std::vector<Neighbourhood> neighbourhoods(const JudgedFrame& judged, const Regio
         const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
         BandRadius radius;
         if (scrutiny.band) radius = band_radius(judged, p, centre, ledger, crossings);
-        if (scrutiny.outlines != nullptr)
+        if (scrutiny.band && scrutiny.outlines != nullptr)
             radius = coarse_radius(judged, p, *scrutiny.outlines, radius);
         around.push_back(neighbourhood(camera, p.x, p.y, radius));
     }

@@ -9,6 +9,14 @@
 
 namespace shadowproof {
 
+namespace {
+
+double furthest_aside(const PicturePoint& from, const PicturePoint& to) {
+    return std::max(from.place_error, to.place_error);
+}
+
+} // namespace
+
 CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
                                const std::vector<glm::vec3>* far_ends, const Drawing& drawing) {
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
@@ -36,12 +44,17 @@ CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
             add(clipped_polygon(scene.camera, {start(one), end(other), end(one)}, drawing));
         }
     }
+    std::stable_sort(outlines_.begin(), outlines_.end(), [](const Outline& a, const Outline& b) {
+        return furthest_aside(a.from, a.to) > furthest_aside(b.from, b.to);
+    });
 }
 
 void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const PicturePoint& from = polygon[i];
         const PicturePoint& to = polygon[(i + 1) % polygon.size()];
+        // A corner in the eye itself has no place in the picture.
+        if (!std::isfinite(furthest_aside(from, to))) continue;
         if (from.made_by_clipping || to.made_by_clipping) outlines_.push_back({from, to});
     }
 }
@@ -49,6 +62,7 @@ void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
 double CoarseOutlines::reach_at(const glm::dvec2& place, double reach) const {
     double furthest = 0;
     for (const auto& [from, to] : outlines_) {
+        if (furthest_aside(from, to) <= furthest) break; // as all that follow
         const glm::dvec2 along = to.place - from.place;
         const double square = glm::dot(along, along);
         const double t =

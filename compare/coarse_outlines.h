@@ -26,7 +26,7 @@ private:
     struct Outline {
         PicturePoint from, to; ///< one of them at least is made by clipping
     };
-    std::vector<Outline> outlines_;
+    std::vector<Outline> outlines_; ///< those first that may be moved furthest
 
     void add(const std::vector<PicturePoint>& polygon);
 };
