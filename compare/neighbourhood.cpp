@@ -169,10 +169,10 @@ std::vector<std::uint32_t> take_group(const Scene& scene, std::vector<std::uint3
 
 bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles,
               std::span<const glm::dvec3> rays) {
-    if (triangles.empty()) return false;
     std::sort(triangles.begin(), triangles.end());
     triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    while (!triangles.empty()) {
+    int groups = 0;
+    for (; !triangles.empty(); ++groups) {
         const std::vector<std::uint32_t> group = take_group(scene, triangles);
         const bool covers = std::ranges::all_of(rays, [&](const glm::dvec3& ray) {
             return std::ranges::any_of(group, [&](std::uint32_t triangle) {
@@ -181,7 +181,7 @@ bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles,
         });
         if (covers) return false;
     }
-    return true;
+    return groups > 1;
 }
 
 } // namespace shadowproof

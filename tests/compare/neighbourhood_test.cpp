@@ -94,6 +94,7 @@ TEST(MayGape, only_where_groups_that_share_no_edge_part) {
     EXPECT_TRUE(may_gape(scene, {0, 1, 2}, rays));
     EXPECT_FALSE(may_gape(scene, {0, 1, 2, 3}, rays)) << "the one behind has no gap";
     EXPECT_FALSE(may_gape(scene, {1, 2}, std::span(rays).last(3))) << "they share an edge";
+    EXPECT_FALSE(may_gape(scene, {0}, rays)) << "one group has no other to part from";
     EXPECT_FALSE(may_gape(scene, {}, rays));
 }
 
