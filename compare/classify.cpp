@@ -7,8 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <optional>
 #include <span>
@@ -39,10 +38,7 @@ Finding look_around(const JudgedFrame& judged, PixelPlace p, const PixelBand& ba
 }
 
 /// How closely pixels are looked at.
-struct Scrutiny {
-    bool band = true;                         ///< else at their centres only
-    const CoarseOutlines* outlines = nullptr; ///< that may be drawn further aside, where asked for
-};
+enum class Scrutiny : std::uint8_t { band, centre };
 
 /// The pixel's freedom to each side. `ledger` must hold the ray.
 BandRadius band_radius(const JudgedFrame& judged, PixelPlace p, const glm::dvec3& direction,
@@ -65,15 +61,6 @@ BandRadius band_radius(const JudgedFrame& judged, PixelPlace p, const glm::dvec3
     return {at(surface), at(nearest)};
 }
 
-/// The same where clipping may have moved outlines further.
-BandRadius coarse_radius(const JudgedFrame& judged, PixelPlace p, const CoarseOutlines& outlines,
-                         const BandRadius& radius) {
-    const double reach = std::max(radius.surface, radius.nearest);
-    const double picture = std::max(judged.truth.visibility.width, judged.truth.visibility.height);
-    const double coarse = outlines.reach_at({p.x + 0.5, p.y + 0.5}, reach);
-    return {radius.surface, std::max(radius.nearest, std::min(coarse + reach, picture))};
-}
-
 /// Pixels of one region of the picture, looked at together: what is gathered for the region serves
 /// all of them.
 struct Region {
@@ -82,7 +69,7 @@ struct Region {
 };
 
 std::vector<Neighbourhood> neighbourhoods(const JudgedFrame& judged, const Region& region,
-                                          const Scrutiny& scrutiny) {
+                                          Scrutiny scrutiny) {
     const Camera& camera = judged.tracer.scene().camera;
     const int left = region.places.front().x / region_side * region_side;
     const int top = region.places.front().y / region_side * region_side;
@@ -92,11 +79,10 @@ std::vector<Neighbourhood> neighbourhoods(const JudgedFrame& judged, const Regio
     std::vector<Neighbourhood> around;
     for (const PixelPlace& p : region.places) {
         const glm::dvec3 centre = ray_direction(camera, p.x + 0.5, p.y + 0.5);
-        BandRadius radius;
-        if (scrutiny.band) radius = band_radius(judged, p, centre, ledger, crossings);
-        if (scrutiny.band && scrutiny.outlines != nullptr)
-            radius = coarse_radius(judged, p, *scrutiny.outlines, radius);
-        around.push_back(neighbourhood(camera, p.x, p.y, radius));
+        const BandRadius radius = scrutiny == Scrutiny::band
+                                      ? band_radius(judged, p, centre, ledger, crossings)
+                                      : BandRadius{};
+        around.push_back(neighbourhood(camera, {p.x + 0.5, p.y + 0.5}, radius));
     }
     return around;
 }
@@ -112,6 +98,25 @@ std::array<glm::dvec3, 4> corners_around(const Camera& camera, const Region& reg
                        top + region_side + reach);
 }
 
+/// Finds what may be drawn at a pixel where that is what is true in a neighbourhood, which is the
+/// pixel's own or one across a coarse outline. The ledgers must hold its rays.
+Finding look_around_pixel(const JudgedFrame& judged, PixelPlace p, const Neighbourhood& around,
+                          RegionLedger& counted, RegionLedger& ideal,
+                          std::span<const RayTruth> truth) {
+    const Volumes& volumes = judged.prediction.volumes();
+    const PixelVolumes here{counted,
+                            volumes.casters(),
+                            volumes.far_ends(),
+                            volumes.are_ideal() ? nullptr : &ideal,
+                            volumes.touching_light(),
+                            judged.prediction.depths().at_eye,
+                            judged.prediction.ideal_depths().at_eye};
+    const PixelBand band = find_band(
+        judged.tracer, here, judged.frame, judged.depths.far, judged.frame.triangle.at(p.x, p.y),
+        around, truth, [&](const Reading& reading) { return explains(judged, p, reading); });
+    return look_around(judged, p, band, truth);
+}
+
 /// `truths`: of the rays around the region's pixels, one pixel after the other.
 void look_around_region(const JudgedFrame& judged, const Region& region,
                         const std::vector<Neighbourhood>& around,
@@ -122,23 +127,12 @@ void look_around_region(const JudgedFrame& judged, const Region& region,
     const RegionLedger counted = volumes.ledger(corners);
     const RegionLedger ideal = volumes.ideal_ledger(corners);
     for (std::size_t i = 0; i < region.places.size(); ++i) {
-        const PixelPlace p = region.places[i];
         RegionLedger counted_here(counted, around[i].corners);
         RegionLedger ideal_here(ideal, around[i].corners);
-        const PixelVolumes here{counted_here,
-                                volumes.casters(),
-                                volumes.far_ends(),
-                                volumes.are_ideal() ? nullptr : &ideal_here,
-                                volumes.touching_light(),
-                                judged.prediction.depths().at_eye,
-                                judged.prediction.ideal_depths().at_eye};
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
         truths = truths.subspan(truth.size());
-        const PixelBand band =
-            find_band(judged.tracer, here, judged.frame, judged.depths.far,
-                      judged.frame.triangle.at(p.x, p.y), around[i], truth,
-                      [&](const Reading& reading) { return explains(judged, p, reading); });
-        region.findings[i] = look_around(judged, p, band, truth);
+        region.findings[i] =
+            look_around_pixel(judged, region.places[i], around[i], counted_here, ideal_here, truth);
     }
 }
 
@@ -164,7 +158,7 @@ constexpr std::size_t batch_size = 1024;
 constexpr std::ptrdiff_t hopeless = 2048;
 
 void look_around_batch(const JudgedFrame& judged, const std::vector<Region>& regions,
-                       const Scrutiny& scrutiny) {
+                       Scrutiny scrutiny) {
     const auto for_regions = [&](const auto& work) {
         parallel_for(static_cast<int>(regions.size()), judged.tracer.threads(),
                      [&](int i, int) { work(static_cast<std::size_t>(i)); });
@@ -185,15 +179,14 @@ void look_around_batch(const JudgedFrame& judged, const std::vector<Region>& reg
 }
 
 /// `places` sorted by region.
-std::vector<Finding> look_around(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
-                                 const CoarseOutlines* outlines) {
+std::vector<Finding> look_around(const JudgedFrame& judged, const std::vector<PixelPlace>& places) {
     std::vector<Finding> findings(places.size());
     std::ptrdiff_t unexplained = 0;
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
         const std::span batch = std::span(findings).subspan(first, count);
         look_around_batch(judged, regions_of(std::span(places).subspan(first, count), batch),
-                          {unexplained < hopeless, outlines});
+                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre);
         unexplained += std::count_if(batch.begin(), batch.end(), [](const Finding& finding) {
             return !finding.ledger_in_band;
         });
@@ -205,25 +198,48 @@ bool is_explained(const JudgedFrame& judged, PixelPlace p, const Finding& findin
     return finding.ledger_in_band && !(judged.differs(p) && finding.cause == Cause::unexplained);
 }
 
-/// Looks once more at what nobody has explained, with outlines where clipping may have moved them.
-void look_at_coarse_outlines(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
-                             std::vector<Finding>& findings) {
+/// What may be drawn at a pixel by an outline that the clipper has moved: what is true across one.
+Finding look_across(const JudgedFrame& judged, PixelPlace p, const CoarseOutlines& outlines,
+                    const Finding& so_far) {
+    const Camera& camera = judged.tracer.scene().camera;
+    const Volumes& volumes = judged.prediction.volumes();
+    const glm::dvec2 centre(p.x + 0.5, p.y + 0.5);
+    const glm::dvec3 direction = ray_direction(camera, centre.x, centre.y);
+    RegionLedger here = volumes.ledger(neighbourhood(camera, centre, {}).corners);
+    std::vector<Crossing> crossings;
+    const BandRadius radius = band_radius(judged, p, direction, here, crossings);
+    const double step = std::max(radius.surface, radius.nearest);
+    for (const glm::dvec2& place : outlines.places_across(centre, step)) {
+        if (place.x < 0 || place.y < 0 || place.x > camera.width || place.y > camera.height)
+            continue;
+        const Neighbourhood around = neighbourhood(camera, place, radius);
+        std::vector<RayTruth> truth;
+        for (const glm::dvec3& ray : around.rays) truth.push_back(trace_ray(judged.tracer, ray));
+        RegionLedger counted = volumes.ledger(around.corners);
+        RegionLedger ideal = volumes.ideal_ledger(around.corners);
+        const Finding found = look_around_pixel(judged, p, around, counted, ideal, truth);
+        if (is_explained(judged, p, found)) return found;
+    }
+    return so_far;
+}
+
+/// Looks once more at what nobody has explained.
+void look_across_coarse_outlines(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
+                                 std::vector<Finding>& findings) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (!is_explained(judged, places[i], findings[i])) open.push_back(i);
-    if (open.empty()) return;
+    if (open.empty() || std::ssize(open) > hopeless) return;
     const Scene& scene = judged.tracer.scene();
-    const DepthModel& model = judged.frame.depth_model;
-    const bool clips = model.finite() && !judged.frame.counting.depth_clamp;
+    const bool clips = judged.frame.depth_model.finite() && !judged.frame.counting.depth_clamp;
     const CoarseOutlines outlines(
         scene, judged.silhouette, judged.prediction.volumes().far_ends(),
         drawing_of(scene, judged.frame,
                    clips ? judged.depths.far : std::numeric_limits<double>::infinity()));
-    std::vector<PixelPlace> open_places;
-    for (const std::size_t i : open) open_places.push_back(places[i]);
-    const std::vector<Finding> found = look_around(judged, open_places, &outlines);
-    for (std::size_t k = 0; k < open.size(); ++k)
-        if (is_explained(judged, open_places[k], found[k])) findings[open[k]] = found[k];
+    parallel_for(static_cast<int>(open.size()), judged.tracer.threads(), [&](int k, int) {
+        const std::size_t i = open[static_cast<std::size_t>(k)];
+        findings[i] = look_across(judged, places[i], outlines, findings[i]);
+    });
 }
 
 void record(Comparison& comparison, PixelPlace p, bool in_band) {
@@ -308,8 +324,8 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
     std::stable_sort(open.begin(), open.end(), [&](const PixelPlace& a, const PixelPlace& b) {
         return region_of(a) < region_of(b);
     });
-    std::vector<Finding> findings = look_around(judged, open, nullptr);
-    look_at_coarse_outlines(judged, open, findings);
+    std::vector<Finding> findings = look_around(judged, open);
+    look_across_coarse_outlines(judged, open, findings);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
         record(comparison, p, findings[i].ledger_in_band);

@@ -59,19 +59,24 @@ void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
     }
 }
 
-double CoarseOutlines::reach_at(const glm::dvec2& place, double reach) const {
-    double furthest = 0;
+std::vector<glm::dvec2> CoarseOutlines::places_across(const glm::dvec2& place, double step) const {
+    constexpr std::size_t most = 32;
+    std::vector<glm::dvec2> places;
     for (const auto& [from, to] : outlines_) {
-        if (furthest_aside(from, to) <= furthest) break; // as all that follow
+        if (places.size() >= most) break;
         const glm::dvec2 along = to.place - from.place;
-        const double square = glm::dot(along, along);
+        const double length = glm::length(along);
+        if (!(length > 0)) continue;
         const double t =
-            square > 0 ? std::clamp(glm::dot(place - from.place, along) / square, 0.0, 1.0) : 0;
+            std::clamp(glm::dot(place - from.place, along) / (length * length), 0.0, 1.0);
+        const glm::dvec2 nearest = from.place + t * along;
         const double aside = (1 - t) * from.place_error + t * to.place_error;
-        if (aside > furthest && glm::length(from.place + t * along - place) <= aside + reach)
-            furthest = aside;
+        if (glm::length(nearest - place) > aside + step) continue;
+        const glm::dvec2 across = step / length * glm::dvec2(-along.y, along.x);
+        places.push_back(nearest + across);
+        places.push_back(nearest - across);
     }
-    return furthest;
+    return places;
 }
 
 } // namespace shadowproof

@@ -18,9 +18,10 @@ public:
     CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
                    const std::vector<glm::vec3>* far_ends, const Drawing& drawing);
 
-    /// How far, in pixels, outlines may be drawn aside that may then pass within `reach` of a place
-    /// of the picture, in pixels; zero where none does.
-    double reach_at(const glm::dvec2& place, double reach) const;
+    /// Places, in pixels, on either side of the outlines that may be drawn as far aside as a place
+    /// of the picture, each a step from the outline's nearest point: what is true there may be
+    /// drawn at the place. Of many, those across the outlines that may be moved furthest.
+    std::vector<glm::dvec2> places_across(const glm::dvec2& place, double step) const;
 
 private:
     struct Outline {

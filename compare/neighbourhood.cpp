@@ -9,11 +9,12 @@
 
 namespace shadowproof {
 
-Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius) {
+Neighbourhood neighbourhood(const Camera& camera, const glm::dvec2& centre,
+                            const BandRadius& radius) {
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
     Neighbourhood around;
     const auto ray = [&](double right, double down) {
-        return ray_direction(camera, x + 0.5 + right, y + 0.5 + down);
+        return ray_direction(camera, centre.x + right, centre.y + down);
     };
     const auto add = [&](double reach) {
         for (std::size_t i = 1; i < steps.size() * steps.size(); ++i)
@@ -175,9 +176,8 @@ bool may_gape(const Scene& scene, std::vector<std::uint32_t> triangles,
     for (; !triangles.empty(); ++groups) {
         const std::vector<std::uint32_t> group = take_group(scene, triangles);
         const bool covers = std::ranges::all_of(rays, [&](const glm::dvec3& ray) {
-            return std::ranges::any_of(group, [&](std::uint32_t triangle) {
-                return may_cover(scene, triangle, ray, 0);
-            });
+            return std::ranges::any_of(
+                group, [&](std::uint32_t triangle) { return may_cover(scene, triangle, ray, 0); });
         });
         if (covers) return false;
     }

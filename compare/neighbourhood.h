@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -25,7 +26,9 @@ struct Neighbourhood {
     std::array<glm::dvec3, 4> corners{}; ///< of the larger grid, around it: what is linear is
                                          ///< extreme there
 };
-Neighbourhood neighbourhood(const Camera& camera, int x, int y, const BandRadius& radius);
+/// `centre`: a place of the picture, in pixels from its top left corner.
+Neighbourhood neighbourhood(const Camera& camera, const glm::dvec2& centre,
+                            const BandRadius& radius);
 
 /// A ray within each of the parts into which planes through the eye divide the neighbourhood, of
 /// those that lie next to such a plane: however thin, they may be drawn at the pixel. Of many

@@ -31,7 +31,7 @@ std::optional<std::int64_t> unmoved_count(const Tracer& tracer, const Prediction
                                           const ShadowDepths& depths, const Frame& frame,
                                           std::uint32_t seen, int x, int y) {
     const Camera& camera = tracer.scene().camera;
-    const Neighbourhood around = neighbourhood(camera, x, y, {});
+    const Neighbourhood around = neighbourhood(camera, {x + 0.5, y + 0.5}, {});
     const Volumes& volumes = prediction.volumes();
     RegionLedger counted = volumes.ledger(corner_rays(camera, x, y, x + 1, y + 1));
     const PixelVolumes here{.counted = counted,

@@ -46,11 +46,13 @@ TEST(CoarseOutlines, are_moved_by_three_roundings_of_the_far_corner) {
     // of which is left in the middle, at 32 / 4 pixels a unit.
     const glm::dvec2 on = project(camera, {0.5, -4, 1});
     const double once = 3 * 0x1p-24 * far * 32 / 4;
-    const double reach = outlines.reach_at(on, 0);
-    EXPECT_GT(reach, 0.4 * once);
-    EXPECT_LT(reach, 4 * once);
-    EXPECT_EQ(outlines.reach_at(on + glm::dvec2(reach * 1.5, 0), 0), 0);
-    EXPECT_GT(outlines.reach_at(on + glm::dvec2(reach * 1.5, 0), reach), 0);
+    const auto is_reached = [&](double pixels) {
+        return !outlines.places_across(on + glm::dvec2(pixels, 0), 0x1p-20).empty();
+    };
+    EXPECT_TRUE(is_reached(0.4 * once));
+    EXPECT_FALSE(is_reached(4 * once));
+    for (const glm::dvec2& place : outlines.places_across(on + glm::dvec2(0.2 * once, 0), 0.01))
+        EXPECT_NEAR(std::abs(place.x - on.x), 0.01, 1e-4);
 }
 
 TEST(CoarseOutlines, are_none_where_nothing_is_clipped) {
@@ -62,12 +64,12 @@ TEST(CoarseOutlines, are_none_where_nothing_is_clipped) {
     scene.materials = {{"plain", true}};
     const TracedScene traced(scene);
     const CoarseOutlines outlines = outlines_of(traced, {});
-    EXPECT_EQ(outlines.reach_at(project(scene.camera, {0.5, -0.5, 1}), 1), 0);
+    EXPECT_TRUE(outlines.places_across(project(scene.camera, {0.5, -0.5, 1}), 1).empty());
 }
 
-TEST(WideFloor, is_explained_whatever_its_width) {
+TEST(WideFloor, is_explained) {
     Gpu gpu(GlPlatform::osmesa);
-    for (const float half_width : {4e3F, 4e5F, 4e7F}) {
+    for (const float half_width : {4e3F, 4e4F, 4e5F}) {
         const TracedScene traced(box_over_wide_floor(half_width));
         for (const char* name : {"zfail_reversed", "zfail_infinite", "zpass", "auto"}) {
             SCOPED_TRACE(testing::Message() << name << ", " << half_width);
@@ -78,21 +80,33 @@ TEST(WideFloor, is_explained_whatever_its_width) {
     }
 }
 
-TEST(WideFloor, excuses_no_counter_that_is_wrong_beside_its_outlines) {
+/// Lit pixels, one by one. Wider floors are themselves drawn at depths so far off that the volume
+/// under them may come out in front.
+TEST(WideFloor, excuses_no_false_shadow) {
     Gpu gpu(GlPlatform::osmesa);
-    const TracedScene traced(box_over_wide_floor(4e3F));
-    Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
-    const CoarseOutlines outlines = outlines_of(traced, frame);
-    for (std::uint32_t& counter : frame.counter.pixels) ++counter;
-    const Comparison comparison = compared(traced, frame);
-    int beside = 0;
-    for (int y = 0; y < 40; ++y)
-        for (int x = 0; x < 40; ++x) {
-            if (outlines.reach_at({x + 0.5, y + 0.5}, 1) > 0) continue;
-            ++beside;
-            EXPECT_EQ(comparison.ledger_miss.at(x, y), 1) << x << ", " << y;
+    for (const float half_width : {4e3F, 2e4F}) {
+        const TracedScene traced(box_over_wide_floor(half_width));
+        for (const char* name : {"zfail_reversed", "zpass"}) {
+            const Frame frame = render(*find_technique(name), traced.scene, traced.plan, gpu);
+            const Image<std::uint8_t> before = compared(traced, frame).cause;
+            int tried = 0;
+            int excused = 0;
+            for (int y = 0; y < 40; y += 3)
+                for (int x = 0; x < 40; x += 3) {
+                    if (frame.claim.at(x, y) != Visibility::lit ||
+                        before.at(x, y) != no_difference)
+                        continue;
+                    Frame faulty = frame;
+                    faulty.claim.at(x, y) = Visibility::shadowed;
+                    faulty.counter.at(x, y) = 1;
+                    ++tried;
+                    const auto cause = static_cast<Cause>(compared(traced, faulty).cause.at(x, y));
+                    excused += cause == Cause::unexplained ? 0 : 1;
+                }
+            EXPECT_GT(tried, 50);
+            EXPECT_EQ(excused, 0) << name << ", " << half_width;
         }
-    EXPECT_GT(beside, 1000);
+    }
 }
 
 TEST(WideFloor, excuses_no_picture_that_is_a_pixel_aside) {

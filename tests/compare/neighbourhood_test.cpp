@@ -18,7 +18,7 @@ constexpr double reach = 0.01; ///< pixels
 Neighbourhood around_a_pixel() {
     Camera camera;
     camera.width = camera.height = 64;
-    return neighbourhood(camera, 40, 20, {.surface = reach, .nearest = 0});
+    return neighbourhood(camera, {40.5, 20.5}, {.surface = reach, .nearest = 0});
 }
 
 /// A ray through a place of the neighbourhood whose corners are (-1, -1) to (1, 1).
