@@ -49,7 +49,9 @@ public:
         for (const RayTruth& t : truth)
             if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
                 in_front.push_back(t.triangle);
-        may_gape_ = may_gape(scene_, in_front, around.rays);
+        // What is hidden behind the first closes a gap as well.
+        may_gape_ = may_gape(scene_, in_front, around.rays) &&
+                    may_gape(scene_, all_in_front(), around.rays);
         starts_ = starts();
     }
 
@@ -164,6 +166,19 @@ private:
 
     bool certainly_in_front(std::uint32_t triangle) const {
         return depths_.surface(triangle).upper < shown_range_.lower;
+    }
+
+    /// All triangles that are drawn on some ray, in front of what is shown for certain.
+    std::vector<std::uint32_t> all_in_front() const {
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t triangle = 0; triangle < scene_.triangles.size(); ++triangle)
+            if (triangle != shown_ && sides_of(tracer_, triangle).visible &&
+                std::ranges::any_of(
+                    around_.rays,
+                    [&](const glm::dvec3& ray) { return may_cover(scene_, triangle, ray, 0); }) &&
+                certainly_in_front(triangle))
+                found.push_back(triangle);
+        return found;
     }
 
     /// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen

@@ -1,7 +1,6 @@
 #include "compare/coarse_outlines.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>

@@ -7,7 +7,8 @@
 
 namespace shadowproof {
 
-/// Asks every triangle that faces the chosen light. In double, of a scene of casters.
+/// Asks every triangle that faces the chosen light. Exact, ties broken as the truth breaks them; of
+/// a scene of casters.
 std::size_t volumes_around_eye(const Scene& scene);
 
 } // namespace shadowproof

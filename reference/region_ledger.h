@@ -105,7 +105,7 @@ private:
     const Tracer& tracer_;
     Vertices vertices_;
     std::vector<Silhouette::Side> sides_; ///< p and q: indices into vertices_
-    std::vector<std::uint8_t> behind_;    ///< a flag a vertex, for the ray at hand
+    std::vector<std::uint8_t> behind_;    ///< one flag per vertex, for the ray at hand
     std::vector<Cap> caps_;
     std::shared_ptr<RegionLedger> ends_;
     std::vector<Crossing> found_at_ends_;

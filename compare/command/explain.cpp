@@ -3,6 +3,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/drawing.h"
 #include "compare/command/guard.h"
+#include "compare/command/output_files.h"
 #include "compare/command/standard_output.h"
 #include "compare/escape.h"
 #include "compare/memory.h"
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -255,6 +257,7 @@ std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>
 int explain(const ExplainOptions& options) {
     for (const std::string& file : {options.json, options.svg})
         if (!file.empty()) check_writable(file);
+    check_apart(std::array{options.json, options.svg}, std::array{options.scene});
     const MemoryBudget& memory = options.picture.memory;
     require_picture(memory, options.picture.size.width, options.picture.size.height,
                     Workload::comparison);

@@ -2,6 +2,7 @@
 #include "compare/command/console.h"
 #include "compare/command/guard.h"
 #include "compare/command/map_file.h"
+#include "compare/command/output_files.h"
 #include "compare/output/write_file.h"
 #include "scenes/error.h"
 #include "scenes/picture.h"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -48,6 +50,7 @@ Image<double> heights_of(const Picture& picture) {
 int make_normal_map(const NormalMapOptions& options) {
     Console console(options.quiet);
     check_writable(options.output);
+    check_apart(std::array{options.output}, std::array{options.heights});
     const MemoryAccount memory(options.memory);
     const Picture picture = read_picture(
         options.heights,

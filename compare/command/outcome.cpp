@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 
@@ -86,9 +87,10 @@ std::string timestamp_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(now));
 }
 
-void check_outputs(const OutputOptions& options) {
+void check_outputs(const OutputOptions& options, std::span<const std::string> read) {
     check_output(options.json, options.out, Output::results);
     check_output(options.junit, options.out, Output::other);
+    check_apart(std::array{options.json, options.junit, options.out}, read);
 }
 
 void finish(ReportFolder& folder, Console& console, const Report& report,

@@ -15,7 +15,7 @@ namespace shadowproof {
 std::string timestamp_now();
 
 /// Throws Error where --json or --junit could not be written: before the work, not after.
-void check_outputs(const OutputOptions& options);
+void check_outputs(const OutputOptions& options, std::span<const std::string> read);
 
 /// Causes that a bundled scene declares and no technique shows any more, under any of its lights:
 /// `lights` are its results. Only the scene's default picture, and all techniques under all its

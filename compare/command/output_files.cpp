@@ -41,4 +41,33 @@ void check_output(const std::string& file, const std::string& out, Output output
                     "name a file elsewhere");
 }
 
+namespace {
+
+/// Whether two names lead to one place where a file is kept: devices take what comes.
+bool are_one(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty() || open_descriptor(a) || open_descriptor(b)) return false;
+    std::error_code ignored;
+    if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored) && !fs::is_directory(a, ignored))
+        return false;
+    if (fs::equivalent(a, b, ignored)) return true;
+    try {
+        return followed(a) == followed(b);
+    } catch (const std::system_error&) {
+        return false; // check_writable says why
+    }
+}
+
+} // namespace
+
+void check_apart(std::span<const std::string> written, std::span<const std::string> read) {
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k)
+            if (are_one(written[i], written[k]))
+                throw Error(written[i], "is named for two outputs", "name another file for one");
+        for (const std::string& file : read)
+            if (are_one(written[i], file))
+                throw Error(written[i], "is read, and would be lost", "name another file");
+    }
+}
+
 } // namespace shadowproof

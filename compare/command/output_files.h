@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace shadowproof {
@@ -17,5 +18,9 @@ std::optional<std::string> name_in_report(const std::string& file, const std::st
 /// report's folder it must not take the name of a file of every report; results.json may be asked
 /// for where it is the results that are.
 void check_output(const std::string& file, const std::string& out, Output output);
+
+/// Throws Error where two of the files that a command writes are one, or one of them is a file that
+/// it reads: that would be lost. Names may be empty.
+void check_apart(std::span<const std::string> written, std::span<const std::string> read);
 
 } // namespace shadowproof

@@ -2,6 +2,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/guard.h"
+#include "compare/command/output_files.h"
 #include "compare/command/truth_exr.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 
 namespace shadowproof {
@@ -70,6 +72,7 @@ void write_truth(const RenderOptions& options, const Tracer& tracer, const Groun
 int render_truth(const RenderOptions& options) {
     Console console(options.quiet);
     check_writable(options.output);
+    check_apart(std::array{options.output}, std::array{options.scene});
     require_picture(options.picture.memory, options.picture.size.width, options.picture.size.height,
                     work_of(options, false));
     const Scene scene = load_scene(options.scene, options.picture.request());

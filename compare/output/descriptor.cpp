@@ -1,6 +1,7 @@
 #include "compare/output/descriptor.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,6 +14,10 @@ namespace shadowproof {
 
 void throw_errno() {
     throw std::system_error(errno, std::generic_category());
+}
+
+bool may_not_give_away(int error) {
+    return error == EPERM || error == EINVAL || error == ENOSYS || error == EOPNOTSUPP;
 }
 
 Descriptor::~Descriptor() {
@@ -57,10 +62,27 @@ void read_pieces(const std::filesystem::path& file,
     }
 }
 
+namespace {
+
+/// For a pipe that is full: until somebody reads, but not for ever.
+void wait_for_reader(const Descriptor& pipe) {
+    constexpr int patience_milliseconds = 5000;
+    pollfd waiting{.fd = pipe.number(), .events = POLLOUT, .revents = 0};
+    const int ready = ::poll(&waiting, 1, patience_milliseconds);
+    if (ready == 0) errno = ETIMEDOUT;
+    if (ready == 0 || (ready < 0 && errno != EINTR)) throw_errno();
+}
+
+} // namespace
+
 void write_all(const Descriptor& to, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(to.number(), bytes.data(), bytes.size());
         if (written < 0 && errno == EINTR) continue;
+        if (written < 0 && errno == EAGAIN) {
+            wait_for_reader(to);
+            continue;
+        }
         if (written == 0) errno = EIO; // nothing taken and no reason given: it would never end
         if (written <= 0) throw_errno();
         bytes.remove_prefix(static_cast<std::size_t>(written));

@@ -14,6 +14,10 @@ namespace shadowproof {
 /// Throws std::system_error of errno.
 [[noreturn]] void throw_errno();
 
+/// Whether an error of chown says that this process may not give the file to that owner, or that a
+/// user namespace or a file system knows no such owner.
+bool may_not_give_away(int error);
+
 /// An open file; closed with this.
 class Descriptor {
 public:

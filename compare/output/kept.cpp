@@ -124,8 +124,8 @@ void take_over_folder_modes(const std::vector<KeptFile>& kept, const fs::path& f
 void take_over_mode(const fs::path& from, const fs::path& to) {
     struct stat status {};
     if (::stat(from.c_str(), &status) != 0) throw_errno();
-    // Only root may give files away.
-    if (::chown(to.c_str(), status.st_uid, status.st_gid) != 0 && errno != EPERM) throw_errno();
+    if (::chown(to.c_str(), status.st_uid, status.st_gid) != 0 && !may_not_give_away(errno))
+        throw_errno();
     if (::chmod(to.c_str(), status.st_mode & 07777U) != 0) throw_errno();
 }
 

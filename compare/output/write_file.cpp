@@ -11,7 +11,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -70,11 +69,7 @@ Descriptor open_to_write_into(const fs::path& file) {
     constexpr auto patience = 5s;
     for (auto waited = 0ms;; waited += pause) {
         try {
-            Descriptor opened = open_file(file, O_WRONLY | O_NOCTTY | O_NONBLOCK);
-            const int flags = ::fcntl(opened.number(), F_GETFL);
-            if (flags < 0 || ::fcntl(opened.number(), F_SETFL, flags & ~O_NONBLOCK) != 0)
-                throw_errno();
-            return opened;
+            return open_file(file, O_WRONLY | O_NOCTTY | O_NONBLOCK);
         } catch (const std::system_error& error) {
             if (error.code().value() != ENXIO || waited >= patience) throw;
         }
@@ -145,8 +140,9 @@ void give_name(const Descriptor& unnamed, const fs::path& name) {
 
 /// Whose it was, and who may read it, stays.
 void take_over_mode(const Descriptor& file, const Status& from) {
-    // Only root may give files away: its owner may then be another, and the mode is what counts.
-    if (::fchown(file.number(), from.st_uid, from.st_gid) != 0 && errno != EPERM) throw_errno();
+    // Where files may not be given away the owner is another, and the mode is what counts.
+    if (::fchown(file.number(), from.st_uid, from.st_gid) != 0 && !may_not_give_away(errno))
+        throw_errno();
     if (::fchmod(file.number(), from.st_mode & 07777U) != 0) throw_errno();
 }
 
@@ -219,7 +215,10 @@ void check_writable(const fs::path& file) {
 
 void append_to_file(const fs::path& file, std::string_view bytes) {
     try {
-        Descriptor opened = open_file(file, O_WRONLY | O_APPEND | O_CREAT | O_NOCTTY);
+        const std::optional<Status> there = status_of(file);
+        Descriptor opened = there && S_ISFIFO(there->st_mode)
+                                ? open_to_write_into(file)
+                                : open_file(file, O_WRONLY | O_APPEND | O_CREAT | O_NOCTTY);
         write_all(opened, bytes);
         opened.close();
     } catch (const std::system_error& error) {

@@ -205,3 +205,36 @@ test('a step summary that cannot be written is said, and fails nothing', () => {
   assert.equal(full.code, 0);
   assert.match(full.err, /GITHUB_STEP_SUMMARY=\/dev\/full: cannot be written \(No space left/);
 });
+
+test('a file that is read, or named for two outputs, is never written over', () => {
+  const below = folder('apart');
+  const scene = join(below, 'scene.gltf');
+  writeFileSync(scene, readFileSync(join(process.env.SHADOWPROOF_SCENES, 'near_plane.gltf')));
+  symlinkSync('scene.gltf', join(below, 'link.json'));
+  writeFileSync(join(below, 'heights.png'), readFileSync(height));
+  const before = contentOf(below);
+  const at = ['--size', '16x16', '--technique', 'zpass'];
+  for (const command of [
+    [program, 'verify', 'scene.gltf', ...at, '--out', 'r', '--json', './scene.gltf'],
+    [program, 'verify', 'scene.gltf', ...at, '--out', 'r', '--junit', 'link.json'],
+    [program, 'verify', 'scene.gltf', ...at, '--out', 'r', '--json', 'a', '--junit', './a'],
+    [program, 'verify', 'scene.gltf', ...at, '--out', 'r', '--json', 'r'],
+    [program, 'explain', 'scene.gltf', '--pixel', '3,3', ...at, '--json', scene],
+    [program, 'render', 'scene.gltf', '--size', '16x16', '-o', 'scene.gltf'],
+    [program, 'normal-map', 'heights.png', '-o', 'heights.png'],
+  ]) {
+    const done = run(command, { cwd: below });
+    assert.notEqual(done.code, 0, command.join(' '));
+    assert.match(done.err, /^\S+: [^\n]+; [^\n]+|Run with --help/m, command.join(' '));
+    assert.deepEqual(contentOf(below), before, command.join(' '));
+  }
+});
+
+test('a step summary into a pipe that nobody reads does not hang', () => {
+  const below = folder('summary-pipe');
+  run(['mkfifo', 'pipe'], { cwd: below });
+  const done = run(verify('--out', 'r', '-q'),
+                   { cwd: below, env: { GITHUB_ACTIONS: 'true', GITHUB_STEP_SUMMARY: 'pipe' }, seconds: 60 });
+  assert.equal(done.code, 0, done.err);
+  assert.match(done.err, /GITHUB_STEP_SUMMARY=pipe: /);
+});

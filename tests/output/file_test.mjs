@@ -115,6 +115,20 @@ test('a FIFO that nobody reads is an error, and hangs nothing', () => {
   assert.match(done.err, /pipe: cannot be written \(nobody reads from the other end\)/);
 });
 
+test('a FIFO that is open and not read is an error when it is full, and hangs nothing', () => {
+  const below = folder('full-pipe');
+  run(['mkfifo', 'pipe'], { cwd: below });
+  // It holds the reading end, and never reads.
+  const holder = spawn('sh', ['-c', 'exec 3<>pipe; exec sleep 60'], { cwd: below });
+  try {
+    const done = run([program, 'pipe', '1000000'], { cwd: below, seconds: 30 });
+    assert.equal(done.code, 3, `${done.code} ${done.signal} ${done.err}`);
+    assert.match(done.err, /pipe: cannot be written \(.*timed out/);
+  } finally {
+    holder.kill();
+  }
+});
+
 test('folders, places that do not exist and names that are too long are refused before', () => {
   const below = folder('nowhere', { file: 'old' });
   mkdirSync(join(below, 'folder'));

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -48,6 +46,7 @@ public:
     void follow(ChildProcess& worker) {
         MessageReader reader(worker.pipe());
         heard_something_ = false;
+        goes_on_ = step_ == Step::cells;
         begin_step();
         while (!reader.at_end()) {
             if (const std::optional<Message> message = reader.next(milliseconds_to_wait())) {
@@ -87,6 +86,7 @@ private:
     std::size_t first_result_ = 0; ///< of that scene, in the report
     bool done_ = false;
     bool heard_something_ = false; ///< of the worker that is followed
+    bool goes_on_ = false; ///< it starts, reads and traces a scene anew for its further cells
     Clock::time_point step_began_;
     Clock::time_point deadline_;
     std::chrono::seconds speaks_after_ = silence;
@@ -96,9 +96,10 @@ private:
     void begin_step() {
         step_began_ = Clock::now();
         speaks_after_ = silence;
-        const bool starting = step_ == Step::starting || step_ == Step::between;
-        const std::chrono::duration<double> time(
-            starting ? std::max(options_.timeout, starting_seconds) : options_.timeout);
+        const bool starting = step_ == Step::starting || step_ == Step::between || goes_on_;
+        double seconds = starting ? std::max(options_.timeout, starting_seconds) : options_.timeout;
+        if (goes_on_) seconds += 2 * options_.timeout;
+        const std::chrono::duration<double> time(seconds);
         deadline_ = step_began_ + std::chrono::duration_cast<Clock::duration>(time);
     }
 
@@ -128,7 +129,7 @@ private:
         case Step::tracing:
             return report_.scenes.back().name + ": tracing";
         case Step::cells:
-            return report_.scenes.back().name + ": writing";
+            return report_.scenes.back().name + (goes_on_ ? ": reading it again" : ": writing");
         case Step::trying:
             break;
         }
@@ -159,6 +160,7 @@ private:
         result() = traced.scene;
         result().cells = std::move(cells);
         step_ = Step::cells;
+        goes_on_ = false;
     }
     void take(const messages::SceneFailed& failed) {
         result().name = failed.name;
@@ -169,6 +171,7 @@ private:
         cell.technique = begun.technique;
         cell.summary = begun.summary;
         step_ = Step::trying;
+        goes_on_ = false;
     }
     void take(const messages::CellDone& done) {
         result().cells.back() = done.cell;
@@ -200,8 +203,8 @@ private:
     }
 
     void fail_scene(const std::string& error) {
+        // Cells that were judged stay.
         result().error = error;
-        result().cells.clear();
         end_light();
     }
 

@@ -5,6 +5,8 @@
 #include "compare/command/verify/supervisor.h"
 #include "compare/memory.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 namespace shadowproof {
@@ -18,6 +20,10 @@ Report begin_report(const VerifyOptions& options) {
     report.arguments = settings(options.scene, options.technique);
     const std::vector<std::string> gate = settings(options.gate);
     report.arguments.insert(report.arguments.end(), gate.begin(), gate.end());
+    if (options.timeout != VerifyOptions{}.timeout) {
+        report.arguments.emplace_back("--timeout");
+        report.arguments.push_back(fmt::format("{}", options.timeout));
+    }
     report.gate = options.gate.gate;
     return report;
 }
@@ -29,8 +35,9 @@ int verify(const VerifyOptions& options, double waited) {
     Console console(options.output.quiet);
     // What cannot be read or written is refused before the work is done, not after.
     std::optional<ResultsFile> baseline;
-    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline);
-    check_outputs(options.output);
+    MemoryAccount memory(options.scene.memory);
+    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
+    check_outputs(options.output, options.scenes);
     require_picture(options.scene.memory, options.scene.size.width, options.scene.size.height,
                     Workload::comparison);
     for (const Allowance& allowance : options.gate.gate.allow)
@@ -67,6 +74,11 @@ Work add_verify(CLI::App& app) {
                      "Seconds for a cell, and for reading or tracing a scene, above which it is "
                      "given up (600; 0: any number)")
         ->type_name("SECONDS")
+        ->check([](const std::string& text) {
+            // A range lets through what is no number: it compares with nothing.
+            return text.find_first_of("nN") == std::string::npos ? std::string()
+                                                                 : text + " is not a number";
+        })
         ->check(CLI::Range(0.0, 1e9).description(""));
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
