@@ -69,8 +69,8 @@ public:
     /// counts.
     void crossings(const glm::dvec3& direction, std::vector<Crossing>& found);
 
-    /// Normals of the planes through the eye that pass between four rays and bound faces there: rays
-    /// on the same sides of all of them cross the same faces.
+    /// Normals of the planes through the eye that pass between four rays and bound faces there:
+    /// rays on the same sides of all of them cross the same faces.
     std::vector<glm::dvec3> outlines(const std::array<glm::dvec3, 4>& corners) const;
 
     /// How many sides are seen edge-on within the rectangle of four rays: both the line of their
@@ -83,7 +83,7 @@ private:
         glm::dvec3 plane{0, 0, 0};
         std::array<glm::dvec3, 3> edges{}; ///< as Silhouette::Side::edge
         std::array<bool, 3> turned{};      ///< the triangle runs through the edge the other way
-        double eye = 0; ///< the eye against that plane; positive behind it
+        double eye = 0;                    ///< the eye against that plane; positive behind it
         bool is_met_by(const glm::dvec3& direction) const; ///< ahead of the eye or behind it
         bool may_be_met(const std::array<glm::dvec3, 4>& corners) const; ///< anywhere between them
     };

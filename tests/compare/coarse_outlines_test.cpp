@@ -93,8 +93,7 @@ TEST(WideFloor, excuses_no_false_shadow) {
             int excused = 0;
             for (int y = 0; y < 40; y += 3)
                 for (int x = 0; x < 40; x += 3) {
-                    if (frame.claim.at(x, y) != Visibility::lit ||
-                        before.at(x, y) != no_difference)
+                    if (frame.claim.at(x, y) != Visibility::lit || before.at(x, y) != no_difference)
                         continue;
                     Frame faulty = frame;
                     faulty.claim.at(x, y) = Visibility::shadowed;
