@@ -11,9 +11,16 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <thread>
 
 namespace shadowproof {
 
@@ -31,6 +38,31 @@ namespace {
     _exit(code);
 }
 
+/// Whether any thread of this process but the calling one is at work, as the system tells.
+bool others_are_at_work() {
+    namespace fs = std::filesystem;
+    const std::string own = std::to_string(gettid());
+    std::error_code ignored;
+    for (const fs::directory_entry& task : fs::directory_iterator("/proc/self/task", ignored)) {
+        if (task.path().filename() == own) continue;
+        std::ifstream file(task.path() / "stat");
+        const std::string line{std::istreambuf_iterator<char>(file), {}};
+        const std::size_t name_end = line.rfind(") "); // "4711 (name) S ..."
+        if (name_end != std::string::npos && line[name_end + 2] != 'S') return true;
+    }
+    return false;
+}
+
+/// Libraries start threads while they are loaded (log4cplus, which comes with OpenImageIO). One
+/// that still starts may hold a lock, such as an allocator's, that nobody would ever give back in a
+/// child: waits until all of them sleep.
+void let_other_threads_settle() {
+    constexpr int most_tries = 2000;
+    constexpr std::chrono::milliseconds moment{1};
+    for (int i = 0; i < most_tries && others_are_at_work(); ++i)
+        std::this_thread::sleep_for(moment);
+}
+
 } // namespace
 
 std::string words_of(const ChildEnd& end) {
@@ -45,6 +77,7 @@ std::string words_of(const ChildEnd& end) {
 ChildProcess::ChildProcess(const std::function<int(int pipe)>& work) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw_no_process(errno);
+    let_other_threads_settle();
     // What is buffered would be printed twice.
     std::fflush(nullptr);
     const pid_t parent = getpid();

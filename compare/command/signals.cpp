@@ -40,8 +40,7 @@ void end_child() {
     end_child();
     remove_unfinished();
     const std::string words =
-        fmt::format("shadowproof: ended by signal {} ({}); what was unfinished is removed, and "
-                    "what was there before is as it was\n",
+        fmt::format("shadowproof: ended by signal {} ({}); what was unfinished is removed\n",
                     signal, strsignal(signal));
     // Nobody is left to hear that it cannot be written.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
