@@ -43,17 +43,17 @@ void check_output(const std::string& file, const std::string& out, Output output
 
 namespace {
 
-/// Whether two names lead to one place where a file is kept: devices take what comes.
+/// Whether two names lead to one place where a file is kept: devices take what comes. What cannot
+/// be followed is no output: check_writable says why.
 bool are_one(const std::string& a, const std::string& b) {
-    if (a.empty() || b.empty() || open_descriptor(a) || open_descriptor(b)) return false;
-    std::error_code ignored;
-    if (fs::exists(a, ignored) && !fs::is_regular_file(a, ignored) && !fs::is_directory(a, ignored))
-        return false;
-    if (fs::equivalent(a, b, ignored)) return true;
+    if (a.empty() || b.empty()) return false;
     try {
+        if (open_descriptor(a) || open_descriptor(b)) return false;
+        if (fs::exists(a) && !fs::is_regular_file(a) && !fs::is_directory(a)) return false;
+        if (fs::exists(a) && fs::exists(b)) return fs::equivalent(a, b);
         return followed(a) == followed(b);
     } catch (const std::system_error&) {
-        return false; // check_writable says why
+        return false;
     }
 }
 
@@ -64,8 +64,10 @@ void check_apart(std::span<const std::string> written, std::span<const std::stri
         for (std::size_t k = 0; k < i; ++k)
             if (are_one(written[i], written[k]))
                 throw Error(written[i], "is named for two outputs", "name another file for one");
+        std::error_code ignored;
         for (const std::string& file : read)
-            if (are_one(written[i], file))
+            // Else it is the name of a bundled scene.
+            if (fs::is_regular_file(file, ignored) && are_one(written[i], file))
                 throw Error(written[i], "is read, and would be lost", "name another file");
     }
 }
