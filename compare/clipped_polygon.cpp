@@ -113,4 +113,23 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera,
     return points;
 }
 
+std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
+                                                           const std::vector<glm::vec3>* far_ends,
+                                                           std::uint32_t triangle, int first) {
+    const glm::dvec4 light = homogeneous(chosen_light(casters));
+    const auto start = [&](int k) {
+        return glm::dvec4(glm::dvec3(casters.positions[casters.triangles[triangle][k]]), 1);
+    };
+    const auto end = [&](int k) {
+        if (far_ends == nullptr) return light.w * start(k) - light;
+        return glm::dvec4(glm::dvec3((*far_ends)[casters.triangles[triangle][k]]), 1);
+    };
+    const int a = first;
+    const int b = (first + 1) % 3;
+    return {{{start(a), start(b), end(b)},
+             {start(a), end(b), end(a)},
+             {start(b), start(a), end(a)},
+             {start(b), end(a), end(b)}}};
+}
+
 } // namespace shadowproof

@@ -6,6 +6,7 @@
 #include "scenes/scene.h"
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
@@ -41,5 +42,13 @@ struct PicturePoint {
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing);
+
+/// The triangles as which a side of a volume may be drawn, over the edge from corner `first` of a
+/// triangle to the next: a side is two, and which diagonal parts them hangs on the order of
+/// positions. `far_ends`: where the casters' positions lie once extruded, null where that is at
+/// infinity.
+std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
+                                                           const std::vector<glm::vec3>* far_ends,
+                                                           std::uint32_t triangle, int first);
 
 } // namespace shadowproof

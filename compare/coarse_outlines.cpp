@@ -1,10 +1,10 @@
 #include "compare/coarse_outlines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
-#include <utility>
 
 namespace shadowproof {
 
@@ -22,27 +22,12 @@ CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
         const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
         add(clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawing));
     }
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
-    for (const Silhouette::Side& side : silhouette.sides()) {
-        if (side.triangle == no_triangle) continue;
-        const glm::uvec3 corners = scene.triangles[side.triangle];
-        const int first = static_cast<int>(side.part);
-        const auto start = [&](std::uint32_t i) {
-            return glm::dvec4(glm::dvec3(scene.positions[i]), 1);
-        };
-        const auto end = [&](std::uint32_t i) {
-            return far_ends != nullptr ? glm::dvec4(glm::dvec3((*far_ends)[i]), 1)
-                                       : light.w * start(i) - light;
-        };
-        // Two triangles, whose common edge lies within the side: it is no outline, but both are
-        // clipped.
-        const std::uint32_t a = corners[first];
-        const std::uint32_t b = corners[(first + 1) % 3];
-        for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
-            add(clipped_polygon(scene.camera, {start(one), start(other), end(other)}, drawing));
-            add(clipped_polygon(scene.camera, {start(one), end(other), end(one)}, drawing));
-        }
-    }
+    // The diagonal between a side's two triangles is no outline, but both are clipped.
+    for (const Silhouette::Side& side : silhouette.sides())
+        if (side.triangle != no_triangle)
+            for (const std::array<glm::dvec4, 3>& half :
+                 triangles_of_side(scene, far_ends, side.triangle, static_cast<int>(side.part)))
+                add(clipped_polygon(scene.camera, half, drawing));
     std::stable_sort(outlines_.begin(), outlines_.end(), [](const Outline& a, const Outline& b) {
         return furthest_aside(a.from, a.to) > furthest_aside(b.from, b.to);
     });

@@ -188,29 +188,13 @@ double attribute_freedom(const Scene& scene, std::uint32_t triangle, const Cover
     return 2 * inverse_depth * depth;
 }
 
-// A side is two triangles. Which diagonal parts them hangs on the order of positions: both are
-// tried.
 double setup_freedom(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                      const Crossing& side, const CoveredPixel& pixel) {
-    const glm::dvec4 light = homogeneous(chosen_light(casters));
-    const glm::uvec3 corners = casters.triangles[side.triangle];
-    const int first = static_cast<int>(side.part);
-    const std::uint32_t a = corners[first];
-    const std::uint32_t b = corners[(first + 1) % 3];
-    const auto start = [&](std::uint32_t i) {
-        return glm::dvec4(glm::dvec3(casters.positions[i]), 1);
-    };
-    const auto end = [&](std::uint32_t i) {
-        return far_ends != nullptr ? glm::dvec4(glm::dvec3((*far_ends)[i]), 1)
-                                   : light.w * start(i) - light;
-    };
     std::vector<PictureTriangle> triangles;
-    for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
-        for (const std::array<glm::dvec4, 3>& half :
-             {std::array{start(one), start(other), end(other)},
-              std::array{start(one), end(other), end(one)}})
-            for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel))
-                triangles.push_back(triangle);
+    for (const std::array<glm::dvec4, 3>& half :
+         triangles_of_side(casters, far_ends, side.triangle, static_cast<int>(side.part)))
+        for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel))
+            triangles.push_back(triangle);
     return largest_freedom(casters.camera, triangles, pixel);
 }
 

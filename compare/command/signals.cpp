@@ -1,5 +1,6 @@
 #include "compare/command/signals.h"
 
+#include "compare/command/options.h"
 #include "compare/output/unfinished.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,10 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <string_view>
 #include <thread>
 
 namespace shadowproof {
@@ -19,6 +23,7 @@ namespace {
 // Signals come to the process, and so these are the process's.
 std::atomic<pid_t> running_child = -1;
 std::atomic<int> pipe_of_child = -1;
+std::atomic<pid_t> owner = -1;
 std::atomic<bool> is_ending = false;
 
 /// Ignored signals stay ignored (nohup).
@@ -53,6 +58,22 @@ void end_child() {
     _exit(128 + signal);
 }
 
+/// For an exception that nobody catches, such as one that memory which runs out throws in a thread
+/// of a library. Memory may be short: nothing is allocated here. A child crashes as ever: its
+/// parent says so.
+[[noreturn]] void end_uncaught() {
+    if (getpid() != owner) std::abort();
+    is_ending = true;
+    end_child();
+    remove_unfinished();
+    static constexpr std::string_view words =
+        "shadowproof: ended by an error in a library's thread, as where memory runs out; "
+        "nothing was written\n";
+    // Nobody is left to hear that it cannot be written.
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
+    _exit(exit_could_not);
+}
+
 [[noreturn]] void wait_for(sigset_t signals) {
     int signal = 0;
     while (sigwait(&signals, &signal) != 0) {
@@ -65,6 +86,8 @@ void end_child() {
 void handle_signals() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    owner = getpid();
+    std::set_terminate(end_uncaught);
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})

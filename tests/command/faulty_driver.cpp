@@ -1,14 +1,18 @@
 // A driver with faults, for LD_PRELOAD: SHADOWPROOF_FAULT=FUNCTION:N:HOW makes the Nth call of
 // FUNCTION end the process, or never return. Functions are glReadPixels, which each technique calls
-// when it has drawn, and rtcBuildBVH, with which tracing begins. HOW is a signal's number, or
-// "hang". SHADOWPROOF_FAULT_ONCE names a file: once it exists there are no more faults.
+// when it has drawn, rtcBuildBVH, with which tracing begins, and fork, with which the command hands
+// its work to a child. HOW is a signal's number, "hang", or "throw": a thread throws what nobody
+// catches, as one of a library does where memory runs out. SHADOWPROOF_FAULT_ONCE names a file:
+// once it exists there are no more faults.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <string_view>
+#include <thread>
 
 namespace {
 
@@ -31,6 +35,7 @@ void fault_at(std::string_view function) {
     }
     if (std::string_view(how) == ":hang")
         for (;;) pause();
+    if (std::string_view(how) == ":throw") std::thread([] { throw std::bad_alloc(); }).join();
     const int number = std::atoi(how + 1);
     std::signal(number, SIG_DFL);
     std::raise(number);
@@ -58,4 +63,9 @@ extern "C" Procedure OSMesaGetProcAddress(const char* name) {
 extern "C" void* rtcBuildBVH(const void* arguments) {
     fault_at("rtcBuildBVH");
     return next<void* (*)(const void*)>("rtcBuildBVH")(arguments);
+}
+
+extern "C" pid_t fork() {
+    fault_at("fork");
+    return next<pid_t (*)()>("fork")();
 }

@@ -68,6 +68,18 @@ test('a fault at each cell in turn loses no other cell', () => {
                      techniques.map((name) => [name, true]));
 });
 
+test('an exception that nobody catches ends the program in words, and changes nothing', () => {
+  const before = filesBelow(join(scratch, 'plain')).sort();
+  for (const command of [[...verify, '--out', 'plain'],
+                         ['render', 'near_plane', ...size, '-o', 'thrown.png']]) {
+    const run = shadowproof(command, fault('fork:1:throw'));
+    assert.equal(run.code, 3, run.err);
+    assert.match(run.err, /^shadowproof: ended by an error in a library's thread, [^\n]*\n$/);
+  }
+  assert.deepEqual(filesBelow(join(scratch, 'plain')).sort(), before);
+  assert.deepEqual(readdirSync(scratch).filter((name) => /thrown|writing/.test(name)), []);
+});
+
 test('a cell that hangs is given up after --timeout, with a verdict of its own that fails', () => {
   const run = shadowproof([...verify, '--timeout', '20', '--junit', 'junit.xml'],
                           fault('glReadPixels:1:hang', 'hung'));

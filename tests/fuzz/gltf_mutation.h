@@ -1,16 +1,10 @@
 // Mutations of a glTF asset: of its JSON tree, its geometry and its bytes.
 #pragma once
 
+#include "tests/dice.h"
 #include "tests/fuzz/asset.h"
-#include "tests/fuzz/dice.h"
-
-#include <span>
-#include <string_view>
 
 namespace shadowproof::fuzz {
-
-/// Names and strings that glTF or shadowproof give a meaning.
-std::span<const std::string_view> gltf_words();
 
 /// One change that mostly leaves a scene that loads: a vertex, a triangle, the place of a node, the
 /// light or the camera.

@@ -2,6 +2,7 @@
 #include "tests/fuzz/gltf_mutation.h"
 #include "tests/fuzz/mutator.h"
 
+using shadowproof::Dice;
 using namespace shadowproof::fuzz;
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* bytes, std::size_t size,

@@ -1,7 +1,7 @@
 // Numbers that programs stumble over, and small moves of ordinary ones.
 #pragma once
 
-#include "tests/fuzz/dice.h"
+#include "tests/dice.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // Mutations of a JSON tree: the text stays JSON, what it says does not.
 #pragma once
 
-#include "tests/fuzz/dice.h"
+#include "tests/dice.h"
 #include "tests/fuzz/hostile_number.h"
 
 #include <cstdint>

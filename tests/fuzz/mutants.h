@@ -1,8 +1,8 @@
 // Mutated assets, made of those that lie in folders.
 #pragma once
 
+#include "tests/dice.h"
 #include "tests/fuzz/asset.h"
-#include "tests/fuzz/dice.h"
 
 #include <cstdint>
 #include <filesystem>

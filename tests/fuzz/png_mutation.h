@@ -2,8 +2,8 @@
 // behind the compression.
 #pragma once
 
+#include "tests/dice.h"
 #include "tests/fuzz/asset.h"
-#include "tests/fuzz/dice.h"
 
 #include <array>
 #include <optional>

@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+using shadowproof::Dice;
 using namespace shadowproof::fuzz;
 
 namespace {

@@ -33,16 +33,24 @@ run() {
     # picture is damaged.
     local leaks=1
     case $name in verify | picture) leaks=0 ;; esac
-    local begin=$SECONDS
+    local begin=$SECONDS round=0 code before
     mkdir -p "$corpus"
     : >"$log"
     while [ $((SECONDS - begin)) -lt "$seconds" ]; do
+        code=0
+        before=$(find "$found" -name "$name-*" | wc -l)
         SHADOWPROOF_FUZZ_FINDINGS=$found \
             ASAN_OPTIONS=detect_leaks=$leaks:quarantine_size_mb=16:allocator_may_return_null=1 \
             "$work/tests/fuzz/fuzz_$name" "$corpus" "tests/fuzz/corpus/$name" \
             -artifact_prefix="$found/$name-" -max_total_time=$((seconds - (SECONDS - begin))) \
             -max_len=60000 -len_control=0 -timeout=30 -rss_limit_mb=3000 -malloc_limit_mb=1500 \
-            -print_final_stats=1 >>"$log" 2>&1 || true
+            -print_final_stats=1 >>"$log" 2>&1 || code=$?
+        # Whatever ends a round without an input of its own to show is a finding all the same.
+        round=$((round + 1))
+        if [ "$code" -ne 0 ] && [ "$(find "$found" -name "$name-*" | wc -l)" -eq "$before" ]; then
+            echo "see $log" >"$found/$name-ended-with-$code-in-round-$round"
+            break
+        fi
     done
     # The second line of `times` is of what this subshell has started: "0m1.2s 0m0.3s", the
     # targets' own work and the kernel's for them.
@@ -58,7 +66,7 @@ run() {
 
 # Each slot takes the next target that nobody has taken.
 queue=$(mktemp)
-trap 'rm -f "$queue" "$queue.lock"; kill $(jobs -p) 2>/dev/null || true' EXIT
+trap 'rm -f "$queue" "$queue.lock"; jobs -p | xargs -r kill 2>/dev/null' EXIT
 printf '%s\n' "${targets[@]}" >"$queue"
 slot() {
     local name

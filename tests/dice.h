@@ -1,4 +1,5 @@
-// Random choices of a mutation, all from one seed.
+// Random choices of a mutation, all from one seed: the same on every machine, which those of the
+// standard's distributions are not.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 #include <iterator>
 #include <random>
 
-namespace shadowproof::fuzz {
+namespace shadowproof {
 
 class Dice {
 public:
@@ -16,6 +17,9 @@ public:
     std::size_t below(std::size_t end) { return random_() % end; }
     bool one_in(std::size_t n) { return below(n) == 0; }
     std::uint64_t bits() { return random_(); }
+    double between(double low, double high) {
+        return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
+    }
 
     template <class Range>
     auto& one_of(Range& range) {
@@ -26,4 +30,4 @@ private:
     std::mt19937_64 random_;
 };
 
-} // namespace shadowproof::fuzz
+} // namespace shadowproof
