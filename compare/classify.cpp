@@ -3,6 +3,7 @@
 #include "compare/coarse_outlines.h"
 #include "compare/freedom.h"
 #include "compare/pixel_cause.h"
+#include "compare/surface_check.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -27,9 +28,7 @@ struct Finding {
 Finding look_around(const JudgedFrame& judged, PixelPlace p, const PixelBand& band,
                     std::span<const RayTruth> around) {
     Finding finding;
-    const bool degenerate = judged.truth.exactness.at(p.x, p.y) == Exactness::degenerate;
     finding.ledger_in_band =
-        degenerate ||
         std::any_of(band.readings.begin(), band.readings.end(), [&](const Reading& reading) {
             return judged.stored(reading.count) == judged.read_back(p);
         });
@@ -275,6 +274,25 @@ void count_causes(Comparison& comparison) {
         }
 }
 
+/// What is shown is evidence as the counter is: where no rasterizer would show it, nothing is
+/// explained.
+void check_surfaces(const JudgedFrame& judged, Comparison& comparison) {
+    const SurfaceCheck check(judged.tracer, judged.frame, judged.depths.far);
+    const int width = comparison.ledger_miss.width;
+    Image<std::uint8_t> wrong(width, comparison.ledger_miss.height);
+    parallel_for(wrong.height, judged.tracer.threads(), [&](int y, int) {
+        for (int x = 0; x < width; ++x) wrong.at(x, y) = check.holds(x, y) ? 0 : 1;
+    });
+    for (int y = 0; y < wrong.height; ++y)
+        for (int x = 0; x < width; ++x)
+            if (wrong.at(x, y) != 0 && comparison.ledger_miss.at(x, y) == 0) {
+                --(comparison.predicted.at(x, y) == judged.read_back({x, y})
+                       ? comparison.ledger.equal
+                       : comparison.ledger.in_band);
+                record(comparison, {x, y}, false);
+            }
+}
+
 /// Colours differ where they are beyond their bounds; where visibility differs, they are not
 /// judged.
 void check_colors(const JudgedFrame& judged, Comparison& comparison) {
@@ -332,6 +350,7 @@ Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const Gr
         if (judged.differs(p))
             comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(findings[i].cause);
     }
+    check_surfaces(judged, comparison);
     if (!frame.color.pixels.empty()) check_colors(judged, comparison);
     count_causes(comparison);
     return comparison;

@@ -94,7 +94,6 @@ bool explains(const JudgedFrame& judged, PixelPlace p, const Reading& reading) {
 Cause cause_in_band(const JudgedFrame& judged, PixelPlace p, const PixelBand& band,
                     std::span<const RayTruth> around) {
     const Visibility claim = judged.frame.claim.at(p.x, p.y);
-    if (judged.truth.exactness.at(p.x, p.y) == Exactness::degenerate) return Cause::edge;
     if (const std::optional<Cause> cause = cause_at_centre(judged, p)) return *cause;
     if (std::any_of(around.begin(), around.end(),
                     [&](const RayTruth& t) { return t.visibility == claim; }))

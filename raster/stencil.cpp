@@ -201,7 +201,7 @@ struct Frames {
 
     void draw() {
         begin_frame(gl, target, geometry, recipe.depth_model, recipe.counting.depth_clamp);
-        gl.DepthRange(recipe.near_plane == NearPlane::capped ? ledge : 0, 1);
+        gl.DepthRange(recipe.depth_model.front, 1);
         draw_surface(gl, surface, target, geometry, recipe.depth_model,
                      visible_depths(scene.camera, recipe), start);
         if (recipe.counter == Counter::stencil)

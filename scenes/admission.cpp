@@ -89,6 +89,7 @@ public:
         check_positions();
         check_camera();
         for (const Light& light : scene_.lights) check_light(light);
+        if (is_bump_lit(scene_)) check_lighting();
     }
 
 private:
@@ -171,6 +172,36 @@ private:
             refuse(fmt::format("the camera's picture is {:.3g} by {:.3g} at depth 1", 2 * half.x,
                                2 * half.y),
                    "use another field of view");
+    }
+
+    /// Colours, and the heights and scales of bumps: floats hold products of four of them, and the
+    /// squares of slopes.
+    void check_number(const std::string& what, double number) const {
+        if (std::abs(number) <= largest_lighting_number) return;
+        refuse(fmt::format("{} of {:.9g} is larger than {:.3g}, and lighting would leave the range "
+                           "of floats",
+                           what, number, largest_lighting_number),
+               "write a smaller number");
+    }
+    void check_number(const std::string& what, const glm::dvec3& numbers) const {
+        for (int k = 0; k < 3; ++k) check_number(what, numbers[k]);
+    }
+
+    void check_lighting() const {
+        check_number("an ambient light", scene_.ambient);
+        for (const Material& material : scene_.materials) {
+            const std::string of = fmt::format("material \"{}\": a ", material.name);
+            check_number(of + "colour", material.color);
+            check_number(of + "specular colour", material.specular);
+            check_number(of + "reflectance", material.reflectance);
+            check_number(of + "scale of bumps", material.bump_scale);
+        }
+        for (const Light& light : scene_.lights) {
+            check_number(named("light", light.name) + ": a colour", light.color);
+            if (scene_.inverse_square)
+                check_number(named("light", light.name) + ": an intensity",
+                             light.intensity * scene_.unit * scene_.unit);
+        }
     }
 
     void check_light(const Light& light) const {

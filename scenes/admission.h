@@ -13,6 +13,9 @@ namespace shadowproof {
 /// arithmetic takes any finite double (reference/exact.h).
 inline constexpr double largest_coordinate = 0x1p62;
 
+/// Largest colour, intensity and scale of bumps.
+inline constexpr double largest_lighting_number = 0x1p30;
+
 /// Scenes of this size and its reciprocal are ordinary, and left as they are. The size is the
 /// median, over the vertices, of the largest coordinate, so that one stray vertex does not decide.
 /// Details of a small scene are 2^-24 of its size where its floats end: squares of these are above

@@ -85,6 +85,7 @@ struct DepthModel {
     bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
     bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
+    double front = 0; ///< window depth of the near plane; more than 0 leaves a ledge before it
 
     /// Window depth falls away from the eye, from 1 at the near plane to 0.
     bool reversed() const {

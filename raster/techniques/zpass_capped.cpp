@@ -1,3 +1,4 @@
+#include "raster/near_cap.h"
 #include "raster/stencil.h"
 #include "raster/technique.h"
 
@@ -12,6 +13,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     recipe.counting.start = Counting::Start::near_plane;
     recipe.counting.turned = plan.around_light;
     recipe.near_plane = NearPlane::capped;
+    recipe.depth_model.front = ledge;
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -142,6 +142,35 @@ TEST(Admission, a_scale_that_would_lose_bits_is_left_and_one_stray_vertex_decide
     EXPECT_EQ(scene.unit, 1);
 }
 
+TEST(Admission, numbers_of_lighting_that_leave_the_range_of_floats_are_refused_where_they_count) {
+    const auto lit = [](Scene& s) {
+        s.materials[0].name = "tin";
+        s.materials[0].bump = Bump::normal_map;
+        s.textures.emplace_back();
+        s.materials[0].bump_map = 0;
+        s.surfaces.resize(6);
+    };
+    const auto refusal = [&](const std::function<void(Scene&)>& change) {
+        return refusal_after([&](Scene& s) {
+            lit(s);
+            change(s);
+        });
+    };
+    EXPECT_EQ(refusal([](Scene&) {}), "");
+    EXPECT_EQ(refusal([](Scene& s) { s.materials[0].bump_scale = -0x1p30; }), "");
+    for (const double bad : {0x1.1p30, -1e27, 1.79e308, double{INFINITY}, double{NAN}}) {
+        expect_says(refusal([&](Scene& s) { s.materials[0].bump_scale = bad; }),
+                    "square.gltf: material \"tin\": a scale of bumps of ");
+        expect_says(refusal([&](Scene& s) { s.ambient.z = bad; }), "an ambient light of ");
+        expect_says(refusal([&](Scene& s) { s.materials[0].specular.y = bad; }),
+                    "material \"tin\": a specular colour of ");
+        expect_says(refusal([&](Scene& s) { s.lights[0].color.x = bad; }),
+                    "light \"lamp\": a colour of ");
+        // Nobody asks for the colour of a scene without bumps.
+        EXPECT_EQ(refusal_after([&](Scene& s) { s.ambient.z = bad; }), "");
+    }
+}
+
 TEST(Admission, is_asked_of_every_file_that_is_loaded) {
     nlohmann::json gltf = test::triangle_gltf();
     gltf["nodes"][0]["translation"] = {0, 0, 1e20};

@@ -1,0 +1,56 @@
+// Numbers that are a little off: camera, planes, light, places, formats.
+const passes = 'raster/passes.cpp';
+const projection = 'clip_from_view(scene.camera, depth_model)';
+const camera = (change) => ({ file: passes, right: projection, wrong: `[&] { Camera c = scene.camera; ${change}; return clip_from_view(c, depth_model); }()` });
+const drawn = { file: 'raster/render.cpp', right: 'technique.run(gpu, scene, plan)' };
+const extent = 'double size = 0; for (const glm::vec3& p : s.positions) size = std::max(size, glm::length(glm::dvec3(p) - glm::dvec3(s.positions[0])));';
+const other = (change) => ({ ...drawn, wrong: `[&] { Scene s = scene; ${extent} static_cast<void>(size); ${change}; return technique.run(gpu, s, plan); }()` });
+const light = 's.lights[s.light]';
+const moved = (size) => other(`${light}.kind == Light::Kind::directional ? ${light}.direction = glm::normalize(${light}.direction + glm::dvec3(0, ${size}, 0)) : ${light}.position += glm::dvec3(${size} * size, 0, 0)`);
+const shift = (x, y) => ({ file: passes, right: 'transform.light = split(light);', wrong: `transform.light = split(light); for (int k = 0; k < 4; ++k) { transform.clip_from_relative[k][0] += static_cast<float>(2.0 * ${x} / scene.camera.width) * transform.clip_from_relative[k][3]; transform.clip_from_relative[k][1] += static_cast<float>(2.0 * ${y} / scene.camera.height) * transform.clip_from_relative[k][3]; }` });
+export const faults = [
+  { name: 'shift_a_pixel', ...shift(1, 0) },
+  { name: 'shift_half_a_pixel_up', ...shift(0, 0.5) },
+  { name: 'shift_1_16_of_a_pixel', ...shift(1 / 16, 0) },
+  { name: 'shift_1_64_of_a_pixel', ...shift(1 / 64, 1 / 64) },
+  { name: 'near_plane_halved', ...camera('c.near *= 0.5') },
+  { name: 'near_plane_1_percent_off', ...camera('c.near *= 1.01') },
+  { name: 'far_plane_10_percent_off', file: passes, right: projection, wrong: '[&] { DepthModel m = depth_model; m.far *= 1.1; return clip_from_view(scene.camera, m); }()' },
+  { name: 'field_of_view_1_percent_off', ...camera('c.tan_half_height *= 1.01') },
+  { name: 'field_of_view_a_thousandth_off', ...camera('c.tan_half_height *= 1.001') },
+  { name: 'aspect_a_pixel_off', ...camera('c.width += 1') },
+  { name: 'matrix_multiplied_in_floats', file: passes, right: 'glm::mat4(projection * view_from_world(scene.camera))', wrong: 'glm::mat4(projection) * glm::mat4(view_from_world(scene.camera))' },
+  { name: 'eye_in_one_float', file: passes, right: 'transform.origin = split(scene.camera.eye);', wrong: 'transform.origin.high = glm::vec3(scene.camera.eye);' },
+  { name: 'light_at_infinity', file: passes, right: 'transform.light_w = static_cast<float>(light.w);', wrong: 'transform.light_w = 0;' },
+  { name: 'extruded_from_elsewhere', file: passes, right: 'const glm::dvec4 light = homogeneous(chosen_light(scene));'.replace(/^.*= (.*);$/, '$1'), wrong: 'homogeneous(chosen_light(scene)) + glm::dvec4(0.02, 0, 0, 0)' },
+  { name: 'light_moved_a_hundredth', ...moved('0.01') },
+  { name: 'light_moved_a_thousandth', ...moved('1e-3') },
+  { name: 'light_moved_1e-4', ...moved('1e-4') },
+  { name: 'light_moved_1e-5', ...moved('1e-5') },
+  { name: 'eye_moved_1e-3', ...other('s.camera.eye += glm::dvec3(1e-3 * size, 0, 0)') },
+  { name: 'eye_moved_1e-5', ...other('s.camera.eye += glm::dvec3(1e-5 * size, 0, 0)') },
+  { name: 'camera_turned_1e-4', ...other('s.camera.forward = glm::normalize(s.camera.forward + 1e-4 * s.camera.right); s.camera.right = glm::normalize(glm::cross(s.camera.forward, s.camera.up))') },
+  { name: 'all_double_sided', ...other('for (Material& m : s.materials) m.double_sided = true') },
+  { name: 'none_double_sided', ...other('for (Material& m : s.materials) m.double_sided = false') },
+  { name: 'a_vertex_moved', ...other('s.positions[s.positions.size() / 2] += glm::vec3(0, 0.01F * static_cast<float>(size), 0)') },
+  { name: 'a_vertex_moved_1e-4', ...other('s.positions[s.positions.size() / 2] += glm::vec3(0, 1e-4F * static_cast<float>(size), 0)') },
+  { name: 'a_triangle_lost', ...other('s.triangles[s.triangles.size() / 3] = glm::uvec3(s.triangles[s.triangles.size() / 3].x)') },
+  { name: 'positions_in_half_floats', ...other('for (glm::vec3& p : s.positions) for (int k = 0; k < 3; ++k) { std::uint32_t b; __builtin_memcpy(&b, &p[k], 4); b &= 0xffffe000U; __builtin_memcpy(&p[k], &b, 4); }') },
+  { name: 'first_mesh_casts_nothing', ...other('for (Mesh& m : s.meshes) if (m.casts) { m.casts = false; break; }') },
+  { name: 'first_mesh_receives_nothing', ...other('for (Mesh& m : s.meshes) if (m.receives) { m.receives = false; break; }') },
+  { name: 'cone_a_tenth_of_a_percent_wider', ...other(`${light}.outer_cone *= 1.001`) },
+  { name: 'cone_1e-4_narrower', ...other(`${light}.outer_cone *= 0.9999`) },
+  { name: 'cone_axis_turned', ...other(`${light}.direction = glm::normalize(${light}.direction + glm::dvec3(1e-3, 0, 0))`) },
+  { name: 'inner_cone_for_outer', ...other(`${light}.outer_cone = ${light}.inner_cone`) },
+  { name: 'spot_shines_everywhere', file: passes, right: 'spot ? static_cast<float>(std::cos(light.outer_cone)) : -2.0F', wrong: 'spot ? -2.0F : -2.0F' },
+  { name: 'reversed_infinite_near_doubled', ...camera('c.near *= 2') },
+  { name: 'depth_offset_1e-6', file: passes, right: 'transform.light = split(light);', wrong: 'transform.light = split(light); for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += 1e-6F * transform.clip_from_relative[k][3];' },
+  { name: 'depth_offset_1e-4', file: passes, right: 'transform.light = split(light);', wrong: 'transform.light = split(light); for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += 1e-4F * transform.clip_from_relative[k][3];' },
+  { name: 'light_low_dropped', file: 'raster/glsl/project.vert', right: '(light_w * position - light_high) - light_low', wrong: '(light_w * position - light_high)' },
+  { name: 'finite_ends_for_infinite', file: 'raster/glsl/project.vert', right: 'vec4(away, 0)', wrong: 'vec4(relative + 10 * away, 1)' },
+  { name: 'seen_triangle_not_asked', file: 'raster/glsl/light.frag', right: 'if (seen != triangle_drawn[first_side + gl_PrimitiveID]) discard;', wrong: '' },
+  { name: 'volume_fragments_doubled', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'frame.volume_fragments = fragments;', wrong: 'frame.volume_fragments = 2 * fragments;' },
+  { name: 'volume_fragments_hidden_left_out', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'gl.DepthFunc(GL_ALWAYS);', wrong: 'gl.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);' },
+  { name: 'volume_picture_empty', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'draw_volumes();\n    end_adding(gl);', wrong: 'end_adding(gl);' },
+  { name: 'volume_picture_counts_hidden', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'gl.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);', wrong: 'gl.DepthFunc(GL_ALWAYS);' },
+].map((fault) => ({ kind: 'numbers', ...fault }));

@@ -1,0 +1,43 @@
+// The fault that is switched on, in those copies of the sources that patch.mjs has put faults into.
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <string_view>
+
+namespace shadowproof::faults {
+
+inline constexpr int none = -1;
+
+/// Number of the fault in all_faults(), and of a fault that has a size: how large it is.
+inline std::atomic<int> active = none;
+inline std::atomic<double> amount = 0;
+
+inline bool is(int fault) {
+    return active == fault;
+}
+
+/// Where a fault takes effect.
+enum class Scope {
+    claim,  ///< while a technique draws
+    shared, ///< in code that techniques and judge have in common: while both are at work
+};
+
+struct Fault {
+    std::string_view name;
+    std::string_view kind;       ///< geometry, state, numbers, light, lighting, figures, shared
+    std::string_view techniques; ///< those that it is tried with, by commas; empty: all
+    std::string_view file;
+    std::string_view right; ///< the text that it stands in place of
+    std::string_view wrong;
+    std::string_view equal; ///< why it changes nothing, where it does not
+    Scope scope = Scope::claim;
+};
+
+/// In the order of the catalogue.
+std::span<const Fault> all_faults();
+
+/// A shader's text with the fault in it that is switched on. Lives as long as the program.
+std::string_view shader(std::string_view text);
+
+} // namespace shadowproof::faults
