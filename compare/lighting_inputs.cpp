@@ -1,6 +1,6 @@
 #include "compare/lighting_inputs.h"
 
-#include "scenes/relief.h"
+#include "compare/lighting_tables.h"
 #include "scenes/spot_cone.h"
 
 #include <bit>
@@ -220,7 +220,7 @@ glm::dvec3 bump_at(const LightingTables& tables, const Material& material, const
         break;
     case BumpForm::indexed:
         m = mixed<glm::dvec3>(map, bumps.texels, at, [](const glm::dvec4& texel) {
-            return indexed_normal(static_cast<std::uint16_t>(texel.r));
+            return expected_normal(static_cast<std::uint16_t>(texel.r));
         });
         break;
     case BumpForm::as_given:
@@ -293,13 +293,13 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
         std::optional<BumpTexels>& bumps = tables.bumps[mesh.material];
         Image<glm::dvec2>& slopes = tables.slopes[mesh.material];
         if (material.bump == Bump::none || bumps) continue;
-        bumps = bump_texels(scene, material, model.bump_form);
+        bumps = expected_bump_texels(scene, material, model.bump_form);
         if (bumps->form == BumpForm::height_field)
-            slopes = slopes_of(scene.textures[material.bump_map], bumps->scale);
+            slopes = expected_slopes(scene.textures[material.bump_map], bumps->scale);
     }
     assert(model.reflects == scene.environment.has_value());
     assert(!model.reflects || model.axes == ColorModel::Axes::world); // the environment's
-    if (model.normalisation == Normalisation::cube_map) tables.cube = make_normalisation_cube();
+    if (model.normalisation == Normalisation::cube_map) tables.cube = expected_normalisation_cube();
     return tables;
 }
 

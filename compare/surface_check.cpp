@@ -169,10 +169,18 @@ bool is_depth_of(const PlaneAtPixel& plane, const DepthModel& model, double read
 
 } // namespace
 
+// A float of 32 bits or a whole number of 24.
+bool SurfaceCheck::has_format() const {
+    const DepthFormat& format = frame_.depth_format;
+    const bool floating = frame_.depth_model.floating;
+    return format.floating == floating && format.bits == (floating ? 32 : 24);
+}
+
 bool SurfaceCheck::holds(int x, int y) const {
     const std::uint32_t triangle = frame_.triangle.at(x, y);
     const float depth = frame_.depth.at(x, y);
     const DepthModel& model = frame_.depth_model;
+    if (!has_format()) return false;
     if (triangle == no_triangle) return depth == (model.reversed() ? 0.0F : 1.0F);
     if (!model.floating && !is_on_grid(depth)) return false;
     const PlaneAtPixel plane(tracer_.scene(), frame_, far_, triangle, x, y);

@@ -23,15 +23,18 @@ public:
     SurfaceCheck(const Tracer& tracer, const Frame& frame, double far)
         : tracer_(tracer), frame_(frame), far_(far) {}
 
-    /// Depth and triangle of pixel (x, y) as they may be read back: its triangle is drawn and lies
-    /// within near and far plane, and the depth is what the format keeps of the plane's, anywhere
-    /// that lateral_freedom reaches, give or take depth_freedom and setup_freedom.
+    /// Depth and triangle of pixel (x, y) as they may be read back: the triangle is drawn and lies
+    /// within near and far plane, the buffer has the format that the technique counts on, and the
+    /// depth is what it keeps of the plane's, anywhere that lateral_freedom reaches, give or take
+    /// depth_freedom and setup_freedom.
     bool holds(int x, int y) const;
 
 private:
     const Tracer& tracer_;
     const Frame& frame_;
     double far_;
+
+    bool has_format() const;
 };
 
 } // namespace shadowproof

@@ -132,6 +132,15 @@ void end_adding(const GlFunctions& gl) {
     gl.Disable(GL_BLEND);
 }
 
+DepthFormat depth_format(const GlFunctions& gl, const Texture& texture) {
+    DepthFormat format;
+    GLint type = 0;
+    gl.GetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_DEPTH_SIZE, &format.bits);
+    gl.GetTextureLevelParameteriv(texture.name(), 0, GL_TEXTURE_DEPTH_TYPE, &type);
+    format.floating = type == GL_FLOAT;
+    return format;
+}
+
 Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.surface.name());
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -141,6 +150,7 @@ Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
     gl.NamedFramebufferReadBuffer(target.surface.name(), GL_COLOR_ATTACHMENT1);
     frame.triangle = read_picture<std::uint32_t>(gl, target, GL_RED_INTEGER, GL_UNSIGNED_INT);
     frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);
+    frame.depth_format = depth_format(gl, target.depth_stencil);
     frame.counter =
         counter == Counter::stencil
             ? read_picture<std::uint32_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_INT)

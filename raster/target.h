@@ -40,6 +40,9 @@ enum class Counter : std::uint8_t {
     sum, ///< as colour, added up; exact to 24 bits
 };
 
+/// As the driver names it, whatever was asked for.
+DepthFormat depth_format(const GlFunctions& gl, const Texture& texture);
+
 /// The pictures, rows from the top. Counting and depth model are left to the caller.
 Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
 

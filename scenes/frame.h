@@ -97,6 +97,12 @@ struct DepthModel {
     }
 };
 
+/// How a depth buffer keeps window depth.
+struct DepthFormat {
+    int bits = 0;
+    bool floating = false;
+};
+
 /// What a technique spared against drawing everything.
 struct Savings {
     std::string against;     ///< the technique that does
@@ -109,6 +115,7 @@ struct Frame {
     Image<Visibility> claim;
     Image<std::uint32_t> counter;  ///< as read back, before the light pass
     Image<float> depth;            ///< window depth in [0, 1]
+    DepthFormat depth_format{};    ///< of the buffer, as the driver names it
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
     /// Claimed colours where the technique lights bump maps, else empty: linear, as blending left
     /// them: floats neither clamped nor rounded, or k / 255 where the buffer holds bytes.

@@ -1,7 +1,8 @@
 // What the judge catches: each fault of the catalogue on the bundled scenes until one catches it.
 //   shadowproof_sensitivity [--scenes A,B] [--faults REGEX] [--size WxH] [-v]
 // Prints a line for each fault: caught (where, by which verdict), escaped (where it changed most),
-// or without effect. Exit code 1: a fault escaped, or one had no effect and is not said to be equal.
+// or without effect. Exit code 1: a fault escaped, or one had no effect and is not said to be
+// equal.
 #include "compare/verdict.h"
 #include "raster/context.h"
 #include "raster/technique.h"
@@ -9,9 +10,9 @@
 #include "tests/compare/traced_scene.h"
 #include "tests/sensitivity/faults.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -44,17 +45,14 @@ struct Effect {
     double largest_color = 0; ///< of 255
     bool figures = false;     ///< fragments, or the picture of the volumes
 
-    bool any() const {
-        return claims > 0 || counters > 0 || surfaces > 0 || colors > 0 || figures;
-    }
+    bool any() const { return claims > 0 || counters > 0 || surfaces > 0 || colors > 0 || figures; }
     std::uint64_t size() const { return 1000 * claims + counters + surfaces + colors; }
 };
 
 template <class Value>
 std::uint64_t differing(const Image<Value>& a, const Image<Value>& b) {
     std::uint64_t count = 0;
-    for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        count += a.pixels[i] != b.pixels[i] ? 1U : 0U;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1U : 0U;
     return count;
 }
 
@@ -62,14 +60,14 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
     Effect effect;
     effect.claims = differing(right.claim, faulty.claim);
     effect.counters = differing(right.counter, faulty.counter);
-    effect.surfaces = std::max(differing(right.triangle, faulty.triangle),
-                               differing(right.depth, faulty.depth));
+    effect.surfaces =
+        std::max(differing(right.triangle, faulty.triangle), differing(right.depth, faulty.depth));
     effect.colors = differing(right.color, faulty.color);
     for (std::size_t i = 0; i < right.color.pixels.size(); ++i)
         for (int k = 0; k < 3; ++k)
-            effect.largest_color = std::max(
-                effect.largest_color,
-                255.0 * std::abs(double{right.color.pixels[i][k]} - faulty.color.pixels[i][k]));
+            effect.largest_color =
+                std::max(effect.largest_color, 255.0 * std::abs(double{right.color.pixels[i][k]} -
+                                                                faulty.color.pixels[i][k]));
     effect.figures = right.volume_fragments != faulty.volume_fragments ||
                      differing(right.volumes, faulty.volumes) > 0;
     return effect;
@@ -79,15 +77,15 @@ std::string words_of(const Effect& effect) {
     std::string words = fmt::format("{} claims, {} counters, {} surfaces", effect.claims,
                                     effect.counters, effect.surfaces);
     if (effect.colors > 0)
-        words += fmt::format(", {} colours by up to {:.2f}/255", effect.colors,
-                             effect.largest_color);
+        words +=
+            fmt::format(", {} colours by up to {:.2f}/255", effect.colors, effect.largest_color);
     if (effect.figures) words += ", figures";
     return words;
 }
 
 /// What has become of a fault so far.
 struct Outcome {
-    std::string caught; ///< where, by which verdict; empty: nowhere yet
+    std::string caught;  ///< where, by which verdict; empty: nowhere yet
     std::string escaped; ///< where it changed most without being caught
     std::uint64_t escaped_size = 0;
     int cells = 0;
@@ -122,13 +120,16 @@ public:
                 const TracedScene traced(traced_.scene);
                 const Frame frame = render(technique, traced.scene, traced.plan, gpu_);
                 effect = effect_of(unharmed, frame);
-                if (!effect.any()) return;
+                // The fault may be the judge's: then the claim is as it was, and the verdict tells.
                 verdict = judged(technique, traced, frame);
+                if (!effect.any() && *verdict != Verdict::defect &&
+                    *verdict != Verdict::unexplained)
+                    return;
             }
             ++outcome.effective;
             if (*verdict == Verdict::defect || *verdict == Verdict::unexplained) {
-                outcome.caught = fmt::format("{} {} ({})", place, name_of(*verdict),
-                                             words_of(effect));
+                outcome.caught =
+                    fmt::format("{} {} ({})", place, name_of(*verdict), words_of(effect));
             } else if (effect.size() >= outcome.escaped_size) {
                 outcome.escaped_size = effect.size();
                 outcome.escaped =
@@ -197,8 +198,7 @@ int run(const std::vector<std::string>& scenes, const std::string& chosen, int w
                 if (open[i] == 2) open[i] = 0;
             }
         }
-        if (verbose)
-            fmt::print(stderr, "{}: {} faults left\n", name, std::ranges::count(open, 1));
+        if (verbose) fmt::print(stderr, "{}: {} faults left\n", name, std::ranges::count(open, 1));
     }
     int failing = 0;
     for (std::size_t i = 0; i < catalogue.size(); ++i) {
