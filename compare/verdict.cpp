@@ -14,7 +14,7 @@ bool excused(const Scene& scene, std::span<const Cause> fails_at, std::span<cons
              Cause cause) {
     if (!contains(fails_at, cause)) return false;
     return cause == Cause::precision || contains(by_nature, cause) || !scene.declares_provokes ||
-           contains(scene.provokes, cause);
+           contains(scene.provokes, cause) || contains(scene.may_provoke, cause);
 }
 
 } // namespace

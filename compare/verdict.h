@@ -21,9 +21,9 @@ enum class Verdict : std::uint8_t {
 std::string_view name_of(Verdict verdict);
 
 /// `fails_at`: the causes the technique is known to have. A cause is excused where the technique
-/// has it and the scene declares that it provokes it (a scene that declares nothing may provoke
-/// any). `edge` is no failing; `precision` lies in the depth format, and what is in `by_nature` in
-/// the technique, so no scene need declare them.
+/// has it and the scene declares that it provokes it, or may (a scene that declares nothing may
+/// provoke any). `edge` is no failing; `precision` lies in the depth format, and what is in
+/// `by_nature` in the technique, so no scene need declare them.
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,
               const Comparison& comparison);
 

@@ -7,7 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -21,20 +24,29 @@ void note_extensions(const Document& document, Scene& scene) {
             scene.notes.push_back(fmt::format("the extension {} is not evaluated", name));
 }
 
-/// extras.shadowproof.provokes, an array of cause names, at the root of the file.
-void read_provokes(const Document& document, Scene& scene) {
-    const nlohmann::json::json_pointer pointer("/shadowproof/provokes");
+/// extras.shadowproof.KEY, an array of cause names, at the root of the file; none where there is
+/// no such array.
+std::optional<std::vector<Cause>> read_causes(const Document& document, const std::string& key) {
+    const nlohmann::json::json_pointer pointer("/shadowproof/" + key);
     // extras may be anything at all; only an object with our name in it speaks to us.
-    if (!document.extras.is_object() || !document.extras.contains(pointer)) return;
-    scene.declares_provokes = true;
+    if (!document.extras.is_object() || !document.extras.contains(pointer)) return std::nullopt;
+    std::vector<Cause> causes;
     for (const std::string name : document.extras[pointer]) {
         const auto cause = cause_named(name);
         if (!cause)
-            (document.root() / "extras" / "shadowproof" / "provokes" / scene.provokes.size())
+            (document.root() / "extras" / "shadowproof" / key / causes.size())
                 .refuse(fmt::format("\"{}\" is no cause", name),
                         "use a name that `shadowproof list` prints");
-        scene.provokes.push_back(*cause);
+        causes.push_back(*cause);
     }
+    return causes;
+}
+
+void read_provokes(const Document& document, Scene& scene) {
+    const auto provokes = read_causes(document, "provokes");
+    scene.declares_provokes = provokes.has_value();
+    scene.provokes = provokes.value_or(std::vector<Cause>());
+    scene.may_provoke = read_causes(document, "mayProvoke").value_or(std::vector<Cause>());
 }
 
 /// Each note once, in the order in which they came.

@@ -103,6 +103,7 @@ struct Scene {
     std::vector<Light> lights;      ///< at least one
     std::size_t light = 0;          ///< the one that is judged
     std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
+    std::vector<Cause> may_provoke; ///< extras.shadowproof.mayProvoke: at some picture sizes
     bool declares_provokes = false; ///< whether the file says what it provokes
     std::vector<std::string> notes; ///< said on the console: defaults taken, things not evaluated
 };

@@ -33,6 +33,14 @@ TEST(Verdict, a_known_failing_that_the_scene_does_not_provoke_is_a_defect) {
     EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::near_plane})), Verdict::defect);
 }
 
+TEST(Verdict, a_known_failing_that_the_scene_may_provoke_is_as_predicted_and_is_not_missed) {
+    Scene scene = declaring({Cause::near_plane});
+    scene.may_provoke = {Cause::extrusion};
+    EXPECT_EQ(judge(scene, std::vector{Cause::extrusion}, {}, with({Cause::extrusion})),
+              Verdict::fails_as_predicted);
+    EXPECT_EQ(judge(scene, zpass_fails_at, {}, with({Cause::extrusion})), Verdict::defect);
+}
+
 TEST(Verdict, a_failing_that_the_technique_is_not_known_for_is_a_defect) {
     EXPECT_EQ(judge(declaring({Cause::far_plane}), zpass_fails_at, {}, with({Cause::far_plane})),
               Verdict::defect);

@@ -222,6 +222,10 @@ TEST(notes, provoked_causes_are_read_from_extras) {
     EXPECT_FALSE(load(gltf).declares_provokes);
     gltf["extras"]["shadowproof"]["provokes"] = {"far_plane"};
     EXPECT_EQ(load(gltf).provokes, std::vector<Cause>{Cause::far_plane});
+    EXPECT_TRUE(load(gltf).may_provoke.empty());
+    gltf["extras"]["shadowproof"]["mayProvoke"] = {"extrusion", "cap"};
+    EXPECT_EQ(load(gltf).may_provoke, (std::vector<Cause>{Cause::extrusion, Cause::cap}));
+    EXPECT_EQ(load(gltf).provokes, std::vector<Cause>{Cause::far_plane});
     gltf["extras"] = "anything at all";
     EXPECT_FALSE(load(gltf).declares_provokes);
 }

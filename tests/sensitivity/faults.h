@@ -9,9 +9,8 @@ namespace shadowproof::faults {
 
 inline constexpr int none = -1;
 
-/// Number of the fault in all_faults(), and of a fault that has a size: how large it is.
+/// Number of the fault in all_faults().
 inline std::atomic<int> active = none;
-inline std::atomic<double> amount = 0;
 
 inline bool is(int fault) {
     return active == fault;
@@ -30,7 +29,7 @@ struct Fault {
     std::string_view file;
     std::string_view right; ///< the text that it stands in place of
     std::string_view wrong;
-    std::string_view equal; ///< why it changes nothing, where it does not
+    std::string_view why; ///< why it changes nothing, or is not caught
     Scope scope = Scope::claim;
 };
 

@@ -76,7 +76,7 @@ if (what === 'files') {
     mkdirSync(dirname(to), { recursive: true });
     writeFileSync(to, patched(file));
   }
-  const rows = faults.map((f) => `    {${[f.name, f.kind, f.techniques, f.file, f.right, f.wrong, f.equal].map(quoted).join(', ')}, ` +
+  const rows = faults.map((f) => `    {${[f.name, f.kind, f.techniques, f.file, f.right, f.wrong, f.why].map(quoted).join(', ')}, ` +
     `Scope::${f.scope ?? 'claim'}},\n`);
   writeFileSync(join(out, 'catalogue.cpp'),
     '#include "tests/sensitivity/faults.h"\n\nnamespace shadowproof::faults {\n\nnamespace {\n' +

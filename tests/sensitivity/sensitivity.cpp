@@ -14,12 +14,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
+#include <fstream>
 #include <map>
-#include <memory>
 #include <optional>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -83,14 +83,49 @@ std::string words_of(const Effect& effect) {
     return words;
 }
 
+/// A cell, and what a fault did there.
+struct Finding {
+    std::string place;   ///< "many_lights-fill/zpass"
+    std::string verdict; ///< or "refused"
+    std::string effect;
+};
+
 /// What has become of a fault so far.
 struct Outcome {
-    std::string caught;  ///< where, by which verdict; empty: nowhere yet
-    std::string escaped; ///< where it changed most without being caught
+    std::optional<Finding> caught;
+    std::optional<Finding> escaped; ///< where it changed most without being caught
     std::uint64_t escaped_size = 0;
-    int cells = 0;
-    int effective = 0;
 };
+
+constexpr int width = 200; ///< of the pictures
+constexpr int height = 200;
+
+/// A bundled name, or that and a light's: "many_lights-fill".
+Scene load(const std::string& name) {
+    const std::size_t dash = name.find('-');
+    SceneRequest request;
+    if (dash != std::string::npos) request.light = name.substr(dash + 1);
+    Scene scene = load_scene(name.substr(0, dash), request);
+    scene.name = name;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    return scene;
+}
+
+/// All bundled scenes, those of several lights with each of them.
+std::vector<std::string> scene_names(const std::vector<std::string>& chosen) {
+    std::vector<std::string> names;
+    for (const BundledScene& each : bundled_scenes()) {
+        const std::string name(each.name);
+        if (!chosen.empty() && std::ranges::find(chosen, name) == chosen.end()) continue;
+        SceneRequest request;
+        request.every_light = true;
+        const Scene scene = load_scene(name, request);
+        for (const Light& light : scene.lights)
+            names.push_back(scene.lights.size() > 1 ? name + "-" + light.choice : name);
+    }
+    return names;
+}
 
 class Trial {
 public:
@@ -99,45 +134,21 @@ public:
     const Scene& scene() const { return traced_.scene; }
 
     void run(int number, const Technique& technique, Outcome& outcome) {
-        const Fault& fault = faults::all_faults()[static_cast<std::size_t>(number)];
-        const Frame& unharmed = right(technique);
-        ++outcome.cells;
-        const std::string place = traced_.scene.name + "/" + std::string(technique.name);
+        Finding finding{traced_.scene.name + "/" + std::string(technique.name), "", ""};
         try {
-            std::optional<Verdict> verdict;
-            Effect effect;
-            if (fault.scope == faults::Scope::claim) {
-                std::optional<Frame> frame;
-                {
-                    const Switched on(number);
-                    frame = render(technique, traced_.scene, traced_.plan, gpu_);
-                }
-                effect = effect_of(unharmed, *frame);
-                if (!effect.any()) return;
-                verdict = judged(technique, traced_, *frame);
-            } else {
-                const Switched on(number);
-                const TracedScene traced(traced_.scene);
-                const Frame frame = render(technique, traced.scene, traced.plan, gpu_);
-                effect = effect_of(unharmed, frame);
-                // The fault may be the judge's: then the claim is as it was, and the verdict tells.
-                verdict = judged(technique, traced, frame);
-                if (!effect.any() && *verdict != Verdict::defect &&
-                    *verdict != Verdict::unexplained)
-                    return;
-            }
-            ++outcome.effective;
-            if (*verdict == Verdict::defect || *verdict == Verdict::unexplained) {
-                outcome.caught =
-                    fmt::format("{} {} ({})", place, name_of(*verdict), words_of(effect));
-            } else if (effect.size() >= outcome.escaped_size) {
+            const auto [verdict, effect] = tried(number, technique);
+            finding.verdict = name_of(verdict);
+            finding.effect = words_of(effect);
+            if (verdict == Verdict::defect || verdict == Verdict::unexplained) {
+                outcome.caught = finding;
+            } else if (effect.any() && effect.size() >= outcome.escaped_size) {
                 outcome.escaped_size = effect.size();
-                outcome.escaped =
-                    fmt::format("{} {} ({})", place, name_of(*verdict), words_of(effect));
+                outcome.escaped = finding;
             }
         } catch (const std::exception& error) {
-            ++outcome.effective;
-            outcome.caught = fmt::format("{} refused: {}", place, error.what());
+            finding.verdict = "refused";
+            finding.effect = error.what();
+            outcome.caught = finding;
         }
     }
 
@@ -145,6 +156,25 @@ private:
     TracedScene traced_;
     Gpu& gpu_;
     std::map<std::string_view, Frame> right_;
+
+    /// What a fault of the claim's side changes nothing of is not judged.
+    std::pair<Verdict, Effect> tried(int number, const Technique& technique) {
+        const Frame& unharmed = right(technique);
+        const Fault& fault = faults::all_faults()[static_cast<std::size_t>(number)];
+        if (fault.scope == faults::Scope::shared) {
+            const Switched on(number);
+            const TracedScene traced(traced_.scene);
+            const Frame frame = render(technique, traced.scene, traced.plan, gpu_);
+            return {judged(technique, traced, frame), effect_of(unharmed, frame)};
+        }
+        const Frame frame = [&] {
+            const Switched on(number);
+            return render(technique, traced_.scene, traced_.plan, gpu_);
+        }();
+        const Effect effect = effect_of(unharmed, frame);
+        if (!effect.any()) return {Verdict::agrees, effect};
+        return {judged(technique, traced_, frame), effect};
+    }
 
     static Verdict judged(const Technique& technique, const TracedScene& traced,
                           const Frame& frame) {
@@ -165,58 +195,125 @@ bool tried_with(const Fault& fault, std::string_view technique) {
     return list.find("," + std::string(technique) + ",") != std::string::npos;
 }
 
-int run(const std::vector<std::string>& scenes, const std::string& chosen, int width, int height,
-        bool verbose) {
+/// Tries faults until they are caught. `open`: one of each fault, 1 where it is to be tried.
+std::vector<Outcome> explore(const std::vector<std::string>& scenes, std::vector<std::uint8_t> open,
+                             bool verbose) {
     const std::span<const Fault> catalogue = faults::all_faults();
-    const std::regex pattern(chosen);
     std::vector<Outcome> outcomes(catalogue.size());
-    std::vector<std::uint8_t> open(catalogue.size());
-    for (std::size_t i = 0; i < catalogue.size(); ++i)
-        open[i] = std::regex_search(std::string(catalogue[i].name), pattern) ? 1 : 0;
     Gpu gpu(GlPlatform::osmesa);
     for (const std::string& name : scenes) {
-        if (std::ranges::count(open, 1) == 0) break;
-        SceneRequest request;
-        request.every_light = true;
-        const std::size_t lights = load_scene(name, request).lights.size();
-        for (std::size_t light = 0; light < lights; ++light) {
-            Scene scene = load_scene(name, request);
-            scene.light = static_cast<std::uint32_t>(light);
-            scene.camera.width = width;
-            scene.camera.height = height;
-            Trial trial(std::move(scene), gpu);
-            for (std::size_t i = 0; i < catalogue.size(); ++i) {
-                for (const Technique& technique : all_techniques()) {
-                    if (open[i] == 0) break;
-                    if (!suits(technique, trial.scene()) ||
-                        !tried_with(catalogue[i], technique.name))
-                        continue;
-                    trial.run(static_cast<int>(i), technique, outcomes[i]);
-                    if (!outcomes[i].caught.empty()) open[i] = 2;
-                    if (open[i] == 2) break;
-                }
-                if (open[i] == 2) open[i] = 0;
+        Trial trial(load(name), gpu);
+        for (std::size_t i = 0; i < catalogue.size(); ++i)
+            for (const Technique& technique : all_techniques()) {
+                if (open[i] == 0) break;
+                if (!suits(technique, trial.scene()) || !tried_with(catalogue[i], technique.name))
+                    continue;
+                trial.run(static_cast<int>(i), technique, outcomes[i]);
+                if (outcomes[i].caught) open[i] = 0;
             }
-        }
         if (verbose) fmt::print(stderr, "{}: {} faults left\n", name, std::ranges::count(open, 1));
     }
-    int failing = 0;
+    return outcomes;
+}
+
+std::string page_of(const std::vector<Outcome>& outcomes) {
+    const std::span<const Fault> catalogue = faults::all_faults();
+    std::string caught;
+    std::string escaped;
+    std::string without_effect;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < catalogue.size(); ++i) {
         const Fault& fault = catalogue[i];
         const Outcome& outcome = outcomes[i];
-        if (!std::regex_search(std::string(fault.name), pattern)) continue;
-        const bool is_equal = outcome.effective == 0;
-        const bool fails = outcome.caught.empty() && (!is_equal || fault.equal.empty());
-        failing += fails ? 1 : 0;
-        fmt::print("{:9} {:34} {}\n",
-                   !outcome.caught.empty() ? "caught" : (is_equal ? "no effect" : "ESCAPED"),
-                   fault.name, !outcome.caught.empty() ? outcome.caught : outcome.escaped);
+        if (outcome.caught) {
+            ++count;
+            caught +=
+                fmt::format("| `{}` | {} | `{}` | {} | {} |\n", fault.name, fault.kind,
+                            outcome.caught->place, outcome.caught->verdict, outcome.caught->effect);
+        } else if (outcome.escaped) {
+            escaped += fmt::format("| `{}` | {} | `{}` | {} | {} | {} |\n", fault.name, fault.kind,
+                                   outcome.escaped->place, outcome.escaped->verdict,
+                                   outcome.escaped->effect, fault.why);
+        } else {
+            without_effect +=
+                fmt::format("| `{}` | {} | {} |\n", fault.name, fault.kind, fault.why);
+        }
     }
-    fmt::print("{} of {} faults fail\n", failing,
-               std::ranges::count_if(catalogue, [&](const Fault& fault) {
-                   return std::regex_search(std::string(fault.name), pattern);
-               }));
-    return failing == 0 ? 0 : 1;
+    return fmt::format(
+        "# What the judge catches\n\n"
+        "`unexplained 0` means something only if faults are not explained away. This page is "
+        "written\n"
+        "by `shadowproof_sensitivity --page docs/sensitivity.md`, which builds {} faults into the\n"
+        "techniques, one at a time, and lets the judge look at each technique on each bundled "
+        "scene\n"
+        "at {}x{} until a cell fails. The faults stand in `tests/sensitivity/catalogue/`, no "
+        "release\n"
+        "holds them, and the test `sensitivity` tries each where this page says that it is "
+        "caught.\n\n"
+        "Faults of the kind *shared* are in code that techniques and judge have in common, and "
+        "are\n"
+        "switched on for both; all others are on while the technique draws.\n\n"
+        "## Caught: {}\n\n"
+        "| fault | of | on | verdict | what it changes there |\n|---|---|---|---|---|\n{}\n"
+        "## Not caught\n\nWhere each changes most.\n\n"
+        "| fault | of | on | verdict | what it changes there | why "
+        "|\n|---|---|---|---|---|---|\n{}\n"
+        "## Without effect on any bundled scene\n\n"
+        "Byte for byte: claims, counters, surfaces, depths, colours and figures.\n\n"
+        "| fault | of | why |\n|---|---|---|\n{}",
+        catalogue.size(), width, height, count, caught, escaped, without_effect);
+}
+
+/// The places of a page's first table, by fault.
+std::map<std::string, std::string> places_of(const std::string& file) {
+    std::ifstream stream(file);
+    std::map<std::string, std::string> places;
+    const std::regex row(
+        R"(\| `(\w[^`]*)` \| \w+ \| `([^`]+)` \| (defect|unexplained|refused) .*)");
+    std::smatch match;
+    for (std::string line; std::getline(stream, line);)
+        if (std::regex_match(line, match, row)) places[match[1]] = match[2];
+    return places;
+}
+
+/// Whether each fault of the page is caught where it says, and no fault of it is gone.
+bool holds(const std::string& file) {
+    const std::span<const Fault> catalogue = faults::all_faults();
+    const std::map<std::string, std::string> places = places_of(file);
+    std::map<std::string, std::vector<std::size_t>> by_scene;
+    for (std::size_t i = 0; i < catalogue.size(); ++i)
+        if (const auto place = places.find(std::string(catalogue[i].name)); place != places.end())
+            by_scene[place->second.substr(0, place->second.find('/'))].push_back(i);
+    std::size_t caught = 0;
+    Gpu gpu(GlPlatform::osmesa);
+    for (const auto& [scene, numbers] : by_scene) {
+        Trial trial(load(scene), gpu);
+        for (const std::size_t i : numbers) {
+            const std::string& place = places.at(std::string(catalogue[i].name));
+            const Technique* technique = find_technique(place.substr(place.find('/') + 1));
+            Outcome outcome;
+            if (technique != nullptr) trial.run(static_cast<int>(i), *technique, outcome);
+            if (outcome.caught)
+                ++caught;
+            else
+                fmt::print("{} is not caught on {}\n", catalogue[i].name, place);
+        }
+    }
+    fmt::print("{} of {} faults are caught\n", caught, places.size());
+    return caught == places.size() && !places.empty();
+}
+
+void print_outcomes(const std::vector<Outcome>& outcomes, const std::vector<std::uint8_t>& chosen) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        if (chosen[i] == 0) continue;
+        const Outcome& outcome = outcomes[i];
+        const std::optional<Finding>& finding = outcome.caught ? outcome.caught : outcome.escaped;
+        const char* const word =
+            outcome.caught ? "caught" : (outcome.escaped ? "ESCAPED" : "no effect");
+        fmt::print("{:9} {:34} {}\n", word, faults::all_faults()[i].name,
+                   finding ? finding->place + " " + finding->verdict + " (" + finding->effect + ")"
+                           : "");
+    }
 }
 
 } // namespace
@@ -226,18 +323,22 @@ int main(int argc, char** argv) {
     using namespace shadowproof;
     CLI::App app("What the judge catches", "shadowproof_sensitivity");
     std::vector<std::string> scenes;
-    std::string chosen = ".";
-    std::string size = "256x256";
+    std::string pattern = ".";
+    std::string page;
+    std::string held;
     bool verbose = false;
     app.add_option("--scenes", scenes, "bundled scenes, by commas; all")->delimiter(',');
-    app.add_option("--faults", chosen, "a regular expression of names");
-    app.add_option("--size", size, "of the pictures");
+    app.add_option("--faults", pattern, "a regular expression of names");
+    app.add_option("--page", page, "the page to write");
+    app.add_option("--hold", held, "the page whose faults are tried where it says");
     app.add_flag("-v", verbose, "say how far it is");
     CLI11_PARSE(app, argc, argv);
-    if (scenes.empty())
-        for (const BundledScene& scene : bundled_scenes()) scenes.emplace_back(scene.name);
-    int width = 0;
-    int height = 0;
-    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2) return 2;
-    return run(scenes, chosen, width, height, verbose);
+    if (!held.empty()) return holds(held) ? 0 : 1;
+    std::vector<std::uint8_t> chosen;
+    for (const faults::Fault& fault : faults::all_faults())
+        chosen.push_back(std::regex_search(std::string(fault.name), std::regex(pattern)) ? 1 : 0);
+    const std::vector<Outcome> outcomes = explore(scene_names(scenes), chosen, verbose);
+    print_outcomes(outcomes, chosen);
+    if (!page.empty()) std::ofstream(page) << page_of(outcomes);
+    return 0;
 }

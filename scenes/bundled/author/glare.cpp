@@ -47,6 +47,7 @@ Stage grazing_light() {
     Stage stage = lit_from_the_left("grazing_light",
                                     "The sun grazes a bumpy ground with gentle swells, and stones "
                                     "throw long shadows over it.");
+    stage.may_provoke = {"extrusion"}; // a wide picture shows the ends of the shadows
     stage.light.name = "sun";
     stage.light.type = "directional";
     stage.light.color = {1, 0.93, 0.81};

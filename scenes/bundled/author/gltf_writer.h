@@ -94,8 +94,9 @@ struct Lamp {
 
 struct Stage {
     std::string name;
-    std::string title;                 ///< for asset.extras, one sentence
-    std::vector<std::string> provokes; ///< cause names
+    std::string title;                    ///< for asset.extras, one sentence
+    std::vector<std::string> provokes;    ///< cause names
+    std::vector<std::string> may_provoke; ///< at some picture sizes, not at all
     std::vector<Placed> things;
     std::vector<Joint> joints{};
     std::vector<Track> tracks{};
