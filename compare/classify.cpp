@@ -199,7 +199,7 @@ bool is_explained(const JudgedFrame& judged, PixelPlace p, const Finding& findin
 
 /// What may be drawn at a pixel by an outline that the clipper has moved: what is true across one.
 Finding look_across(const JudgedFrame& judged, PixelPlace p, const CoarseOutlines& outlines,
-                    const Finding& so_far) {
+                    std::size_t most_places, const Finding& so_far) {
     const Camera& camera = judged.tracer.scene().camera;
     const Volumes& volumes = judged.prediction.volumes();
     const glm::dvec2 centre(p.x + 0.5, p.y + 0.5);
@@ -208,7 +208,7 @@ Finding look_across(const JudgedFrame& judged, PixelPlace p, const CoarseOutline
     std::vector<Crossing> crossings;
     const BandRadius radius = band_radius(judged, p, direction, here, crossings);
     const double step = std::max(radius.surface, radius.nearest);
-    for (const glm::dvec2& place : outlines.places_across(centre, step)) {
+    for (const glm::dvec2& place : outlines.places_across(centre, step, most_places)) {
         if (place.x < 0 || place.y < 0 || place.x > camera.width || place.y > camera.height)
             continue;
         const Neighbourhood around = neighbourhood(camera, place, radius);
@@ -222,6 +222,12 @@ Finding look_across(const JudgedFrame& judged, PixelPlace p, const CoarseOutline
     return so_far;
 }
 
+/// Places looked at across coarse outlines: of one pixel, and of all pixels of a frame. Each takes
+/// a few milliseconds where coordinates are huge, and a frame of which hundreds of pixels are
+/// unexplained is judged in seconds all the same.
+constexpr std::size_t most_places_of_pixel = 32;
+constexpr std::size_t most_places_of_frame = 2048;
+
 /// Looks once more at what nobody has explained.
 void look_across_coarse_outlines(const JudgedFrame& judged, const std::vector<PixelPlace>& places,
                                  std::vector<Finding>& findings) {
@@ -231,13 +237,15 @@ void look_across_coarse_outlines(const JudgedFrame& judged, const std::vector<Pi
     if (open.empty() || std::ssize(open) > hopeless) return;
     const Scene& scene = judged.tracer.scene();
     const bool clips = judged.frame.depth_model.finite() && !judged.frame.counting.depth_clamp;
+    const std::size_t most_places =
+        std::clamp<std::size_t>(most_places_of_frame / open.size(), 2, most_places_of_pixel);
     const CoarseOutlines outlines(
         scene, judged.silhouette, judged.prediction.volumes().far_ends(),
         drawing_of(scene, judged.frame,
                    clips ? judged.depths.far : std::numeric_limits<double>::infinity()));
     parallel_for(static_cast<int>(open.size()), judged.tracer.threads(), [&](int k, int) {
         const std::size_t i = open[static_cast<std::size_t>(k)];
-        findings[i] = look_across(judged, places[i], outlines, findings[i]);
+        findings[i] = look_across(judged, places[i], outlines, most_places, findings[i]);
     });
 }
 

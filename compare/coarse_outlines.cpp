@@ -43,8 +43,8 @@ void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
     }
 }
 
-std::vector<glm::dvec2> CoarseOutlines::places_across(const glm::dvec2& place, double step) const {
-    constexpr std::size_t most = 32;
+std::vector<glm::dvec2> CoarseOutlines::places_across(const glm::dvec2& place, double step,
+                                                      std::size_t most) const {
     std::vector<glm::dvec2> places;
     for (const auto& [from, to] : outlines_) {
         if (places.size() >= most) break;

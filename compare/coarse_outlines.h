@@ -5,6 +5,7 @@
 #include "compare/clipped_polygon.h"
 #include "reference/region_ledger.h"
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -20,8 +21,10 @@ public:
 
     /// Places, in pixels, on either side of the outlines that may be drawn as far aside as a place
     /// of the picture, each a step from the outline's nearest point: what is true there may be
-    /// drawn at the place. Of many, those across the outlines that may be moved furthest.
-    std::vector<glm::dvec2> places_across(const glm::dvec2& place, double step) const;
+    /// drawn at the place. Of more than `most`, those across the outlines that may be moved
+    /// furthest.
+    std::vector<glm::dvec2> places_across(const glm::dvec2& place, double step,
+                                          std::size_t most) const;
 
 private:
     struct Outline {

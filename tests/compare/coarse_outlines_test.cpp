@@ -47,11 +47,11 @@ TEST(CoarseOutlines, are_moved_by_three_roundings_of_the_far_corner) {
     const glm::dvec2 on = project(camera, {0.5, -4, 1});
     const double once = 3 * 0x1p-24 * far * 32 / 4;
     const auto is_reached = [&](double pixels) {
-        return !outlines.places_across(on + glm::dvec2(pixels, 0), 0x1p-20).empty();
+        return !outlines.places_across(on + glm::dvec2(pixels, 0), 0x1p-20, 32).empty();
     };
     EXPECT_TRUE(is_reached(0.4 * once));
     EXPECT_FALSE(is_reached(4 * once));
-    for (const glm::dvec2& place : outlines.places_across(on + glm::dvec2(0.2 * once, 0), 0.01))
+    for (const glm::dvec2& place : outlines.places_across(on + glm::dvec2(0.2 * once, 0), 0.01, 32))
         EXPECT_NEAR(std::abs(place.x - on.x), 0.01, 1e-4);
 }
 
@@ -64,7 +64,7 @@ TEST(CoarseOutlines, are_none_where_nothing_is_clipped) {
     scene.materials = {{"plain", true}};
     const TracedScene traced(scene);
     const CoarseOutlines outlines = outlines_of(traced, {});
-    EXPECT_TRUE(outlines.places_across(project(scene.camera, {0.5, -0.5, 1}), 1).empty());
+    EXPECT_TRUE(outlines.places_across(project(scene.camera, {0.5, -0.5, 1}), 1, 32).empty());
 }
 
 TEST(WideFloor, is_explained) {
