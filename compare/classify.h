@@ -22,7 +22,9 @@ struct FirstDifference {
     Cause cause = Cause::unexplained;
 };
 
-/// The counter predicted against the counter read back, at every pixel.
+/// The counter predicted against the counter read back, at every pixel. A surface that no
+/// rasterizer would show there (surface_check.h) leaves the pixel unexplained, whatever its
+/// counter.
 struct LedgerCheck {
     std::uint64_t equal = 0;       ///< at the pixel's centre
     std::uint64_t in_band = 0;     ///< equal to a value inside the pixel's band
@@ -33,7 +35,7 @@ struct LedgerCheck {
 
 struct Comparison {
     Image<std::uint8_t> cause;       ///< Cause, or no_difference
-    Image<std::uint8_t> ledger_miss; ///< 1 where the counter is neither predicted nor in the band
+    Image<std::uint8_t> ledger_miss; ///< 1 where the pixel is LedgerCheck::unexplained
     Image<std::uint32_t> predicted;  ///< the counter predicted at the centre, as stored
     std::array<std::uint64_t, all_causes.size()> causes{}; ///< pixels by cause
     std::uint64_t differing = 0;

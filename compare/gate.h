@@ -46,7 +46,7 @@ CausePixels pixels_that_fail(const Cell& cell, const Gate& gate);
 /// What would count without the gate's allowances, and does not with them.
 CausePixels pixels_allowed(const Cell& cell, const Gate& gate);
 
-/// A cell fails where it could not run, a counter is unexplained, or any pixel counts.
+/// A cell fails where it could not run, a counter or surface is unexplained, or any pixel counts.
 bool fails(const Cell& cell, const Gate& gate);
 /// A scene: an error, a cause no longer provoked, or a failing cell.
 bool fails(const SceneResult& scene, const Gate& gate);

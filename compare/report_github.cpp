@@ -53,8 +53,9 @@ Row row_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     row.pixels = grouped(cell.comparison.differing);
     row.causes = cause_counts(cell.comparison.causes);
     if (cell.comparison.ledger.unexplained > 0)
-        row.causes += fmt::format("{}counter unexplained at {}", row.causes.empty() ? "" : "; ",
-                                  counted(cell.comparison.ledger.unexplained, "pixel"));
+        row.causes +=
+            fmt::format("{}counter or surface unexplained at {}", row.causes.empty() ? "" : "; ",
+                        counted(cell.comparison.ledger.unexplained, "pixel"));
     if (cell.comparison.colors && cell.comparison.colors->unforeseen > 0)
         row.causes += fmt::format("{}colour unexplained at {}", row.causes.empty() ? "" : "; ",
                                   counted(cell.comparison.colors->unforeseen, "pixel"));

@@ -50,7 +50,7 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
         line += fmt::format("  first ({},{}) {}", comparison.first->x, comparison.first->y,
                             name_of(comparison.first->cause));
     if (comparison.ledger.unexplained > 0)
-        line += fmt::format("  counter unexplained at {}, first ({},{})",
+        line += fmt::format("  counter or surface unexplained at {}, first ({},{})",
                             grouped(comparison.ledger.unexplained), comparison.ledger.first_x,
                             comparison.ledger.first_y);
     if (comparison.colors) line += "  " + words_of(*comparison.colors);
@@ -87,7 +87,7 @@ std::string why_it_fails(const Cell& cell, const Gate& gate) {
     if (first)
         words += fmt::format("; first ({},{}) {}", first->x, first->y, name_of(first->cause));
     if (comparison.ledger.unexplained > 0)
-        words += fmt::format("; counter unexplained at {}, first ({},{})",
+        words += fmt::format("; counter or surface unexplained at {}, first ({},{})",
                              counted(comparison.ledger.unexplained, "pixel"),
                              comparison.ledger.first_x, comparison.ledger.first_y);
     if (comparison.colors && comparison.colors->unforeseen > 0)

@@ -42,11 +42,13 @@ std::optional<std::vector<Cause>> read_causes(const Document& document, const st
     return causes;
 }
 
-void read_provokes(const Document& document, Scene& scene) {
+/// `provokesWide`: what a picture may show besides that is wider than high, as it shows more.
+void read_provokes(const Document& document, const SceneRequest& request, Scene& scene) {
     const auto provokes = read_causes(document, "provokes");
     scene.declares_provokes = provokes.has_value();
     scene.provokes = provokes.value_or(std::vector<Cause>());
-    scene.may_provoke = read_causes(document, "mayProvoke").value_or(std::vector<Cause>());
+    const auto wide = read_causes(document, "provokesWide");
+    if (wide && request.width > request.height) scene.may_provoke = *wide;
 }
 
 /// Each note once, in the order in which they came.
@@ -63,7 +65,7 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     scene.name = file.stem().string();
     scene.file = file;
     note_extensions(document, scene);
-    read_provokes(document, scene);
+    read_provokes(document, request, scene);
     NodeGraph graph = read_nodes(document);
     AccessorReader reader(document);
     pose_nodes(reader, request.time, graph, scene.notes);

@@ -56,7 +56,7 @@ constexpr std::array rules_of_the_head{
 
 constexpr std::array rules{
     Rule{"extras?/shadowproof/provokes/*"},
-    Rule{"extras?/shadowproof/mayProvoke/*"},
+    Rule{"extras?/shadowproof/provokesWide/*"},
     index("scene", "/scenes"),
     index("scenes/*/nodes/*", "/nodes"),
     Rule{"nodes/*/name"},

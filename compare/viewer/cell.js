@@ -247,7 +247,8 @@ function warnings(opened) {
     said.unshift('The truth is blank: no pixel sees a surface.');
   if (cell.ledger?.unexplained > 0) {
     const { first } = cell.ledger;
-    said.unshift(`The counter read back is not the one predicted, nor any in the band, at ` +
+    said.unshift(`The counter read back is not the one predicted, nor any in the band, or no ` +
+                 `rasterizer would show that triangle at that depth, at ` +
                  `${counted(cell.ledger.unexplained, 'pixel')}` +
                  `${first ? `; the first is (${first.x}, ${first.y})` : ''}.`);
   }

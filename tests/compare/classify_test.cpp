@@ -1,6 +1,6 @@
 #include "compare/verdict.h"
 #include "raster/technique.h"
-#include "scenes/catalog.h"
+#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/faulty_techniques.h"
 
@@ -15,24 +15,18 @@
 namespace shadowproof {
 namespace {
 
+using tests::bundled_names;
 using tests::compared;
+using tests::load_named;
 using tests::pixels_of;
 using tests::TracedScene;
-
-/// A bundled name, or that and a light's: "many_lights-fill".
-Scene load(const std::string& name) {
-    const std::size_t dash = name.find('-');
-    SceneRequest request;
-    if (dash != std::string::npos) request.light = name.substr(dash + 1);
-    return load_scene(name.substr(0, dash), request);
-}
 
 class Classify : public testing::Test {
 protected:
     static TracedScene& traced(const std::string& name) {
         static std::map<std::string, std::unique_ptr<TracedScene>> scenes;
         std::unique_ptr<TracedScene>& scene = scenes[name];
-        if (!scene) scene = std::make_unique<TracedScene>(load(name));
+        if (!scene) scene = std::make_unique<TracedScene>(load_named(name));
         return *scene;
     }
 
@@ -104,21 +98,7 @@ TEST_P(ClassifyScene,
     }
 }
 
-/// Bundled scenes, those of several lights with each of them.
-std::vector<std::string> scene_names() {
-    std::vector<std::string> names;
-    for (const BundledScene& each : bundled_scenes()) {
-        const std::string name(each.name);
-        SceneRequest request;
-        request.every_light = true;
-        const Scene scene = load_scene(name, request);
-        for (const Light& light : scene.lights)
-            names.push_back(scene.lights.size() > 1 ? name + "-" + light.choice : name);
-    }
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Bundled, ClassifyScene, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Bundled, ClassifyScene, testing::ValuesIn(bundled_names()),
                          [](const auto& scene) {
                              std::string name = scene.param;
                              std::ranges::replace(name, '-', '_');

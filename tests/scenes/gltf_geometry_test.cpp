@@ -223,8 +223,14 @@ TEST(notes, provoked_causes_are_read_from_extras) {
     gltf["extras"]["shadowproof"]["provokes"] = {"far_plane"};
     EXPECT_EQ(load(gltf).provokes, std::vector<Cause>{Cause::far_plane});
     EXPECT_TRUE(load(gltf).may_provoke.empty());
-    gltf["extras"]["shadowproof"]["mayProvoke"] = {"extrusion", "cap"};
-    EXPECT_EQ(load(gltf).may_provoke, (std::vector<Cause>{Cause::extrusion, Cause::cap}));
+    gltf["extras"]["shadowproof"]["provokesWide"] = {"extrusion", "cap"};
+    EXPECT_TRUE(load(gltf).may_provoke.empty()) << "the picture is a square";
+    SceneRequest wide;
+    wide.width = 640;
+    wide.height = 360;
+    EXPECT_EQ(load(gltf, wide).may_provoke, (std::vector<Cause>{Cause::extrusion, Cause::cap}));
+    std::swap(wide.width, wide.height);
+    EXPECT_TRUE(load(gltf, wide).may_provoke.empty());
     EXPECT_EQ(load(gltf).provokes, std::vector<Cause>{Cause::far_plane});
     gltf["extras"] = "anything at all";
     EXPECT_FALSE(load(gltf).declares_provokes);

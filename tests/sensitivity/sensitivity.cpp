@@ -6,7 +6,7 @@
 #include "compare/verdict.h"
 #include "raster/context.h"
 #include "raster/technique.h"
-#include "scenes/catalog.h"
+#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/sensitivity/faults.h"
 
@@ -100,30 +100,22 @@ struct Outcome {
 constexpr int width = 200; ///< of the pictures
 constexpr int height = 200;
 
-/// A bundled name, or that and a light's: "many_lights-fill".
+/// Named as it was asked for, as pictures of a size that is quickly judged.
 Scene load(const std::string& name) {
-    const std::size_t dash = name.find('-');
-    SceneRequest request;
-    if (dash != std::string::npos) request.light = name.substr(dash + 1);
-    Scene scene = load_scene(name.substr(0, dash), request);
+    Scene scene = tests::load_named(name);
     scene.name = name;
     scene.camera.width = width;
     scene.camera.height = height;
     return scene;
 }
 
-/// All bundled scenes, those of several lights with each of them.
+/// Those of the bundled names that are of the chosen scenes; of none: all.
 std::vector<std::string> scene_names(const std::vector<std::string>& chosen) {
-    std::vector<std::string> names;
-    for (const BundledScene& each : bundled_scenes()) {
-        const std::string name(each.name);
-        if (!chosen.empty() && std::ranges::find(chosen, name) == chosen.end()) continue;
-        SceneRequest request;
-        request.every_light = true;
-        const Scene scene = load_scene(name, request);
-        for (const Light& light : scene.lights)
-            names.push_back(scene.lights.size() > 1 ? name + "-" + light.choice : name);
-    }
+    std::vector<std::string> names = tests::bundled_names();
+    std::erase_if(names, [&](const std::string& name) {
+        return !chosen.empty() &&
+               std::ranges::find(chosen, name.substr(0, name.find('-'))) == chosen.end();
+    });
     return names;
 }
 

@@ -412,7 +412,8 @@ std::string write_gltf(const Stage& stage) {
                      {"generator", "shadowproof_author"},
                      {"extras", {{"title", stage.title}}}};
     gltf["extras"] = {{"shadowproof", {{"provokes", stage.provokes}}}};
-    if (!stage.may_provoke.empty()) gltf["extras"]["shadowproof"]["mayProvoke"] = stage.may_provoke;
+    if (!stage.may_provoke.empty())
+        gltf["extras"]["shadowproof"]["provokesWide"] = stage.may_provoke;
     gltf["extensionsUsed"] = {"KHR_lights_punctual"};
     gltf["extensions"] = lights_of(stage);
     gltf["scene"] = 0;

@@ -96,7 +96,7 @@ struct Stage {
     std::string name;
     std::string title;                    ///< for asset.extras, one sentence
     std::vector<std::string> provokes;    ///< cause names
-    std::vector<std::string> may_provoke; ///< at some picture sizes, not at all
+    std::vector<std::string> may_provoke; ///< in pictures wider than high, not in all
     std::vector<Placed> things;
     std::vector<Joint> joints{};
     std::vector<Track> tracks{};
