@@ -2,8 +2,8 @@
 #
 #   shadowproof_add_test(
 #       NAME name                     # of the test
-#       SCENE scene                   # a .gltf or .glb, relative to the current source folder, or
-#                                     # the name of a bundled scene
+#       SCENE scene                   # a .gltf, .glb or .md2, relative to the current source
+#                                     # folder, or the name of a bundled scene
 #       [TECHNIQUES technique...]     # all of them
 #       [SIZE WIDTHxHEIGHT]           # 512x512
 #       [CAMERA name] [LIGHT name]    # names or indices in the file; the first
@@ -14,7 +14,7 @@
 #       [OUT folder])                 # of the report, relative to the current build folder;
 #                                     # shadowproof/name
 #
-# The test has the label `shadowproof`. It is skipped where the command says so, by 77.
+# The test has the label `shadowproof`.
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.25)
 
@@ -44,7 +44,7 @@ function(shadowproof_add_test)
     endif()
 
     # Other names are bundled scenes.
-    if(given_SCENE MATCHES "\\.([gG][lL][tT][fF]|[gG][lL][bB])$")
+    if(given_SCENE MATCHES "\\.([gG][lL][tT][fF]|[gG][lL][bB]|[mM][dD]2)$")
         cmake_path(ABSOLUTE_PATH given_SCENE BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     endif()
     if(NOT DEFINED given_OUT)
@@ -73,7 +73,7 @@ function(shadowproof_add_test)
 
     add_test(NAME ${given_NAME}
         COMMAND shadowproof::shadowproof verify ${arguments} --out ${given_OUT})
-    set_tests_properties(${given_NAME} PROPERTIES SKIP_RETURN_CODE 77 LABELS shadowproof)
+    set_tests_properties(${given_NAME} PROPERTIES LABELS shadowproof)
 endfunction()
 
 cmake_policy(POP)

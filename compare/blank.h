@@ -1,8 +1,7 @@
-// A render that shows nothing proves nothing.
+// Refuses blank renders: a picture that shows nothing must not pass as agreement.
 #pragma once
 
-#include "compare/classify.h"
-#include "reference/trace.h"
+#include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <optional>
@@ -11,14 +10,15 @@
 
 namespace shadowproof {
 
-/// Throws Error naming the technique where no pixel of its frame shows a surface, the truth has
-/// some, and nobody explains all of that. A scene that is all background may be blank, and so may
-/// one of slivers between pixels, or one whose depths all round to the background's.
+/// Throws Error naming the technique if no pixel of its frame shows a surface, the truth has
+/// surfaces, and a judged pixel is unexplained. A blank frame is right if the scene is all
+/// background, has only slivers between pixel centres, or has depths that all round to the
+/// background's.
 void refuse_blank(std::string_view technique, const GroundTruth& truth, const Frame& frame,
-                  const Comparison& comparison);
+                  bool some_unexplained);
 
-/// A note for a scene of which the picture shows nothing, so that whatever is claimed agrees;
-/// nothing where it shows some.
+/// A note for a scene without any surface in the picture, where every claim agrees; none if a
+/// surface is seen.
 std::optional<std::string> note_if_nothing_is_seen(const GroundTruth& truth);
 
 } // namespace shadowproof

@@ -1,20 +1,17 @@
-// Each differing pixel gets its cause, and a cause is named only where it was predicted.
+// Gives each differing pixel a cause. A cause is named only where it was predicted.
 #pragma once
 
-#include "compare/color_check.h"
-#include "reference/prediction.h"
-#include "reference/trace.h"
+#include "compare/color/color_check.h"
+#include "compare/judge/judge.h"
 #include "scenes/cause.h"
 #include "scenes/frame.h"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace shadowproof {
-
-/// Values of Comparison::cause where there is no cause to name.
-inline constexpr std::uint8_t no_difference = 0xff;
 
 struct FirstDifference {
     int x = 0;
@@ -22,34 +19,43 @@ struct FirstDifference {
     Cause cause = Cause::unexplained;
 };
 
-/// The counter predicted against the counter read back, at every pixel. A surface that no
-/// rasterizer would show there (surface_check.h) leaves the pixel unexplained, whatever its
-/// counter.
-struct LedgerCheck {
-    std::uint64_t equal = 0;       ///< at the pixel's centre
-    std::uint64_t in_band = 0;     ///< equal to a value inside the pixel's band
-    std::uint64_t unexplained = 0; ///< neither; always a failure
-    int first_x = 0;               ///< the first unexplained, in rows from the top
-    int first_y = 0;
-};
-
 struct Comparison {
-    Image<std::uint8_t> cause;       ///< Cause, or no_difference
-    Image<std::uint8_t> ledger_miss; ///< 1 where the pixel is LedgerCheck::unexplained
-    Image<std::uint32_t> predicted;  ///< the counter predicted at the centre, as stored
+    Image<std::uint8_t> cause; ///< Cause, or no_difference
+    /// CauseSet::bits of the further causes without which `cause` alone makes no difference to the
+    /// pixel; empty if no pixel has any.
+    Image<std::uint32_t> also;
+    std::uint64_t several = 0;         ///< pixels with such further causes
+    Image<std::uint8_t> evidence_miss; ///< 1 where the pixel is EvidenceCheck::unexplained
     std::array<std::uint64_t, all_causes.size()> causes{}; ///< pixels by cause
     std::uint64_t differing = 0;
-    /// First in rows from the top; a pixel whose cause is worst (unexplained, then any but edge,
-    /// then edge) is preferred.
+    /// The first, in rows from the top, of the pixels with the worst cause: unexplained, then any
+    /// but edge, then edge.
     std::optional<FirstDifference> first;
-    LedgerCheck ledger;
-    std::optional<ColorCheck> colors; ///< where the frame has some
+    std::string evidence_name; ///< Judge::evidence
+    EvidenceCheck evidence;
+    EvidenceSummary summary;          ///< figures of the evidence
+    std::optional<ColorCheck> colors; ///< if the frame has colours
 };
 
-/// All pictures must have one size (asserted). `prediction`: of how the frame counts. Where
-/// thousands of pixels are unexplained, further ones are compared at their centres only, so that
-/// some of those may lie in their bands after all.
-Comparison classify(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
-                    const ShadowDepths& depths, const Frame& frame, const Prediction& prediction);
+inline std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
+    return comparison.causes[static_cast<std::size_t>(cause)];
+}
+
+/// All pictures must have the same size (asserted). `judge`: the frame's (judge_of). After
+/// thousands of unexplained pixels the others are compared at their centres only, so some of those
+/// that are then unexplained may be explained within their bands.
+Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& judge);
+
+/// What is found at one pixel.
+struct PixelFinding {
+    std::uint8_t cause = no_difference; ///< Cause, or no_difference
+    CauseSet also{};                    ///< as in Comparison::also
+    bool unexplained = false;           ///< evidence or surface: see EvidenceCheck::unexplained
+};
+
+/// Classifies the pixel (x, y) alone, always within its band, even in a frame where classify
+/// compares centres only.
+PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const Judge& judge,
+                            int x, int y);
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
 #include "compare/gate.h"
 
-#include "compare/report.h"
+#include "compare/cell.h"
+#include "compare/evidence.h"
 
 #include <fmt/format.h>
 
@@ -61,9 +62,7 @@ CausePixels pixels_allowed(const Cell& cell, const Gate& gate) {
 }
 
 bool fails(const Cell& cell, const Gate& gate) {
-    const Comparison& comparison = cell.comparison;
-    if (!cell.error.empty() || comparison.ledger.unexplained > 0) return true;
-    if (comparison.colors && comparison.colors->unforeseen > 0) return true;
+    if (!cell.error.empty() || !is_explained(cell.comparison)) return true;
     const CausePixels pixels = pixels_that_fail(cell, gate);
     return std::any_of(pixels.begin(), pixels.end(), [](std::uint64_t n) { return n > 0; });
 }

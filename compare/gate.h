@@ -1,5 +1,5 @@
-// The gate: what a run is failed for. The one place where that is decided; verdicts stay what they
-// are, whatever is allowed.
+// The gate: decides what fails a run. It is the only place that does; allowances do not change
+// verdicts.
 #pragma once
 
 #include "scenes/cause.h"
@@ -35,18 +35,18 @@ struct Gate {
 /// Pixels by cause, in the order of all_causes.
 using CausePixels = std::array<std::uint64_t, all_causes.size()>;
 
-/// Which pixels of a cell count against it, by cause. `edge` never does. Under GateOn::defects
+/// The pixels of a cell that count against it, by cause. `edge` never counts. Under GateOn::defects
 /// neither do causes that the cell excuses; under GateOn::differences, where the cell was compared
 /// with a baseline, only pixels count that are new since or have changed cause. A cause that is
 /// allowed, and has no more such pixels than allowed, counts none; one that has more counts all.
-/// `unexplained` counts always: neither a baseline nor an allowance excuses what nobody
-/// understands.
+/// `unexplained` always counts: neither a baseline nor an allowance excuses it.
 CausePixels pixels_that_fail(const Cell& cell, const Gate& gate);
 
-/// What would count without the gate's allowances, and does not with them.
+/// The pixels that would count without the gate's allowances, and do not with them.
 CausePixels pixels_allowed(const Cell& cell, const Gate& gate);
 
-/// A cell fails where it could not run, a counter or surface is unexplained, or any pixel counts.
+/// A cell fails where it could not run, a counter, surface or figure is unexplained, or any pixel
+/// counts.
 bool fails(const Cell& cell, const Gate& gate);
 /// A scene: an error, a cause no longer provoked, or a failing cell.
 bool fails(const SceneResult& scene, const Gate& gate);

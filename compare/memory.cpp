@@ -13,13 +13,13 @@ std::uint64_t pixels_of(int width, int height) {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// Of a triangle: the tracer's hierarchy and planes, and what lighting keeps of its corners.
+/// Bytes per triangle: the tracer's hierarchy and planes, and what lighting stores for its corners.
 std::uint64_t triangle_bytes(Workload work, bool lit) {
     if (work != Workload::comparison) return lit ? 400 : 150;
     return lit ? 500 : 200;
 }
 
-/// Of a vertex. Where techniques run: half edges, silhouettes, fillings of holes, and volumes in
+/// Bytes per vertex. If techniques run: half edges, silhouettes, fillings of holes, and volumes in
 /// the program and in OpenGL, which in software is in the same memory. All of that goes by edges,
 /// of which a closed surface has six for each vertex, and loose triangles, whose every edge is
 /// open, one: but then each of them is filled and extruded by itself.
@@ -27,7 +27,7 @@ std::uint64_t vertex_bytes(Workload work) {
     return work == Workload::comparison ? 700 : 24;
 }
 
-/// Of a texel, beside the scene's own 16: what lighting makes of it for the truth; and for a
+/// Bytes per texel, besides the scene's own 16: what lighting makes of it for the truth, for a
 /// technique in another form, and once more in OpenGL.
 std::uint64_t texel_bytes(Workload work) {
     return work == Workload::comparison ? 112 : 48;

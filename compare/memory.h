@@ -1,6 +1,7 @@
-// What a run takes beside what reading its scene does: an upper bound, told from the scene and the
-// size of the picture before the work begins. Each figure is measured, with a fifth more, and held
-// by tests/command/peaks_test.mjs: less than a run took is refused, three times as much suffices.
+// An upper bound of the memory that a run takes, apart from reading its scene, estimated from the
+// scene and the size of the picture before the work begins. Each figure is measured, with a fifth
+// added, and tested by tests/command/peaks_test.mjs: less than a run took is refused, three times
+// as much suffices.
 #pragma once
 
 #include "scenes/memory_budget.h"
@@ -11,11 +12,11 @@
 
 namespace shadowproof {
 
-/// What is said where memory runs out all the same.
+/// The message if memory runs out nevertheless.
 inline constexpr const char* out_of_memory =
     "there is not enough memory; try a smaller --size, or a smaller scene";
 
-/// What is made of a scene.
+/// What is computed from a scene.
 enum class Workload : std::uint8_t {
     class_map,  ///< the truth as a .png
     truth,      ///< the truth as an .exr

@@ -1,6 +1,7 @@
 #include "compare/since.h"
 
-#include "compare/report.h"
+#include "compare/classify.h"
+#include "compare/words.h"
 
 #include <fmt/format.h>
 

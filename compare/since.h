@@ -1,4 +1,5 @@
-// What changed since an earlier run, pixel by pixel: equal counts of other pixels are a change.
+// Changes since an earlier run, pixel by pixel: other pixels are a change even if the counts are
+// equal.
 #pragma once
 
 #include "compare/gate.h"
@@ -21,7 +22,7 @@ struct PixelChange {
 struct Since {
     std::uint64_t appeared = 0; ///< pixels that differ now and did not
     std::uint64_t gone = 0;     ///< pixels that differed and do not now
-    std::uint64_t changed = 0;  ///< pixels that differ as before, of another cause
+    std::uint64_t changed = 0;  ///< pixels that still differ, but of another cause
     CausePixels causes{};       ///< those new or changed, by their cause now
     /// The first of each in rows from the top; one that involves more than `edge` is preferred.
     std::optional<PixelChange> first_new;

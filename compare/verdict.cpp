@@ -1,5 +1,7 @@
 #include "compare/verdict.h"
 
+#include "compare/evidence.h"
+
 #include <algorithm>
 
 namespace shadowproof {
@@ -40,8 +42,7 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<con
     const auto found = [&](Cause cause) {
         return comparison.causes[static_cast<std::size_t>(cause)] > 0;
     };
-    if (found(Cause::unexplained) || comparison.ledger.unexplained > 0) return Verdict::unexplained;
-    if (comparison.colors && comparison.colors->unforeseen > 0) return Verdict::unexplained;
+    if (!is_explained(comparison)) return Verdict::unexplained;
     Verdict verdict = Verdict::agrees;
     for (const CauseWords& words : all_causes) {
         if (words.cause == Cause::edge || !found(words.cause)) continue;
@@ -64,16 +65,12 @@ std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fai
 
 std::vector<Cause> no_longer_provoked(std::span<const Cause> provokes,
                                       std::span<const std::vector<Cause>> fails_at,
-                                      std::span<const Comparison> comparisons) {
+                                      const std::function<bool(Cause)>& is_shown) {
     std::vector<Cause> missing;
     for (const Cause cause : provokes) {
         const bool known = std::any_of(fails_at.begin(), fails_at.end(),
                                        [&](const auto& causes) { return contains(causes, cause); });
-        const bool found =
-            std::any_of(comparisons.begin(), comparisons.end(), [&](const Comparison& c) {
-                return c.causes[static_cast<std::size_t>(cause)] > 0;
-            });
-        if (known && !found) missing.push_back(cause);
+        if (known && !is_shown(cause)) missing.push_back(cause);
     }
     return missing;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the README's pictures anew: they are screenshots that the test of the report's pages keeps.
+# Makes the pictures of the README and of docs/report.md anew: screenshots that the test of the report's pages keeps.
 # Needs what ./test.sh sets up, and build/dev.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -19,7 +19,7 @@ void require_drawable(const DriverInfo& driver) {
                     "use a driver with at least 8 (llvmpipe)");
 }
 
-/// Written so that NaN fails.
+/// Whether a depth is in [0, 1]; false for NaN.
 bool is_window_depth(float depth) {
     return depth >= 0 && depth <= 1;
 }

@@ -1,4 +1,4 @@
-// Work shared out over threads in numbered pieces. Which thread takes which piece never shows in
+// Distributes numbered pieces of work over threads. Which thread takes which piece never affects
 // the result.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace shadowproof {
 
-/// 0 means one per core; at least 1.
+/// The number of threads to use: one per core for 0; at least 1.
 int thread_count(int requested);
 
 /// Calls work(piece, thread) for piece in [0, pieces), thread in [0, threads). Returns when all

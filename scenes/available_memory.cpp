@@ -51,13 +51,13 @@ std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
 struct GroupFiles {
     const char* limit;
     const char* used;
-    const char* reclaimable; ///< in memory.stat: pages of files that nobody uses
+    const char* reclaimable; ///< in memory.stat: pages of files that are not in use
 };
 constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file "};
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes",
                                "total_inactive_file "};
 
-/// What is left in the group whose folder this is.
+/// Bytes left in the group whose folder this is.
 std::uint64_t left_in_group(const path& folder, const GroupFiles& files) {
     const auto limit = number_in(folder / files.limit);
     if (!limit) return no_limit;
@@ -66,8 +66,9 @@ std::uint64_t left_in_group(const path& folder, const GroupFiles& files) {
     return less(*limit, less(used, back));
 }
 
-/// The group's and those of all that it is nested in. A container sees its own group as the
-/// mount's root, though /proc/self/cgroup may tell a longer way: what is not there has no limit.
+/// Bytes left in the group and in all groups around it, the least. A container sees its own group
+/// as the mount's root, though /proc/self/cgroup may give a longer path: what does not exist has no
+/// limit.
 std::uint64_t left_in_groups(const path& mount, path group, const GroupFiles& files) {
     std::uint64_t left = left_in_group(mount, files);
     for (; group.has_relative_path(); group = group.parent_path())
@@ -97,7 +98,8 @@ std::uint64_t left_in_all_groups(const path& root) {
     return left;
 }
 
-/// Of a limit of this process; `mapped` is what counts to it, as /proc/self/status names it.
+/// Bytes left of a limit of this process; `mapped` names what counts towards it in
+/// /proc/self/status.
 std::uint64_t left_of_limit(const path& root, int resource, const char* mapped) {
     struct rlimit limit {};
     if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 ||

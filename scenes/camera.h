@@ -16,7 +16,7 @@ struct Camera {
     glm::dvec3 right{1, 0, 0}; ///< right, up, forward: orthonormal, right x up = -forward
     glm::dvec3 up{0, 1, 0};
     glm::dvec3 forward{0, 0, -1}; ///< the view direction
-    double tan_half_height = 1;   ///< tan(yfov / 2); the width follows from the picture's shape
+    double tan_half_height = 1;   ///< tan(yfov / 2); the width follows from the aspect ratio
     double near = 0.1;            ///< depth of the near plane, > 0
     double far = std::numeric_limits<double>::infinity(); ///< depth of the far plane
     int width = 512;                                      ///< pixels
@@ -31,11 +31,12 @@ glm::dvec2 half_extent(const Camera& camera);
 /// takes them as exact.
 glm::dvec3 ray_direction(const Camera& camera, double x, double y);
 
-/// Its two parts: ray_direction(x, y) is ray_column(x) + ray_row(y), bit for bit.
+/// The two parts of a ray's direction: ray_direction(x, y) is ray_column(x) + ray_row(y), bit for
+/// bit.
 glm::dvec3 ray_column(const Camera& camera, double x);
 glm::dvec3 ray_row(const Camera& camera, double y);
 
-/// Around a rectangle of the picture, from its top left corner clockwise.
+/// Ray directions through the corners of a rectangle of the picture, clockwise from the top left.
 std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
                                       double bottom);
 
@@ -46,8 +47,8 @@ double view_depth(const Camera& camera, const glm::dvec3& point);
 /// (view depth > 0).
 glm::dvec2 project(const Camera& camera, const glm::dvec3& point);
 
-/// The three rows right, up, -forward: eye-relative world vectors to OpenGL view space (looking
-/// down -z). No translation: subtract the eye first.
+/// Eye-relative world vectors to OpenGL view space (looking down -z): the rows are right, up and
+/// -forward. No translation: subtract the eye first.
 glm::dmat3 view_from_eye_relative(const Camera& camera);
 glm::dmat4 view_from_world(const Camera& camera);
 

@@ -1,4 +1,4 @@
-// Why a pixel differs from the truth: the words that techniques, scenes and verdicts share.
+// Why a pixel differs from the truth: the causes that techniques, scenes and verdicts name.
 #pragma once
 
 #include <array>
@@ -9,22 +9,19 @@
 namespace shadowproof {
 
 enum class Cause : std::uint8_t {
-    edge,        ///< truth changes within the rasterizer's own lateral freedom; never a defect
-    near_plane,  ///< the near plane lies inside a shadow volume
-    far_plane,   ///< a shadow volume is cut by the far plane
-    eye_inside,  ///< the eye itself is inside a shadow volume
-    extrusion,   ///< the volume ends before it reaches the surface
-    cap,         ///< a crossing was lost through a missing cap
-    counter,     ///< the stencil counter overflowed or saturated
-    parity,      ///< overlapping volumes of even depth, counted by inverting
-    open_mesh,   ///< the caster does not enclose a volume towards the light
-    resolution,  ///< another point of the shadow map texel's footprint has another answer
-    acne,        ///< the shadow map texel saw the receiver itself
-    leak,        ///< a true occluder lies within the bias
-    precision,   ///< gone when the surface moves by the quantum of the depth format, or
-                 ///< the light off the caster it lies on, as far as floats tell
-    shading,     ///< colour beyond its derived bound
-    unexplained, ///< no prediction matches: always a failure
+    edge,         ///< truth changes within the rasterizer's own lateral error; never a defect
+    near_plane,   ///< crossings between eye and near plane were lost
+    far_plane,    ///< crossings past the far plane were lost
+    eye_inside,   ///< the eye is inside a shadow volume that the counter's start value leaves out
+    extrusion,    ///< the volume ends before it reaches the surface
+    cap,          ///< a crossing was lost through a missing cap
+    counter,      ///< the stencil counter overflowed or saturated
+    parity,       ///< overlapping volumes of even depth, counted by inverting
+    open_mesh,    ///< the caster does not enclose a volume towards the light
+    light_inside, ///< a closed caster holds the light, and perhaps none of its triangles faces it
+    precision,    ///< disappears when the surface moves by one quantum of the depth format
+    shading,      ///< colour beyond its derived bound
+    unexplained,  ///< no prediction matches: always a failure
 };
 
 struct CauseWords {
@@ -34,20 +31,18 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 15> all_causes{{
-    {Cause::edge, "edge", "within the rasterizer's lateral freedom"},
-    {Cause::near_plane, "near_plane", "the near plane lies inside a shadow volume"},
-    {Cause::far_plane, "far_plane", "the far plane cuts a shadow volume"},
-    {Cause::eye_inside, "eye_inside", "the eye is inside a shadow volume"},
+inline constexpr std::array<CauseWords, 13> all_causes{{
+    {Cause::edge, "edge", "within the rasterizer's lateral error"},
+    {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
+    {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
+    {Cause::eye_inside, "eye_inside", "the eye is inside a shadow volume, which was not counted"},
     {Cause::extrusion, "extrusion", "the volume ends before it reaches the surface"},
     {Cause::cap, "cap", "a crossing was lost through a missing cap"},
     {Cause::counter, "counter", "the stencil counter overflowed or saturated"},
     {Cause::parity, "parity", "overlapping volumes of even depth"},
     {Cause::open_mesh, "open_mesh", "the caster encloses no volume towards the light"},
-    {Cause::resolution, "resolution", "the shadow map texel covers both answers"},
-    {Cause::acne, "acne", "the shadow map texel saw the receiver itself"},
-    {Cause::leak, "leak", "an occluder lies within the bias"},
-    {Cause::precision, "precision", "within the rounding of depths, or of a light on a caster"},
+    {Cause::light_inside, "light_inside", "the light is inside a closed caster"},
+    {Cause::precision, "precision", "within the rounding of depths"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
 }};
@@ -61,5 +56,31 @@ constexpr std::optional<Cause> cause_named(std::string_view name) {
         if (words.name == name) return words.cause;
     return std::nullopt;
 }
+
+/// In pictures of causes: the pixel does not differ.
+inline constexpr std::uint8_t no_difference = 0xff;
+
+/// A set of causes, one bit each.
+class CauseSet {
+public:
+    constexpr bool empty() const { return bits_ == 0; }
+    constexpr bool contains(Cause cause) const { return (bits_ & bit(cause)) != 0; }
+    constexpr void add(Cause cause) { bits_ |= bit(cause); }
+    friend constexpr bool operator==(CauseSet, CauseSet) = default;
+
+    /// How pictures keep it.
+    constexpr std::uint32_t bits() const { return bits_; }
+    static constexpr CauseSet of(std::uint32_t bits) {
+        CauseSet set;
+        set.bits_ = bits;
+        return set;
+    }
+
+private:
+    std::uint32_t bits_ = 0;
+    static constexpr std::uint32_t bit(Cause cause) {
+        return std::uint32_t{1} << static_cast<unsigned>(cause);
+    }
+};
 
 } // namespace shadowproof

@@ -1,5 +1,5 @@
-// Cube maps: THE definition of where on which face a vector looks, of the normalisation cube map
-// and of what surfaces reflect.
+// Cube maps: THE definition of which point of which face a vector points to. Used for the
+// normalisation cube map and for reflected environments.
 #pragma once
 
 #include "scenes/image.h"
@@ -13,7 +13,8 @@
 
 namespace shadowproof {
 
-/// In OpenGL's order, +x -x +y -y +z -z, all square and of one size, the first row at t = 0.
+/// The six faces in OpenGL's order, +x -x +y -y +z -z, all square and of one size, the first row at
+/// t = 0.
 template <class Texel>
 using CubeFaces = std::array<Image<Texel>, 6>;
 
@@ -34,22 +35,22 @@ inline constexpr std::array<FaceAxes, 6> face_axes{{
     {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
 }};
 
-/// The face of the largest component. Of components of equal size x goes before y before z, where
-/// OpenGL leaves the choice to the driver.
+/// The face of the largest component. Among components of equal size, x goes before y before z,
+/// where OpenGL leaves the choice to the driver.
 inline std::size_t face_of(const glm::dvec3& vector) {
     const glm::dvec3 size(std::abs(vector.x), std::abs(vector.y), std::abs(vector.z));
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     return static_cast<std::size_t>(2 * axis + (vector[axis] < 0 ? 1 : 0));
 }
 
-/// The vector through a place on a face, both coordinates in [-1, 1]; not of unit length.
+/// The vector through a point of a face, both coordinates in [-1, 1]; not normalised.
 inline glm::dvec3 through(std::size_t face, double s, double t) {
     const FaceAxes& axes = face_axes[face];
     return axes.major + s * axes.s + t * axes.t;
 }
 
-/// The texels of the face that a vector looks at, mixed bilinearly; no seam is crossed: past the
-/// last texel's centre there is that texel. The vector must not be zero.
+/// The texels of the face that a vector points to, interpolated bilinearly. Never across a seam:
+/// beyond the outermost texel centres those texels are repeated. The vector must not be zero.
 template <class To, class Texel>
 To sample(const CubeFaces<Texel>& faces, const glm::dvec3& vector) {
     const std::size_t face = face_of(vector);

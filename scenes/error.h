@@ -9,8 +9,8 @@
 
 namespace shadowproof {
 
-/// Message reads "<where>: <what is wrong>; <remedy>", one sentence, no trailing newline. What
-/// files brought into it is made printable and short: what() ends at the first NUL.
+/// The message reads "<where>: <what is wrong>; <remedy>", one sentence, no trailing newline. Text
+/// from files in it is made printable and short, as what() ends at the first NUL.
 struct Error : std::runtime_error {
     Error(const std::string& where, const std::string& what, const std::string& remedy)
         : std::runtime_error(message(where + ": " + what + "; " + remedy)) {}

@@ -1,4 +1,4 @@
-// A rectangle of values, one a pixel. Rows run from the top of the picture; the centre of pixel
+// A rectangle of values, one per pixel. Rows run from the top of the picture; the centre of pixel
 // (x, y) is at (x + 0.5, y + 0.5), measured from the top left corner.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Image {
     const T& at(int x, int y) const { return pixels[index(x, y)]; }
 };
 
-/// A picture whose pixels are those of another, each converted.
+/// A copy of a picture with each pixel converted.
 template <class To, class From, class Convert>
 Image<To> converted(const Image<From>& from, const Convert& convert) {
     Image<To> to(from.width, from.height);

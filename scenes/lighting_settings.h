@@ -1,5 +1,5 @@
-// The settings of the techniques that light bump maps: how vectors are made of unit length, and in
-// which form the bumps are kept.
+// Settings of the techniques that light bump maps: how vectors are normalised, and in which form
+// the bumps are stored.
 #pragma once
 
 #include <array>
@@ -9,20 +9,20 @@
 
 namespace shadowproof {
 
-/// How the vectors to light and eye and the half-angle vector are made of unit length.
+/// How the vectors to light and eye and the half-angle vector are normalised.
 enum class Normalisation : std::uint8_t {
-    exact,          ///< over their length
+    exact,          ///< divided by their length
     cube_map,       ///< looked up in a cube map (normalisation_cube.h)
-    newton_raphson, ///< one step from a guess by the float's bits
+    newton_raphson, ///< one step from an estimate made of the float's bits
 };
 
-/// What stands in a bump map's texels.
+/// What a bump map's texels hold.
 enum class BumpForm : std::uint8_t {
     as_given,     ///< as the asset has it
-    height_field, ///< heights, their slopes found by finite differences; not of a normal map
-    normal_map,   ///< normals of 8 bits a component
+    height_field, ///< heights, with slopes by finite differences; never made of a normal map
+    normal_map,   ///< normals of 8 bits per component
     derivatives,  ///< pairs of slopes, 8 bits each
-    indexed,      ///< numbers of 16 bits in a table of normals
+    indexed,      ///< 16-bit indices into a table of normals
 };
 
 inline constexpr std::array all_normalisations{Normalisation::exact, Normalisation::cube_map,
@@ -59,21 +59,21 @@ constexpr std::string_view name_of(BumpForm form) {
     return "";
 }
 
-/// What was asked for; where nothing was, each technique has its own.
+/// What the user asked for; where nothing is set, each technique uses its own.
 struct LightingSettings {
     std::optional<Normalisation> normalisation{};
     std::optional<BumpForm> bump_form{};
 };
 
-/// How a technique makes its colours: all that is needed to foresee them.
+/// How a technique makes its colours: all that is needed to predict them.
 struct ColorModel {
     enum class Arithmetic : std::uint8_t {
         floating,     ///< 32-bit floats from beginning to end
-        three_passes, ///< floats within a pass, 8 bits a channel between them
+        three_passes, ///< floats within a pass, 8 bits per channel between passes
         combiners,    ///< one pass of register combiners: 8 bits and a sign after each stage
     };
-    /// In which normals, tangents and the vectors to light and eye are handed over, and in which
-    /// those are made of unit length.
+    /// The axes in which normals, tangents and the vectors to light and eye are given and
+    /// normalised.
     enum class Axes : std::uint8_t { world, eye };
     Arithmetic arithmetic = Arithmetic::floating;
     Axes axes = Axes::world;
@@ -82,7 +82,7 @@ struct ColorModel {
     bool reflects = false; ///< the scene's environment
 };
 
-/// A technique's own way, but for what was asked for.
+/// A technique's own model, except for what the user asked for.
 constexpr ColorModel with_settings(ColorModel model, const LightingSettings& settings) {
     model.normalisation = settings.normalisation.value_or(model.normalisation);
     model.bump_form = settings.bump_form.value_or(model.bump_form);

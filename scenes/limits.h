@@ -1,11 +1,11 @@
-// How large what is read from files may get.
+// Limits on the size of what is read from files.
 #pragma once
 
 #include <cstdint>
 
 namespace shadowproof {
 
-/// What one asset may ask for, whatever the budget in bytes (memory_budget.h): these bound the time
+/// Limits of one asset, independent of the budget in bytes (memory_budget.h). They bound the time
 /// that reading takes, and keep every count and offset far from overflow.
 struct Limits {
     std::uint64_t bytes = 1ULL << 30;       ///< of the file, and of all its buffers together

@@ -1,6 +1,6 @@
-// How much memory a run may take, and the account of what it holds. What would be large is asked
-// for here before it is allocated: an allocation that fails in the middle of the work ends it
-// without a reason, and where the kernel gives more than it has, with the death of some process.
+// How much memory a run may take, and the account of what it holds. Large allocations are requested
+// here first: one that fails in the middle of the work ends it without a reason and, where the
+// kernel gives more than it has, by killing some process.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace shadowproof {
 
-/// What the program takes before it has read anything, bytes: its libraries, OpenGL in software
-/// with its compiler, the stacks of its threads. Measured (190 to 228 MB), and held by
+/// Bytes that the program takes before it has read anything: its libraries, OpenGL in software with
+/// its compiler, the stacks of its threads. Measured (190 to 228 MB), and checked by
 /// tests/command/peaks_test.mjs.
 inline constexpr std::uint64_t program_bytes = 240'000'000;
 
-/// Bytes that the whole process may take, and who says so.
+/// Bytes that the whole process may take, and where that limit comes from.
 struct MemoryBudget {
     static constexpr std::uint64_t no_limit = ~std::uint64_t{0};
     std::uint64_t bytes = no_limit;
@@ -32,13 +32,13 @@ struct MemoryNeed {
 /// "4.4 GB", "12 MB"
 std::string bytes_in_words(std::uint64_t bytes);
 
-/// Throws Error saying what is needed, what the budget is and where it comes from, where `need`
-/// beside `held` bytes is above the budget.
+/// Throws Error where `held` bytes and `need` together exceed the budget. It says what is needed,
+/// what the budget is and where that comes from.
 void require_memory(const MemoryBudget& budget, std::uint64_t held, const MemoryNeed& need);
 
 class MemoryAccount;
 
-/// Bytes of an account, given back at the end of its life, which must not outlast the account's.
+/// Bytes of an account, given back on destruction. Must not outlive the account.
 class MemoryHold {
 public:
     MemoryHold() = default;
@@ -54,15 +54,15 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-/// What one piece of work holds of a budget, the program itself included. For one thread.
+/// What one piece of work holds of a budget, the program itself included. For a single thread.
 class MemoryAccount {
 public:
     explicit MemoryAccount(MemoryBudget budget = {}) : budget_(std::move(budget)) {}
     MemoryAccount(const MemoryAccount&) = delete;
     MemoryAccount& operator=(const MemoryAccount&) = delete;
 
-    /// Each throws Error where the need is more than is left. For a moment, until the hold ends, or
-    /// as long as the account is kept.
+    /// Each throws Error where the need exceeds what is left. `require` only checks; `hold` takes
+    /// the bytes until the hold ends, `keep` until the account does.
     void require(const MemoryNeed& need) const { require_memory(budget_, held_, need); }
     MemoryHold hold(const MemoryNeed& need);
     void keep(const MemoryNeed& need);

@@ -44,18 +44,18 @@ double largest(const glm::dvec3& v) {
 
 constexpr double smallest = std::numeric_limits<double>::min();
 
-/// Of p x q . r, where p, q and r are differences of doubles as rounded to double. With p, q and r
-/// their largest components and u = 2^-53: each component of the cross product, two products and a
-/// difference, is off by at most 8 u p q, which weighs 3 r in the dot product; that adds 4 u times
-/// its three terms of at most 2 p q r: 48 u p q r in all. What underflows is off by at most the
-/// smallest double, a few times and up to r times over: by less than the smallest normal one for
-/// each unit of r.
+/// Error bound of p x q . r, where p, q and r are differences of doubles, rounded to double. With
+/// p, q and r their largest components and u = 2^-53: each component of the cross product, two
+/// products and a difference, is off by at most 8 u p q, which weighs 3 r in the dot product; that
+/// adds 4 u times its three terms of at most 2 p q r: 48 u p q r in all. What underflows is off by
+/// at most the smallest double, a few times and up to r times over: by less than the smallest
+/// normal one for each unit of r.
 double determinant_error(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
     return 50 * 0x1p-53 * largest(p) * largest(q) * largest(r) +
            smallest * std::max(1.0, largest(r));
 }
 
-/// The side of a plane to which the move (e, e^2, e^3), e -> 0, leads a place in it.
+/// The side of a plane to which the move (e, e^2, e^3), e -> 0, takes a place that lies in it.
 int side_of_move(const Rational& normal) {
     for (const mpq_class& component : normal)
         if (const int sign = sgn(component); sign != 0) return sign;

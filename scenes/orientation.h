@@ -14,10 +14,10 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
                    const glm::dvec4& point);
 
 /// The sign (-1, 0 or 1) of ((w a - l) x (b - a)) . (place - a): the side of the plane through the
-/// edge and the light L = (l, w) on which a place lies. Exact, and with ties broken as if the place
-/// were moved by (e, e^2, e^3) with an e that is smaller than anything (Edelsbrunner & Muecke 1990,
-/// Simulation of Simplicity): who counts faces by it counts a place on an edge as one beside it.
-/// Zero only where there is no such plane.
+/// edge and the light L = (l, w) on which a place lies. Exact, with ties broken as if the place
+/// were moved by (e, e^2, e^3) with an infinitesimal e (Edelsbrunner & Muecke 1990, Simulation of
+/// Simplicity): a count of faces by it takes a place on an edge for one beside it. Zero only where
+/// there is no such plane.
 int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b,
                  const glm::dvec3& place);
 

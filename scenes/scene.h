@@ -1,6 +1,6 @@
-// A scene as both sides see it: triangles baked once to world-space float32, one camera, one light
-// chosen among the file's; and, where a material has a bump map, what lighting needs of its
-// surfaces. Plain data; indices for references.
+// A scene as reference and rasterizer both see it: triangles baked once to world-space float32, one
+// camera, one light chosen among the file's and, where a material has a bump map, what lighting
+// needs of its surfaces. Plain data; references are indices.
 #pragma once
 
 #include "scenes/camera.h"
@@ -22,14 +22,15 @@ namespace shadowproof {
 inline constexpr std::uint32_t no_triangle = 0xffffffffU;
 inline constexpr std::uint32_t no_texture = 0xffffffffU;
 
-/// What gives a surface its small normals.
+/// What perturbs a surface's normals.
 enum class Bump : std::uint8_t {
     none,
     normal_map,   ///< glTF's normalTexture: x along the tangent, y along the bitangent, 0 at 0.5
     height_field, ///< red is the height, in units of Material::bump_scale texels
 };
 
-/// Colours are linear. All but the first two are there in scenes with bump maps only (is_bump_lit).
+/// Colours are linear. All but the first two members are set only in scenes with bump maps
+/// (is_bump_lit).
 struct Material {
     std::string name;
     bool double_sided = false; ///< otherwise a triangle is not seen from behind, as glTF says
@@ -59,14 +60,14 @@ struct Mesh {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
     std::uint32_t material = 0; ///< index into Scene::materials
-    bool casts = true;          ///< throws shadows
-    bool receives = true;       ///< shows them: otherwise its lit sides are lit throughout
+    bool casts = true;          ///< casts shadows
+    bool receives = true;       ///< shows shadows: otherwise its lit sides are lit throughout
 };
 
 struct Light {
     enum class Kind : std::uint8_t { point, spot, directional };
     std::string name;
-    std::string choice{}; ///< what tells it from the file's others: its name, or else its number
+    std::string choice{}; ///< what identifies it within the file: its name, else its number
     Kind kind = Kind::point;
     glm::dvec3 position{0, 0, 0};   ///< point and spot
     glm::dvec3 direction{0, 0, -1}; ///< spot and directional: where the light shines to, unit
@@ -76,8 +77,8 @@ struct Light {
     double intensity = 1;                   ///< candela, or lux where directional
 };
 
-/// (position, 1), or (direction to the light, 0) of a directional one: L = (l, w). A point Q looks
-/// at the light along l - w Q.
+/// (position, 1), or (direction to the light, 0) of a directional one: L = (l, w). The direction
+/// from a point Q to the light is l - w Q.
 glm::dvec4 homogeneous(const Light& light);
 
 struct Scene {
@@ -90,7 +91,7 @@ struct Scene {
                                         ///< flip of mirroring nodes already made
     std::vector<Mesh> meshes;           ///< cover all triangles, in order, without gaps
     std::vector<Material> materials;    ///< at least one
-    std::vector<Surface> surfaces;      ///< three a triangle, in the order of its corners; empty
+    std::vector<Surface> surfaces;      ///< three per triangle, in the order of its corners; empty
                                         ///< where no material of a mesh has a bump map
     std::vector<TextureImage> textures; ///< what such a scene's materials need
     glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
@@ -105,20 +106,20 @@ struct Scene {
     std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
     std::vector<Cause> may_provoke; ///< extras.shadowproof.mayProvoke: at some picture sizes
     bool declares_provokes = false; ///< whether the file says what it provokes
-    std::vector<std::string> notes; ///< said on the console: defaults taken, things not evaluated
+    std::vector<std::string> notes; ///< for the console: defaults taken, things not evaluated
 };
 
-/// Corner k (0..2) of a triangle, as the doubles that the floats are.
+/// Corner k (0..2) of a triangle, its floats converted to double.
 inline glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
     return scene.positions[scene.triangles[triangle][k]];
 }
 
 /// Positive where a triangle is wound counter-clockwise as seen from a homogeneous point (l, w),
-/// negative where clockwise: (b - a) x (c - a) . (l - w a), from the first of its corners (by x, y,
-/// z) on, with an exact sign (orientation.h). Zero without area or in its plane.
+/// negative where clockwise: (b - a) x (c - a) . (l - w a), with a the first of its corners by x,
+/// y, z, and with an exact sign (orientation.h). Zero without area or in its plane.
 double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point);
 
-/// Whether lighting by bump maps is asked for: some mesh's material has one.
+/// Whether the scene is lit by bump maps: some mesh's material has one.
 inline bool is_bump_lit(const Scene& scene) {
     return !scene.surfaces.empty();
 }
@@ -130,7 +131,7 @@ inline const Light& chosen_light(const Scene& scene) {
 /// Index into Scene::meshes of the mesh that holds a triangle.
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
 
-/// One flag a triangle: 1 where its material is double sided, its mesh casts, its mesh receives.
+/// One flag per triangle: 1 where its material is double sided, its mesh casts, its mesh receives.
 std::vector<std::uint8_t> double_sided_triangles(const Scene& scene);
 std::vector<std::uint8_t> casting_triangles(const Scene& scene);
 std::vector<std::uint8_t> receiving_triangles(const Scene& scene);

@@ -1,5 +1,5 @@
 // How a spot's light falls off from its inner to its outer cone: KHR_lights_punctual's
-// recommendation, for truth, technique and judge alike.
+// recommendation. Used by reference, techniques and verdicts alike.
 #pragma once
 
 #include "scenes/scene.h"
@@ -13,8 +13,8 @@ namespace shadowproof {
 /// clamp((c - cos_outer) * scale, 0, 1).
 struct SpotCone {
     double cos_outer = 0;
-    double scale = 0; ///< 1 / max(0.001, cos inner - cos outer); the extension names the 0.001, by
-                      ///< which cones that are as wide as each other divide by no zero
+    double scale = 0; ///< 1 / max(0.001, cos inner - cos outer); the 0.001 is the extension's, and
+                      ///< avoids a division by zero where both cones are equal
 };
 
 inline SpotCone spot_cone(const Light& light) {

@@ -15,16 +15,16 @@ namespace shadowproof {
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// Texels are linear in light (or plain numbers: normals, heights), decoded once and rounded to
-/// float: the same array goes to OpenGL. What the file has no channel for is 0, its alpha 1.
+/// float: the same array goes to OpenGL. Channels that the file lacks are 0, a missing alpha is 1.
 struct TextureImage {
     std::string name; ///< for messages: its JSON pointer
     Image<glm::vec4> texels{};
     Wrap wrap_s = Wrap::repeat; ///< along a row
     Wrap wrap_t = Wrap::repeat; ///< down the rows
-    int bits = 8;               ///< a channel has in the file
+    int bits = 8;               ///< per channel, in the file
 };
 
-/// The two texels of one axis around a coordinate, and how far it lies from the first to the
+/// The two texels around a coordinate along one axis, and how far it lies from the first to the
 /// second, in [0, 1).
 struct Taps {
     int first = 0;
@@ -32,15 +32,15 @@ struct Taps {
     double fraction = 0;
 };
 
-/// std::floor, which is a call on processors that are not known to have an instruction for it. The
-/// detour by an integer is exact below 2^62.
+/// The same as std::floor, which is a function call where the processor is not known to have an
+/// instruction for it. The conversion through an integer is exact below 2^62.
 inline double floor_of(double x) {
     if (!(std::abs(x) < 0x1p62)) return std::floor(x);
     const auto toward_zero = static_cast<double>(static_cast<std::int64_t>(x));
     return toward_zero > x ? toward_zero - 1 : toward_zero;
 }
 
-/// A texel number between -1 and one behind the last period's end, brought into [0, n).
+/// Mirrors a texel number between -1 and 2 n into [0, n).
 inline int mirrored(int texel, int n) {
     if (texel < 0) return -1 - texel;
     if (texel >= 2 * n) return texel - 2 * n;
@@ -51,7 +51,7 @@ inline int mirrored(int texel, int n) {
 /// the texels are floor(x) and floor(x) + 1, each wrapped into the texture as OpenGL does
 /// (OpenGL 4.5, table 8.20), the fraction x - floor(x). For repeat and mirrored_repeat `at` is
 /// first brought into one period, at - floor(at) or at - 2 floor(at / 2); for clamp_to_edge x is
-/// clamped to [0, n - 1]. Any finite coordinate is welcome.
+/// clamped to [0, n - 1]. `at` may be any finite number.
 inline Taps taps_at(Wrap wrap, int texels, double at) {
     const double n = texels;
     if (wrap == Wrap::repeat) at -= floor_of(at);
@@ -72,8 +72,8 @@ inline Taps taps_at(Wrap wrap, int texels, double at) {
     return {first, std::min(first + 1, texels - 1), fraction};
 }
 
-/// Bilinear interpolation in double of anything kept texel by texel: a + f (b - a) along the rows,
-/// then between them. Equal texels come out unchanged.
+/// Bilinear interpolation in double of anything stored texel by texel: a + f (b - a) along the
+/// rows, then between them. Equal texels give that value unchanged.
 template <class To, class From>
 To sample(const Image<From>& texels, const Taps& s, const Taps& t) {
     const auto along = [&](int row) {

@@ -5,19 +5,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -31,14 +35,14 @@ namespace {
                 "see the limits on processes and memory (ulimit -u)");
 }
 
-/// Without what libraries do at exit: some wait there for threads of theirs that are the parent's.
-/// LeakSanitizer, which looks at exit, sees nothing of a child either.
+/// Ends without the libraries' exit handlers: some wait for threads that only the parent has. So
+/// LeakSanitizer, which checks at exit, does not check a child.
 [[noreturn]] void end_child(int code) {
     std::fflush(nullptr);
     _exit(code);
 }
 
-/// Whether any thread of this process but the calling one is at work, as the system tells.
+/// Whether any thread of this process except the calling one is running, as the system reports.
 bool others_are_at_work() {
     namespace fs = std::filesystem;
     const std::string own = std::to_string(gettid());
@@ -54,8 +58,8 @@ bool others_are_at_work() {
 }
 
 /// Libraries start threads while they are loaded (log4cplus, which comes with OpenImageIO). One
-/// that still starts may hold a lock, such as an allocator's, that nobody would ever give back in a
-/// child: waits until all of them sleep.
+/// that is still starting may hold a lock, such as an allocator's, that would never be released in
+/// a child: waits until all of them sleep.
 void let_other_threads_settle() {
     constexpr int most_tries = 2000;
     constexpr std::chrono::milliseconds moment{1};
@@ -69,7 +73,7 @@ std::string words_of(const ChildEnd& end) {
     if (end.code) return fmt::format("ended with code {}", *end.code);
     std::string words =
         fmt::format("was ended by signal {} ({})", end.signal, strsignal(end.signal));
-    // Who kills without a word is nearly always the kernel.
+    // SIGKILL without an explanation nearly always comes from the kernel.
     if (end.signal == SIGKILL) words += ", as systems do where memory runs out";
     return words;
 }
@@ -78,7 +82,7 @@ ChildProcess::ChildProcess(const std::function<int(int pipe)>& work) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw_no_process(errno);
     let_other_threads_settle();
-    // What is buffered would be printed twice.
+    // Buffered output would be printed twice.
     std::fflush(nullptr);
     const pid_t parent = getpid();
     process_ = fork();
@@ -105,6 +109,21 @@ ChildProcess::~ChildProcess() {
         wait();
     }
     close(pipe_);
+}
+
+bool ChildProcess::ends_within(double seconds) const {
+    using Clock = std::chrono::steady_clock;
+    const auto until =
+        Clock::now() + std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(seconds));
+    while (true) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+        // poll() takes an int: a long wait is split.
+        const auto wait =
+            std::clamp<std::int64_t>(left.count(), 0, std::numeric_limits<int>::max());
+        pollfd pipe{.fd = pipe_, .events = POLLIN, .revents = 0};
+        if (poll(&pipe, 1, static_cast<int>(wait)) > 0) return true;
+        if (Clock::now() >= until) return false;
+    }
 }
 
 void ChildProcess::kill() {

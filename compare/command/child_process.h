@@ -1,5 +1,5 @@
-// Work in a child process: a crash of ours, of the driver or of a library ends the child alone, and
-// its parent can say so and go on.
+// Runs work in a child process: a crash of this program, the driver or a library ends the child
+// alone, and the parent can report it and go on.
 #pragma once
 
 #include <sys/types.h>
@@ -19,21 +19,23 @@ struct ChildEnd {
 /// "was ended by signal 11 (Segmentation fault)", "ended with code 3"
 std::string words_of(const ChildEnd& end);
 
-/// A child process of its own pipe. It is killed where its parent ends before it, and where this
-/// goes before it was waited for; so are children of its own, which hold the pipe too. One at a
-/// time.
+/// A child process with a pipe to its parent. It is killed if its parent ends first, or if this is
+/// destroyed before wait(); so are its own children, which hold the pipe too. One at a time.
 class ChildProcess {
 public:
     /// Forks. The child calls `work` with the writing end of the pipe and ends with the code that
     /// it returns; `work` must not throw. Threads of the parent are not in the child, so neither
-    /// Embree nor OpenGL may have been used before. Throws Error where there can be no process.
+    /// Embree nor OpenGL may have been used before. Throws Error if no process can be made.
     explicit ChildProcess(const std::function<int(int pipe)>& work);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// The reading end of the pipe: at its end when the child is.
+    /// The reading end of the pipe; at end of file when the child has ended.
     int pipe() const { return pipe_; }
+    /// Whether it ends within `seconds`; waits no longer. Only for a child that writes nothing into
+    /// its pipe.
+    bool ends_within(double seconds) const;
     void kill();
     ChildEnd wait();
 

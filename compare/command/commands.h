@@ -1,5 +1,5 @@
-// The subcommands. Each adds itself to the command line; what it returns does its work after the
-// parsing, and gives the exit code.
+// The subcommands. Each function adds one to the command line and returns its work, which runs
+// after parsing and gives the exit code.
 #pragma once
 
 #include "compare/command/options.h"
@@ -7,6 +7,7 @@
 namespace shadowproof {
 
 Work add_verify(CLI::App& app);     ///< verify.cpp
+Work add_check(CLI::App& app);      ///< check/check.cpp
 Work add_render(CLI::App& app);     ///< render.cpp
 Work add_explain(CLI::App& app);    ///< explain.cpp
 Work add_list(CLI::App& app);       ///< list.cpp

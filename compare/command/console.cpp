@@ -1,7 +1,7 @@
 #include "compare/command/console.h"
 
 #include "compare/command/standard_output.h"
-#include "compare/escape.h"
+#include "compare/report/escape.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -34,7 +34,7 @@ std::string colored(std::string_view text, std::string_view parameters) {
 }
 
 /// GitHub's runner takes a line for a command that begins with "::" after any spaces, or holds
-/// "##[" anywhere; what comes from a file may do neither.
+/// "##[" anywhere; text from a file may do neither.
 std::string without_commands(std::string text) {
     const std::size_t first = text.find_first_not_of(" \t");
     if (first != std::string::npos && text.compare(first, 2, "::") == 0)
@@ -59,7 +59,7 @@ Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) ==
 Console::~Console() {
     try {
         clear_progress();
-    } catch (const OutputLost&) { // was said where it mattered
+    } catch (const OutputLost&) { // was reported already
     }
 }
 
@@ -110,7 +110,7 @@ void Console::commands(const std::string& lines) {
 
 void Console::print(const std::string& text) {
     clear_progress();
-    // Each line at once also into a pipe: who waits for a build reads along.
+    // Each line is flushed also into a pipe, as a person may follow the build.
     shadowproof::print((on_github_ ? without_commands(text) : text) + "\n");
 }
 

@@ -1,9 +1,9 @@
-// What a person reads while the program runs. Colour and a progress line only where a terminal
-// shows them; elsewhere plain lines, the same at each run but for the times. Text from files comes
-// out printable, and under GitHub Actions starts no workflow command.
+// Console output while the program runs. Colour and a progress line only on a terminal; elsewhere
+// plain lines, the same in each run except for times. Text from files is made printable, and cannot
+// start a workflow command under GitHub Actions.
 #pragma once
 
-#include "compare/report.h"
+#include "compare/report/report.h"
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace shadowproof {
 
 class Console {
 public:
-    /// Looks whether stdout is a terminal, and at NO_COLOR (no-color.org) and TERM.
+    /// Checks whether stdout is a terminal, and the variables NO_COLOR (no-color.org) and TERM.
     explicit Console(bool quiet);
     ~Console();
     Console(const Console&) = delete;
@@ -19,19 +19,19 @@ public:
 
     /// What is being done now; the next call of any kind replaces it.
     void progress(const std::string& text);
-    /// Takes it away.
+    /// Clears the progress line.
     void clear_progress();
     /// A line of results; not printed where quiet.
     void line(const std::string& text);
-    /// A heading, bold where colour is.
+    /// A heading, bold if colours are on.
     void heading(const std::string& text);
-    /// A cell's line, its verdict in colour where colour is; where quiet only if it failed.
+    /// A cell's line, with its verdict in colour if colours are on. If quiet, only a failed cell's.
     void cell(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths, bool failed);
-    /// A line that is printed even where quiet: what failed, and the end.
+    /// A line that is printed even if quiet: failures and the summary.
     void always(const std::string& text);
-    /// GITHUB_ACTIONS says that GitHub's runner reads the lines.
+    /// Whether GitHub's runner reads the lines (GITHUB_ACTIONS).
     bool on_github() const { return on_github_; }
-    /// Workflow commands, as they are.
+    /// Prints workflow commands unchanged.
     void commands(const std::string& lines);
 
 private:

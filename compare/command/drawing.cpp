@@ -1,6 +1,6 @@
 #include "compare/command/drawing.h"
 
-#include "compare/report_template.h"
+#include "compare/report/report_template.h"
 #include "scenes/error.h"
 
 #include <duktape.h>

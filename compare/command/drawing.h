@@ -1,4 +1,4 @@
-// The drawing of one pixel's ledger, made by the very script that draws it in the report.
+// The drawing of one pixel's ledger, made by the same script that draws it in the report.
 #pragma once
 
 #include <string>

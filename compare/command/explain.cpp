@@ -1,18 +1,20 @@
 #include "compare/blank.h"
-#include "compare/color_words.h"
+#include "compare/classify.h"
 #include "compare/command/commands.h"
 #include "compare/command/drawing.h"
 #include "compare/command/guard.h"
 #include "compare/command/output_files.h"
 #include "compare/command/standard_output.h"
-#include "compare/escape.h"
+#include "compare/families.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
-#include "compare/pixel_record.h"
+#include "compare/report/color_words.h"
+#include "compare/report/escape.h"
+#include "compare/report/pixel_json.h"
 #include "raster/render.h"
-#include "reference/ledger.h"
-#include "scenes/admission.h"
-#include "scenes/catalog.h"
+#include "reference/predict/ledger.h"
+#include "scenes/load/admission.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +22,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -40,6 +43,7 @@ struct ExplainOptions {
     TechniqueOptions technique;
     std::string json;
     std::string svg;
+    double timeout = 600; ///< seconds; 0: any number
     bool quiet = false;
 };
 
@@ -72,89 +76,44 @@ PixelPosition parse_pixel(const std::string& text) {
     return pixel;
 }
 
-TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record, const Tracer& tracer,
-                     const Silhouette& silhouette, const GroundTruth& truth,
-                     const ShadowDepths& depths, const Plan& plan, Gpu& gpu) {
-    const auto failed = [&](const std::string& why) {
-        TechniqueAtPixel at_pixel;
-        at_pixel.name = technique.name;
-        at_pixel.error = why;
-        return at_pixel;
-    };
+TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record,
+                     const TracedScene& traced, const Plan& plan, Gpu& gpu) {
+    TechniqueAtPixel at;
+    at.name = technique.name;
     try {
-        const Frame frame = render(technique, tracer.scene(), plan, gpu);
-        const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
-                                    frame.depth_model);
-        const Comparison comparison =
-            classify(tracer, silhouette, truth, depths, frame, prediction);
-        refuse_blank(technique.name, truth, frame, comparison);
-        TechniqueAtPixel at_pixel =
-            technique_at(record, prediction, std::string(technique.name), frame, comparison);
+        const Frame frame = render(technique, traced.scene(), plan, gpu);
+        const std::unique_ptr<Judge> judge = judge_of(traced, frame);
+        const int x = record.x;
+        const int y = record.y;
+        const PixelFinding found = classify_pixel(traced, frame, *judge, x, y);
+        refuse_blank(technique.name, traced.truth(), frame,
+                     found.cause == static_cast<std::uint8_t>(Cause::unexplained));
+        at.family = frame.family;
+        at.claim = frame.claim.at(x, y);
+        at.shows_surface = frame.shows_surface();
+        if (at.shows_surface) at.shown = frame.triangle.at(x, y);
+        at.cause = found.cause;
+        for (const CauseWords& words : all_causes)
+            if (found.also.contains(words.cause)) at.also.push_back(words.cause);
+        at.account = judge->account(record, traced.scene().unit);
         if (!frame.color.pixels.empty())
-            at_pixel.color = account_for_color(tracer, truth, frame, record.x, record.y);
-        return at_pixel;
+            at.color = account_for_color(traced.tracer(), traced.truth(), frame, x, y);
     } catch (const std::bad_alloc&) {
-        return failed(std::string(technique.name) + ": " + out_of_memory);
+        at.error = at.name + ": " + out_of_memory;
     } catch (const std::runtime_error& error) {
-        return failed(error.what());
+        at.error = error.what();
     }
+    return at;
 }
 
+/// "near_plane", "near_plane with counter"
 std::string cause_words(const TechniqueAtPixel& technique) {
-    return technique.cause == no_difference ? "no difference"
-                                            : std::string(all_causes[technique.cause].name);
-}
-
-std::string_view loss_words(Tally tally) {
-    switch (tally) {
-    case Tally::lost_near:
-        return "before the near plane";
-    case Tally::lost_far:
-        return "past the far plane";
-    case Tally::lost_cap:
-        return "on a missing cap";
-    case Tally::counted:
-    case Tally::beyond:
-        break;
-    }
-    return {};
-}
-
-/// "+1 at 3.2 before the near plane, 2 dark caps past the far plane"
-std::string lost_words(const PixelRecord& record, const TechniqueAtPixel& technique) {
-    std::string lost;
-    const auto add = [&](const std::string& what, Tally tally) {
-        if (loss_words(tally).empty()) return;
-        lost += fmt::format("{}{} {}", lost.empty() ? "" : ", ", what, loss_words(tally));
-    };
-    for (std::size_t i = 0; i < technique.tallies.size(); ++i)
-        add(fmt::format("{:+} at {:.9g}", crossings_of(record, technique)[i].change,
-                        crossings_of(record, technique)[i].depth),
-            technique.tallies[i]);
-    const std::int64_t open = technique.dark_cap_count;
-    if (open != 0)
-        add(fmt::format("{} dark {}", open, open == 1 ? "cap" : "caps"), technique.dark_caps);
-    if (technique.counting.test == Counting::Test::depth_pass && record.ledger.counts.at_eye != 0)
-        lost += fmt::format("{}{} around the eye", lost.empty() ? "" : ", ",
-                            record.ledger.counts.at_eye);
-    return lost;
-}
-
-bool meets_other_volumes(const PixelRecord& record, const TechniqueAtPixel& technique) {
-    const auto same = [](const Crossing& a, const Crossing& b) {
-        return a.depth == b.depth && a.change == b.change;
-    };
-    return technique.crossings &&
-           !std::ranges::equal(*technique.crossings, record.ledger.crossings, same);
-}
-
-/// "zfail_reversed makes its volumes otherwise, and meets +1 at 3.2, -1 at 5"
-std::string other_volumes_words(const TechniqueAtPixel& technique) {
-    std::string words = "  " + technique.name + " makes its volumes otherwise, and meets";
-    for (const Crossing& crossing : *technique.crossings)
-        words += fmt::format("{} {:+} at {:.9g}", words.ends_with("meets") ? "" : ",",
-                             crossing.change, crossing.depth);
-    return words + (technique.crossings->empty() ? " none\n" : "\n");
+    if (technique.cause == no_difference) return "no difference";
+    std::string words(all_causes[technique.cause].name);
+    for (std::size_t i = 0; i < technique.also.size(); ++i)
+        words +=
+            fmt::format("{} {}", i == 0 ? " with" : ",", shadowproof::name_of(technique.also[i]));
+    return words;
 }
 
 std::string ray_text(const Scene& scene, const PixelRecord& record) {
@@ -211,36 +170,83 @@ std::string ledger_text(const Scene& scene, const PixelRecord& record) {
                               counts.at_infinity);
 }
 
-std::string techniques_text(const PixelRecord& record) {
-    std::size_t width = std::string_view("technique").size();
-    for (const TechniqueAtPixel& technique : record.techniques)
-        width = std::max(width, technique.name.size());
-    width += 2;
-    std::string text = fmt::format("  {:<{}}{:>9}{:>8}{:>11}  {:<12}{:<15}{}\n", "technique", width,
-                                   "predicted", "stored", "read back", "claim", "cause", "lost");
-    for (const TechniqueAtPixel& technique : record.techniques) {
-        std::string line =
-            technique.error.empty()
-                ? fmt::format("  {:<{}}{:>9}{:>8}{:>11}  {:<12}{:<15}{}", technique.name, width,
-                              technique.predicted, technique.stored, technique.read_back,
-                              name_of(technique.claim), cause_words(technique),
-                              lost_words(record, technique))
-                : fmt::format("  {:<{}}{}", technique.name, width, printable(technique.error));
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+/// The techniques of one family as a table: what their evidence is, their claims and causes.
+class FamilyTable {
+public:
+    explicit FamilyTable(const std::vector<const TechniqueAtPixel*>& rows) : rows_(rows) {
+        add("technique", Side::left, [](const auto& row) { return row.name; });
+        const Account& account = rows.front()->account;
+        for (std::size_t i = 0; i < account.columns.size(); ++i)
+            add(account.columns[i].title, Side::right,
+                [i](const auto& row) { return row.account.columns[i].text; });
+        add("claim", Side::left, [](const auto& row) { return std::string(name_of(row.claim)); });
+        add("cause", Side::left, cause_words);
+        if (!account.remark.title.empty())
+            add(account.remark.title, Side::left,
+                [](const auto& row) { return row.account.remark.text; });
     }
-    for (const TechniqueAtPixel& technique : record.techniques)
-        if (meets_other_volumes(record, technique)) text += other_volumes_words(technique);
-    for (const TechniqueAtPixel& technique : record.techniques)
+
+    std::string text() const {
+        std::string text;
+        for (std::size_t row = 0; row <= rows_.size(); ++row) {
+            std::string line = " ";
+            for (const Column& column : columns_)
+                line += column.side == Side::left
+                            ? fmt::format(" {:<{}} ", column.cells[row], column.width)
+                            : fmt::format(" {:>{}} ", column.cells[row], column.width);
+            text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+        }
+        return text;
+    }
+
+private:
+    enum class Side : std::uint8_t { left, right };
+    struct Column {
+        Side side = Side::left;
+        std::size_t width = 0;
+        std::vector<std::string> cells; ///< its title, and one per row
+    };
+    std::vector<const TechniqueAtPixel*> rows_;
+    std::vector<Column> columns_;
+
+    void add(const std::string& title, Side side,
+             const std::function<std::string(const TechniqueAtPixel&)>& cell) {
+        Column column{side, 0, {title}};
+        for (const TechniqueAtPixel* row : rows_) column.cells.push_back(cell(*row));
+        for (const std::string& text : column.cells)
+            column.width = std::max(column.width, text.size());
+        columns_.push_back(std::move(column));
+    }
+};
+
+std::string techniques_text(const std::vector<TechniqueAtPixel>& techniques) {
+    std::string text;
+    for (const Family& family : all_families()) {
+        std::vector<const TechniqueAtPixel*> rows;
+        for (const TechniqueAtPixel& technique : techniques)
+            if (technique.error.empty() && technique.family == family.name)
+                rows.push_back(&technique);
+        if (!rows.empty()) text += FamilyTable(rows).text();
+    }
+    for (const TechniqueAtPixel& technique : techniques) {
+        if (!technique.error.empty())
+            text += fmt::format("  {}  {}\n", technique.name, printable(technique.error));
+        if (!technique.account.note.empty())
+            text += fmt::format("  {} {}\n", technique.name, technique.account.note);
+    }
+    for (const TechniqueAtPixel& technique : techniques)
         if (technique.color) text += to_text(*technique.color, technique.name);
     return text;
 }
 
-std::string as_text(const Scene& scene, const PixelRecord& record) {
+std::string as_text(const Scene& scene, const PixelRecord& record,
+                    const std::vector<TechniqueAtPixel>& techniques) {
     std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", printable(scene.name), record.x,
                                    record.y, scene.camera.width, scene.camera.height);
     for (const std::string& note : scene.notes)
         text += fmt::format("  note      {}\n", printable(note));
-    return text + ray_text(scene, record) + ledger_text(scene, record) + techniques_text(record);
+    return text + ray_text(scene, record) + ledger_text(scene, record) +
+           techniques_text(techniques);
 }
 
 /// The technique to draw: the first that differs, else the first that ran.
@@ -267,27 +273,26 @@ int explain(const ExplainOptions& options) {
     plan.lighting = options.technique.lighting;
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    PixelRecord record = record_pixel(tracer, truth, depths, options.pixel.x, options.pixel.y);
-    const Silhouette silhouette(tracer);
+    const TracedScene traced(tracer, truth);
+    const PixelRecord record = record_pixel(traced, options.pixel.x, options.pixel.y);
     Gpu gpu(options.technique.platform);
+    std::vector<TechniqueAtPixel> techniques;
     for (const Technique* technique : options.technique.chosen()) {
         if (options.technique.techniques.empty() && !suits(*technique, scene)) continue;
-        record.techniques.push_back(
-            ask(*technique, record, tracer, silhouette, truth, depths, plan, gpu));
+        techniques.push_back(ask(*technique, record, traced, plan, gpu));
     }
     const Scene told = in_file_units(scene);
-    record = in_units(std::move(record), scene.unit);
-    if (!options.quiet) print(as_text(told, record));
-    for (const TechniqueAtPixel& technique : record.techniques)
+    const PixelRecord told_record = in_units(record, scene.unit);
+    if (!options.quiet) print(as_text(told, told_record, techniques));
+    for (const TechniqueAtPixel& technique : techniques)
         if (!technique.error.empty()) complain(technique.error);
-    const std::string json =
-        to_json(told, record).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string json = to_json(told, told_record, techniques)
+                                 .dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (!options.json.empty()) write_file(options.json, json + "\n");
-    const std::optional<std::size_t> drawn = technique_to_draw(record.techniques);
+    const std::optional<std::size_t> drawn = technique_to_draw(techniques);
     if (!options.svg.empty() && drawn) write_file(options.svg, draw_cutaway(json, *drawn));
     const bool all_ran =
-        std::all_of(record.techniques.begin(), record.techniques.end(),
+        std::all_of(techniques.begin(), techniques.end(),
                     [](const TechniqueAtPixel& technique) { return technique.error.empty(); });
     return all_ran ? exit_passed : exit_could_not;
 }
@@ -318,6 +323,8 @@ Work add_explain(CLI::App& app) {
         ->required();
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->picture);
+    add_timeout_flag(*command, options->timeout,
+                     "Seconds above which it is given up (600; 0: any number)");
     command->add_option("--json", options->json, "Also write it all here")
         ->type_name("FILE")
         ->check(not_empty());
@@ -328,7 +335,9 @@ Work add_explain(CLI::App& app) {
         ->check(not_empty());
     command->add_flag("-q,--quiet", options->quiet, "No output but errors, and the files");
     command->final_callback([options] { check_inside(*options); });
-    return [options] { return guarded([&] { return explain(*options); }); };
+    return [options] {
+        return guarded_within(options->timeout, options->scene, [&] { return explain(*options); });
+    };
 }
 
 } // namespace shadowproof

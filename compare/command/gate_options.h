@@ -1,4 +1,4 @@
-// The flags of those commands that judge a run: the gate, the baseline and the outputs.
+// The flags of the commands that judge a run: the gate, the baseline and the outputs.
 #pragma once
 
 #include "compare/gate.h"

@@ -4,7 +4,10 @@
 #include "compare/command/standard_output.h"
 #include "compare/memory.h"
 #include "compare/output/unfinished.h"
-#include "compare/report.h"
+#include "compare/report/report.h"
+#include "scenes/error.h"
+
+#include <fmt/format.h>
 
 #include <exception>
 #include <new>
@@ -13,13 +16,21 @@ namespace shadowproof {
 
 namespace {
 
-/// Who writes a report removes first what a dead process left of it.
+/// The writer of a report first removes what a dead process left of it.
 void remove_leftovers(const std::string& report) {
     try {
         ReportFolder{report};
     } catch (const std::exception&) {
-        // Another run writes there by now, or the place is gone: nothing is left to be said.
+        // Another run writes there by now, or the place is gone: there is nothing to report.
     }
+}
+
+/// The exit code of a child that has ended, with a message if it did not end by itself.
+int code_of(const ChildEnd& end) {
+    if (end.code) return *end.code;
+    complain("the process that did the work " + words_of(end) +
+             "; nothing was written; report this with the command");
+    return exit_could_not;
 }
 
 } // namespace
@@ -41,12 +52,18 @@ int guarded(const Work& work, const std::string& report) {
     });
     ChildProcess child([&](int /*pipe*/) { return run_to_exit_code(work); });
     const ChildEnd end = child.wait();
-    if (end.code) {
-        left_behind.done();
-        return *end.code;
-    }
-    complain("the process that did the work " + words_of(end) +
-             "; nothing was written; report this with the command");
+    if (end.code) left_behind.done();
+    return code_of(end);
+}
+
+int guarded_within(double seconds, const std::string& what, const Work& work) {
+    ChildProcess child([&](int /*pipe*/) { return run_to_exit_code(work); });
+    if (seconds == 0 || child.ends_within(seconds)) return code_of(child.wait());
+    child.kill();
+    child.wait();
+    complain(Error(what, fmt::format("took longer than --timeout {}", seconds),
+                   "give it more seconds (0: any number), a smaller --size, or a simpler scene")
+                 .what());
     return exit_could_not;
 }
 

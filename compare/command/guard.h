@@ -1,5 +1,5 @@
-// A command's work in a child process, so that a crash in it, of ours or of a library, ends with a
-// sentence and exit code 3.
+// Runs a command's work in a child process, so that a crash of this program or a library ends with
+// a message and exit code 3.
 #pragma once
 
 #include "compare/command/options.h"
@@ -8,12 +8,15 @@
 
 namespace shadowproof {
 
-/// Runs the work, and says what it throws on standard error. Returns its exit code.
+/// Runs the work and prints what it throws to standard error. Returns its exit code.
 int run_to_exit_code(const Work& work) noexcept;
 
-/// The same in a child process. `report`: the folder of the report that the work writes, none where
-/// empty; what the child leaves unfinished of it, where it crashes or a signal ends the program, is
-/// removed.
+/// The same in a child process. `report`: the folder of the report that the work writes; empty if
+/// none. If the child crashes or a signal ends the program, the unfinished report is removed.
 int guarded(const Work& work, const std::string& report = {});
+
+/// The same for work that writes no report, given up after `seconds` (0: no limit). `what`: the
+/// subject of the message then, such as a scene.
+int guarded_within(double seconds, const std::string& what, const Work& work);
 
 } // namespace shadowproof

@@ -1,6 +1,6 @@
 #include "compare/command/commands.h"
 #include "compare/command/standard_output.h"
-#include "scenes/catalog.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 

@@ -17,13 +17,13 @@ using OIIO::TypeDesc;
 
 OIIO::ImageSpec spec_of(const Image<glm::dvec4>& map, TypeDesc type) {
     OIIO::ImageSpec spec(map.width, map.height, 4, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // alpha is no coverage
+    spec.attribute("oiio:UnassociatedAlpha", 1); // alpha is not coverage
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "    :  :     :  :  "); // unknown: as in truth_exr.cpp
     return spec;
 }
 
-/// Integers are passed as such: the rounding is ours.
+/// Integers are passed as such: rounding is done here.
 template <class T, class Convert>
 void write_as(const Image<glm::dvec4>& map, const char* format, TypeDesc type,
               const std::string& file, const Convert& convert) {

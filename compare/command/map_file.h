@@ -1,4 +1,4 @@
-// Normal maps as files.
+// Writes normal maps to files.
 #pragma once
 
 #include "scenes/image.h"

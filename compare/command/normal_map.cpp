@@ -5,8 +5,8 @@
 #include "compare/command/output_files.h"
 #include "compare/output/write_file.h"
 #include "scenes/error.h"
-#include "scenes/picture.h"
-#include "scenes/relief.h"
+#include "scenes/load/picture.h"
+#include "scenes/surface/relief.h"
 
 #include <fmt/format.h>
 
@@ -32,13 +32,13 @@ struct NormalMapOptions {
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26U;
 
-/// Bytes made of each pixel, all there at once at most: its height, slopes, normal, the map's
-/// texel, and that texel as it is written, once more in the writer.
+/// Peak of the bytes per pixel: its height, slopes, normal, the map's texel, and that texel as
+/// written, once more in the writer.
 constexpr std::uint64_t bytes_made_of_pixel = sizeof(double) + sizeof(glm::dvec2) +
                                               sizeof(glm::dvec3) + sizeof(glm::dvec4) +
                                               2 * 4 * sizeof(float);
 
-/// The first channel: of gray pictures the gray, else the red.
+/// The first channel: gray or red.
 Image<double> heights_of(const Picture& picture) {
     Image<double> heights(picture.width, picture.height);
     const auto channels = static_cast<std::size_t>(picture.channels);

@@ -162,6 +162,17 @@ void add_memory_flag(CLI::App& command, MemoryBudget& budget) {
         ->type_name("SIZE");
 }
 
+void add_timeout_flag(CLI::App& command, double& seconds, const std::string& words) {
+    command.add_option("--timeout", seconds, words)
+        ->type_name("SECONDS")
+        ->check([](const std::string& text) {
+            // A range check lets NaN through: all comparisons with it are false.
+            return text.find_first_of("nN") == std::string::npos ? std::string()
+                                                                 : text + " is not a number";
+        })
+        ->check(CLI::Range(0.0, 1e9).description(""));
+}
+
 std::optional<double> parse_number(const std::string& text) {
     const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
     const char* const end = text.data() + text.size();

@@ -1,12 +1,12 @@
-// What the subcommands understand in common: scenes, techniques, size, time, outputs.
+// Options that the subcommands share: scenes, techniques, size, time, outputs.
 #pragma once
 
-#include "compare/report.h"
-#include "raster/context.h"
+#include "compare/report/report.h"
+#include "raster/gl/context.h"
 #include "raster/technique.h"
 #include "scenes/lighting_settings.h"
+#include "scenes/load/scene_request.h"
 #include "scenes/memory_budget.h"
-#include "scenes/scene_request.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -17,7 +17,7 @@
 
 namespace shadowproof {
 
-/// What a run ends with, for scripts and build servers.
+/// Exit codes, for scripts and build servers.
 enum ExitCode : int {
     exit_passed = 0,    ///< agrees, or fails as predicted
     exit_failed = 1,    ///< a defect or an unexplained pixel
@@ -33,7 +33,7 @@ struct PictureSize {
     int height = 512;
 };
 
-/// Which picture of a scene, and by which techniques.
+/// Which picture of a scene, and what making it may use.
 struct SceneOptions {
     PictureSize size;
     std::optional<std::string> camera;
@@ -43,7 +43,7 @@ struct SceneOptions {
     MemoryBudget memory{};
 
     SceneRequest request() const;
-    /// Nothing here asks for other than a scene's own default picture.
+    /// Whether all options are those of a scene's default picture.
     bool is_default() const;
 };
 
@@ -63,13 +63,16 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options);
 /// --memory, whose default is default_memory_budget().
 void add_memory_flag(CLI::App& command, MemoryBudget& budget);
 
+/// --timeout, in seconds; `words`: its help text.
+void add_timeout_flag(CLI::App& command, double& seconds, const std::string& words);
+
 /// A finite number as std::from_chars reads it, the same in every locale, a + before it allowed.
 std::optional<double> parse_number(const std::string& text);
 
 /// A check for CLI11: the path may not be empty.
 CLI::Validator not_empty();
 
-/// Of a file's name, in small letters: ".exr".
+/// A file name's extension in lower case: ".exr".
 std::string extension_of(const std::string& file);
 
 /// The flags that differ from their defaults, as words of a command line.

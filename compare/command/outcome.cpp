@@ -5,8 +5,8 @@
 #include "compare/command/standard_output.h"
 #include "compare/output/write_file.h"
 #include "raster/technique.h"
-#include "scenes/catalog.h"
 #include "scenes/error.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 namespace shadowproof {
 
@@ -38,14 +39,14 @@ int exit_code(const Report& report) {
     return report.passed ? exit_passed : exit_failed;
 }
 
-/// Steps append to one file, each its own.
+/// Each step appends to the same file.
 void append_step_summary(const Report& report) {
     const char* file = std::getenv("GITHUB_STEP_SUMMARY");
     if (file == nullptr || *file == '\0') return;
     try {
         append_to_file(file, to_step_summary(report));
     } catch (const Error& error) {
-        // What the run says is said elsewhere too: a lost summary fails no build.
+        // The console has the same content: a lost summary fails no build.
         complain(fmt::format("GITHUB_STEP_SUMMARY={}", error.what()));
     }
 }
@@ -108,7 +109,7 @@ std::vector<std::string> stopped_provoking(const Report& report,
     const SceneResult& scene = lights.front();
     if (!is_default_picture(report) || !is_bundled(scene.argument)) return {};
     std::vector<std::vector<Cause>> fails_at;
-    std::vector<Comparison> comparisons;
+    CausePixels shown{};
     for (const SceneResult& light : lights)
         for (const Technique& technique : all_techniques()) {
             // Its shadows are zfail_reversed's, which is tried on every scene.
@@ -116,16 +117,18 @@ std::vector<std::string> stopped_provoking(const Report& report,
             const auto cell =
                 std::find_if(light.cells.begin(), light.cells.end(),
                              [&](const Cell& tried) { return tried.technique == technique.name; });
-            // Who was not tried or could not run may be the one that shows it.
+            // A technique that was not tried or could not run may be the one that shows it.
             if (cell == light.cells.end() || !cell->error.empty()) return {};
             fails_at.push_back(technique.fails_at);
-            comparisons.emplace_back().causes = cell->comparison.causes;
+            for (std::size_t cause = 0; cause < shown.size(); ++cause)
+                shown[cause] += cell->comparison.causes[cause];
         }
     std::vector<Cause> provokes;
     for (const std::string& name : scene.provokes)
         if (const std::optional<Cause> cause = cause_named(name)) provokes.push_back(*cause);
     std::vector<std::string> names;
-    for (const Cause cause : no_longer_provoked(provokes, fails_at, comparisons))
+    const auto is_shown = [&](Cause cause) { return shown[static_cast<std::size_t>(cause)] > 0; };
+    for (const Cause cause : no_longer_provoked(provokes, fails_at, is_shown))
         names.emplace_back(name_of(cause));
     return names;
 }
@@ -152,6 +155,17 @@ int conclude(Console& console, const Report& report, const OutputOptions& option
     console.always(fmt::format("{}; report in {}", outcome_words(report),
                                (fs::path(options.out) / "index.html").string()));
     return exit_code(report);
+}
+
+int end_run(ReportFolder& folder, Console& console, Report& report, const GateOptions& gate,
+            const std::optional<ResultsFile>& baseline, const OutputOptions& output,
+            const std::string& started) {
+    if (baseline)
+        report.baseline = Baseline{gate.baseline, baseline->json["passed"].get<bool>(),
+                                   notes_on(*baseline, report)};
+    report.passed = passes(report);
+    finish(folder, console, report, output, started);
+    return conclude(console, report, output, started);
 }
 
 } // namespace shadowproof

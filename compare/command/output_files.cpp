@@ -3,7 +3,7 @@
 #include "compare/output/followed.h"
 #include "compare/output/manifest.h"
 #include "compare/output/write_file.h"
-#include "compare/report.h"
+#include "compare/report/report.h"
 #include "scenes/error.h"
 
 #include <filesystem>
@@ -43,8 +43,8 @@ void check_output(const std::string& file, const std::string& out, Output output
 
 namespace {
 
-/// Whether two names lead to one place where a file is kept: devices take what comes. What cannot
-/// be followed is no output: check_writable says why.
+/// Whether two names lead to one file on disk; devices do not count. A name that cannot be resolved
+/// is no output: check_writable says why.
 bool are_one(const std::string& a, const std::string& b) {
     if (a.empty() || b.empty()) return false;
     try {

@@ -1,4 +1,4 @@
-// Pictures as the bytes of a file, by OpenImageIO: they are written by write_file, as all others.
+// Encodes pictures as the bytes of a file, by OpenImageIO; write_file writes them, as all files.
 #pragma once
 
 #include <OpenImageIO/imageio.h>

@@ -4,12 +4,12 @@
 #include "compare/command/guard.h"
 #include "compare/command/options.h"
 #include "compare/command/output_files.h"
-#include "compare/merge.h"
 #include "compare/output/write_file.h"
-#include "compare/results_check.h"
+#include "compare/results/merge.h"
+#include "compare/results/results_check.h"
 #include "raster/technique.h"
-#include "scenes/catalog.h"
 #include "scenes/error.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
@@ -40,11 +40,11 @@ void refuse_to_lose(const fs::path& results, const fs::path& out) {
                 "name another folder with --out");
 }
 
-/// Copies what the results name. The report is made all the same where some of it is damaged: the
-/// viewer looks for itself, and shows what is missing as missing.
+/// Copies the files that the results name. Damaged ones do not stop the report: the viewer checks
+/// them itself, and shows what is missing as missing.
 void take_over_all(const std::vector<ReportFile>& files, const ReportFolder& folder,
                    const MemoryAccount& memory, Console& console) {
-    constexpr std::size_t most_lines = 12; // a whole folder that is missing is said once
+    constexpr std::size_t most_lines = 12; // a whole missing folder is reported once
     std::size_t damaged = 0;
     for (const ReportFile& file : files) {
         console.progress("copying " + file.to);
@@ -82,7 +82,7 @@ Outcome count_outcome(const ResultsJson& results, Console& console) {
             ++outcome.cells;
             if (cell.at("fails") != true) continue;
             ++outcome.failing;
-            // A verdict beside the error: given up, as was asked for.
+            // A verdict beside the error: given up after the time limit.
             const bool ran = !could_not_run(cell) || cell.contains("verdict");
             if (!ran) ++outcome.not_run;
             console.always(

@@ -1,4 +1,5 @@
-// A report made again from the results and pictures of earlier runs, for report and merge.
+// Rebuilds a report from the results and pictures of earlier runs, for the commands report and
+// merge.
 #pragma once
 
 #include "scenes/memory_budget.h"

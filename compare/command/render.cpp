@@ -1,4 +1,3 @@
-#include "compare/color_picture.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
 #include "compare/command/guard.h"
@@ -6,9 +5,10 @@
 #include "compare/command/truth_exr.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
-#include "compare/png.h"
-#include "scenes/catalog.h"
+#include "compare/report/color_picture.h"
+#include "compare/report/png.h"
 #include "scenes/error.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,9 @@ struct RenderOptions {
     std::string scene;
     SceneOptions picture;
     std::string output;
-    std::string aov; ///< of a PNG; empty: visibility
-    int samples = 1; ///< along each side of a pixel
+    std::string aov;      ///< of a PNG; empty: visibility
+    int samples = 1;      ///< along each side of a pixel
+    double timeout = 600; ///< seconds; 0: any number
     bool quiet = false;
 };
 
@@ -32,12 +33,12 @@ bool is_exr(const RenderOptions& options) {
     return extension_of(options.output) == ".exr";
 }
 
-/// Whether a .png shows more of lighting than its colour.
+/// Whether a .png shows another term of lighting than the colour.
 bool wants_terms(const RenderOptions& options) {
     return options.aov == "normal" || options.aov == "tangent";
 }
 
-/// Whether lighting is asked for, and what to say where it cannot be had.
+/// Whether lighting is requested, and the message if there is none.
 bool wants_lighting(const RenderOptions& options, const Scene& scene) {
     const bool asked = options.aov == "color" || wants_terms(options);
     if (asked && !is_bump_lit(scene))
@@ -88,7 +89,7 @@ int render_truth(const RenderOptions& options) {
     return exit_passed;
 }
 
-/// What CLI11 cannot see of one option alone.
+/// Checks that involve several options, which CLI11 does not make.
 void check_together(const RenderOptions& options) {
     if (!options.aov.empty() && is_exr(options))
         throw CLI::ValidationError("--aov", "an .exr holds them all; name a .png, or leave it out");
@@ -129,9 +130,14 @@ Work add_render(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(1, 32));
     add_scene_flags(*command, options->picture);
+    add_timeout_flag(*command, options->timeout,
+                     "Seconds above which it is given up (600; 0: any number)");
     command->final_callback([options] { check_together(*options); });
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
-    return [options] { return guarded([&] { return render_truth(*options); }); };
+    return [options] {
+        return guarded_within(options->timeout, options->scene,
+                              [&] { return render_truth(*options); });
+    };
 }
 
 } // namespace shadowproof

@@ -20,7 +20,7 @@ namespace shadowproof {
 
 namespace {
 
-// Signals come to the process, and so these are the process's.
+// Global, as signals are sent to the process.
 std::atomic<pid_t> running_child = -1;
 std::atomic<int> pipe_of_child = -1;
 std::atomic<pid_t> owner = -1;
@@ -47,9 +47,9 @@ void end_child() {
     const std::string words =
         fmt::format("shadowproof: ended by signal {} ({}); what was unfinished is removed\n",
                     signal, strsignal(signal));
-    // Nobody is left to hear that it cannot be written.
+    // A failed write is ignored: there is nowhere to report it.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
-    // The program ends as the signal ends programs, and its parent can tell.
+    // The program ends by the signal itself, so that its parent can tell.
     sigset_t one;
     sigemptyset(&one);
     sigaddset(&one, signal);
@@ -58,9 +58,8 @@ void end_child() {
     _exit(128 + signal);
 }
 
-/// For an exception that nobody catches, such as one that memory which runs out throws in a thread
-/// of a library. Memory may be short: nothing is allocated here. A child crashes as ever: its
-/// parent says so.
+/// For an uncaught exception, such as a failed allocation in a thread of a library. Memory may be
+/// short: nothing is allocated here. A child process crashes as usual, and its parent reports it.
 [[noreturn]] void end_uncaught() {
     if (getpid() != owner) std::abort();
     is_ending = true;
@@ -69,7 +68,7 @@ void end_child() {
     static constexpr std::string_view words =
         "shadowproof: ended by an error in a library's thread, as where memory runs out; "
         "nothing was written\n";
-    // Nobody is left to hear that it cannot be written.
+    // A failed write is ignored: there is nowhere to report it.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
     _exit(exit_could_not);
 }

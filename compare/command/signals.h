@@ -1,24 +1,25 @@
-// What becomes of the program when a signal ends it, or an exception that nobody catches: its child
-// goes first, then what is unfinished, and it says what happened.
+// Handles signals that end the program, and uncaught exceptions: kills the child, removes what is
+// unfinished, and prints what happened.
 #pragma once
 
 #include <sys/types.h>
 
 namespace shadowproof {
 
-/// From here on SIGINT, SIGTERM and SIGHUP leave nothing unfinished behind; SIGPIPE and SIGXFSZ
-/// end nothing: what cannot be written is an error where it is written. An exception that leaves a
-/// thread of a library ends this process with a sentence and exit_could_not; a child of it crashes.
-/// To be called once, before any other thread is started: they inherit what is blocked.
+/// From here on SIGINT, SIGTERM and SIGHUP leave nothing unfinished behind. SIGPIPE and SIGXFSZ do
+/// not end the program: the write that fails is an error. An uncaught exception in a library's
+/// thread ends this process with a message and exit_could_not; in a child process it is a crash. To
+/// be called once, before any other thread is started: threads inherit the blocked signals.
 void handle_signals();
 
 /// The child to be killed first, and the pipe that ends with it; -1: none.
 void set_running_child(pid_t process, int pipe);
 
-/// Waits until nobody holds the writing end of a pipe: a child and the children that die with it.
+/// Waits until no process holds the writing end of a pipe: the child and its own children have
+/// ended.
 void wait_for_end_of(int pipe);
 
-/// Does not return where a signal is ending the program: its child's end is no news then.
+/// Does not return if a signal is ending the program, so that its child's end is not reported.
 void wait_if_ending();
 
 } // namespace shadowproof

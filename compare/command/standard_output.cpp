@@ -1,6 +1,6 @@
 #include "compare/command/standard_output.h"
 
-#include "compare/escape.h"
+#include "compare/report/escape.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void complain(std::string_view message) noexcept {
         const std::string line = "shadowproof: " + printable(message) + "\n";
         std::fwrite(line.data(), 1, line.size(), stderr);
     } catch (const std::exception&) {
-        // No memory for words: as they are.
+        // No memory to make it printable: printed unchanged.
         std::fwrite(message.data(), 1, message.size(), stderr);
         std::fputc('\n', stderr);
     }

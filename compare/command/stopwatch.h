@@ -17,9 +17,8 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Since this process was started, loading its libraries included: what a person has waited. Linux
-/// notes the start in clock ticks since boot (proc(5), field 22), so to within 10 ms. Nothing where
-/// /proc is not mounted.
+/// Since this process was started, including the loading of its libraries. Linux notes the start in
+/// clock ticks since boot (proc(5), field 22), so to within 10 ms. None if /proc is not mounted.
 std::optional<double> milliseconds_since_start_of_process();
 
 } // namespace shadowproof

@@ -52,8 +52,8 @@ OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
         spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
     }
     spec.attribute("compression", "zip");
-    // Else the writer puts in the time of day, and no two files are the same. Blank is how Exif
-    // 2.3 (4.6.4) writes an unknown time.
+    // Otherwise the writer inserts the time of day, and no two files are the same. Blank is how
+    // Exif 2.3 (4.6.4) writes an unknown time.
     spec.attribute("DateTime", "    :  :     :  :  ");
     return spec;
 }

@@ -1,7 +1,7 @@
 // The truth as an OpenEXR picture of named channels.
 #pragma once
 
-#include "reference/shading.h"
+#include "reference/shade/shading.h"
 
 #include <filesystem>
 

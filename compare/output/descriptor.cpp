@@ -64,7 +64,7 @@ void read_pieces(const std::filesystem::path& file,
 
 namespace {
 
-/// For a pipe that is full: until somebody reads, but not for ever.
+/// Waits for the reader of a full pipe, but not for ever.
 void wait_for_reader(const Descriptor& pipe) {
     constexpr int patience_milliseconds = 5000;
     pollfd waiting{.fd = pipe.number(), .events = POLLOUT, .revents = 0};
@@ -83,7 +83,7 @@ void write_all(const Descriptor& to, std::string_view bytes) {
             wait_for_reader(to);
             continue;
         }
-        if (written == 0) errno = EIO; // nothing taken and no reason given: it would never end
+        if (written == 0) errno = EIO; // nothing written and no reason given: it would never end
         if (written <= 0) throw_errno();
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }

@@ -1,6 +1,6 @@
-// Open files, and the calls on them that may fail: each is checked, repeated where a signal cut it
-// short, and throws std::system_error with the kernel's reason. Who calls them knows the name that
-// the user gave, and says it (compare/output/unwritable.h).
+// Open files, and the system calls on them that may fail. Each is checked, repeated if a signal
+// interrupts it, and throws std::system_error with the kernel's reason. Callers add the name that
+// the user gave (compare/output/unwritable.h).
 #pragma once
 
 #include <sys/types.h>
@@ -18,7 +18,7 @@ namespace shadowproof {
 /// user namespace or a file system knows no such owner.
 bool may_not_give_away(int error);
 
-/// An open file; closed with this.
+/// An open file, closed on destruction.
 class Descriptor {
 public:
     Descriptor() = default;
@@ -31,7 +31,7 @@ public:
 
     int number() const { return number_; }
     explicit operator bool() const { return number_ >= 0; }
-    /// Closes it now, so that what the file system says then is heard.
+    /// Closes it now, and throws if the file system reports an error.
     void close();
 
 private:
@@ -41,12 +41,12 @@ private:
 /// open(2), closed on exec. `mode`: of a file that is created, before the umask.
 Descriptor open_file(const std::filesystem::path& file, int flags, mode_t mode = 0666);
 
-/// Calls `take` with all bytes of a regular file, piece by piece. Links are not followed; what is
-/// no regular file is EINVAL, and never waited for.
+/// Calls `take` with all bytes of a regular file, piece by piece. Links are not followed. Anything
+/// but a regular file is EINVAL, and is not waited for.
 void read_pieces(const std::filesystem::path& file,
                  const std::function<void(std::string_view)>& take);
 
-/// All of it, however many calls that takes.
+/// Writes all bytes, in as many calls as that takes.
 void write_all(const Descriptor& to, std::string_view bytes);
 
 /// fsync(2); what cannot be synced (a pipe, a device) needs no sync.

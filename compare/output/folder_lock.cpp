@@ -45,7 +45,7 @@ std::string first_line(const Descriptor& file) {
     return std::string(text.substr(0, text.find('\n')));
 }
 
-/// At once in the place of what a holder before has said: the lock is never without a signature.
+/// Replaces an earlier holder's text in one step, so that the lock is never without a signature.
 void sign(const Descriptor& file) {
     const std::string line = fmt::format("{}{}\n", signature, holder_of_this_process());
     errno = 0;
@@ -77,8 +77,8 @@ bool is_lock_at(const fs::path& name, const Descriptor& file) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Locked, or false where another process has it and keeps it. A run that is killed ends before its
-/// children do, which share its lock: whoever comes next waits for them.
+/// Locked, or false where another process has it and keeps it. A killed run ends before its
+/// children, which share its lock: the next process waits for them.
 bool take(const Descriptor& file) {
     constexpr int most_tries = 200;
     constexpr std::chrono::milliseconds moment{10};
@@ -96,14 +96,14 @@ bool holds_nothing_but_lock(const fs::path& work) {
     return true;
 }
 
-/// The lock that is there; none where it went away meanwhile.
+/// The existing lock; none if it has disappeared meanwhile.
 std::optional<Descriptor> take_over(const fs::path& work, const fs::path& report) {
     const fs::path name = work / lock_name;
     struct stat status {};
     if (::lstat(name.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) refuse_foreign(work);
     Descriptor file = open_file(name, O_RDWR | O_NOFOLLOW | O_NONBLOCK);
     const std::string line = first_line(file);
-    // Where files have a name before they have content, one may be cut off between the two.
+    // If files are named before they have content, a process may be killed between the two.
     const bool ours = line.starts_with(signature) || (line.empty() && holds_nothing_but_lock(work));
     if (!ours) refuse_foreign(work);
     if (!take(file)) refuse_held(report, line);
@@ -112,7 +112,7 @@ std::optional<Descriptor> take_over(const fs::path& work, const fs::path& report
     return file;
 }
 
-/// A new one, that is signed and locked when it appears; none where another appeared before.
+/// A new lock, signed and locked when it appears; none if another appeared before.
 std::optional<Descriptor> make(const fs::path& work, const fs::path& report) {
     const fs::path name = work / lock_name;
     Descriptor file;
@@ -124,7 +124,7 @@ std::optional<Descriptor> make(const fs::path& work, const fs::path& report) {
         if (reason != EOPNOTSUPP && reason != EISDIR && reason != EINVAL) throw;
     }
     if (file) {
-        static_cast<void>(take(file)); // nobody else has it
+        static_cast<void>(take(file)); // no other process has it
         sign(file);
         const std::string itself = fmt::format("/proc/self/fd/{}", file.number());
         if (::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0)
@@ -155,7 +155,7 @@ std::optional<Descriptor> try_lock(const fs::path& work, const fs::path& report)
     if (!fs::exists(status)) return std::nullopt;
     if (!fs::is_directory(status)) refuse_foreign(work);
     if (fs::exists(fs::symlink_status(work / lock_name))) return take_over(work, report);
-    // Its holder removes the lock last: one without is empty, or nobody's of this program.
+    // Its holder removes the lock last: a folder without a lock is empty, or not this program's.
     if (!holds_nothing_but_lock(work)) refuse_foreign(work);
     return make(work, report);
 }
@@ -180,7 +180,7 @@ FolderLock::FolderLock(const fs::path& work, const fs::path& report) : work_(wor
 
 void FolderLock::give_back() {
     if (!file_) return;
-    constexpr int tries = 2; // what fails for a moment must not leave anything
+    constexpr int tries = 2; // a passing failure must not leave anything behind
     const fs::path name = work_ / lock_name;
     for (int i = 0; i < tries && ::unlink(name.c_str()) != 0 && errno != ENOENT; ++i) continue;
     for (int i = 0; i < tries && ::rmdir(work_.c_str()) != 0; ++i)

@@ -1,5 +1,5 @@
-// The folder that a report is written in, beside its place, and the lock in it: one process at a
-// time writes a report.
+// The lock of a work folder, in which a report is written beside its place: one process at a time
+// writes a report.
 #pragma once
 
 #include "compare/output/descriptor.h"
@@ -13,13 +13,13 @@ namespace shadowproof {
 class FolderLock {
 public:
     FolderLock() = default;
-    /// Makes the folder, or takes over what a dead process left. Throws Error naming `report`, the
-    /// folder whose report is to be written: where another process holds the lock, with what it
-    /// says of itself; where `work` is there and carries no lock of this program; and where it
+    /// Makes the folder, or takes over one that a dead process left. Throws Error naming `report`,
+    /// the folder of the report to be written: if another process holds the lock, with that
+    /// process's description of itself; if `work` exists without a lock of this program; and if it
     /// cannot be made.
     FolderLock(const std::filesystem::path& work, const std::filesystem::path& report);
 
-    /// Removes the lock, and the folder where it is empty then.
+    /// Removes the lock, and the folder if it is then empty.
     void give_back();
     explicit operator bool() const { return static_cast<bool>(file_); }
 

@@ -35,7 +35,7 @@ std::optional<int> number_in(const fs::path& path) {
     return number;
 }
 
-/// Follows links until `stop` says so of a path, or there are none.
+/// Follows links until `stop` holds for a path, or there are none.
 template <class Stop>
 fs::path follow(const fs::path& path, const Stop& stop) {
     fs::path at = with_followed_folder(path);

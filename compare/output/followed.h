@@ -1,4 +1,4 @@
-// Links, followed to what they stand for.
+// Resolves symbolic links.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace shadowproof {
 
-/// Where `path` leads: absolute, without links, "." and "..", whether anything is there or not. Of
-/// a link to nothing it is what the link names: who creates that makes the link good. A slash at
-/// the end changes nothing. Throws std::system_error, for example where links run in a circle.
+/// Where `path` leads: absolute, without links, "." and "..". Nothing need exist there: a dangling
+/// link leads to the path that it names. A slash at the end changes nothing. Throws
+/// std::system_error, for example for a loop of links.
 std::filesystem::path followed(const std::filesystem::path& path);
 
 /// The number of an open file of this process that `path` names, as /dev/stdout, /dev/fd/3 and

@@ -14,14 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a line says: of the kinds, one letter each.
+/// The kinds of lines, one letter each.
 enum Kind : char { of_folder = 'f', of_begun = 'b', of_complete = 'c', of_kept = 'k' };
 
 void append(const Descriptor& file, Kind kind, const std::string& rest) {
     write_all(file, fmt::format("\n{} {}\n", static_cast<char>(kind), rest));
 }
 
-/// Line by line; one without an end was cut short.
+/// Reads line by line; a line without an end was truncated.
 void take(JournalRecord& record, const std::string& line) {
     if (line.size() < 3) return;
     std::istringstream words(line.substr(2));

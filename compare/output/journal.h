@@ -1,5 +1,5 @@
-// What a process writes down about the folder that it is filling, so that another process can
-// finish the writing, or clean up behind it.
+// The journal of a folder that a process is filling, from which another process can finish the work
+// or clean up.
 #pragma once
 
 #include "compare/output/descriptor.h"
@@ -11,7 +11,7 @@
 
 namespace shadowproof {
 
-/// A folder, whatever it is called by now.
+/// Identifies a folder independently of its name.
 struct FolderIdentity {
     std::uint64_t device = 0;
     std::uint64_t inode = 0;
@@ -22,14 +22,15 @@ struct FolderIdentity {
 FolderIdentity identity_of(const std::filesystem::path& folder);
 
 struct JournalRecord {
-    std::optional<FolderIdentity> folder; ///< that is filled; none: the journal does not say
+    std::optional<FolderIdentity> folder; ///< that is being filled; none if not known
     std::set<std::string> begun;          ///< names of the files that are or will be created
     Manifest written;                     ///< those that are complete
-    std::set<std::string> kept;           ///< names of what was in the folder that is replaced
+    std::set<std::string> kept;           ///< names of files kept from the folder that is replaced
 };
 
-/// Appends lines, each by one call, so that several threads and processes may. A line begins with a
-/// line feed too: one that was cut short spoils no other. Throws std::system_error.
+/// Appends lines, each in one call, so that several threads and processes may write. A line also
+/// begins with a line feed, so that a truncated line does not spoil the next one. Throws
+/// std::system_error.
 class Journal {
 public:
     Journal() = default;
@@ -44,7 +45,7 @@ private:
     Descriptor file_;
 };
 
-/// An empty record where there is no journal. Throws std::system_error where it cannot be read.
+/// An empty record if there is no journal. Throws std::system_error where it cannot be read.
 JournalRecord read_journal(const std::filesystem::path& file);
 
 } // namespace shadowproof

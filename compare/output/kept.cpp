@@ -116,7 +116,7 @@ void take_over_folder_modes(const std::vector<KeptFile>& kept, const fs::path& f
              above = above.parent_path())
             folders.insert(above);
     }
-    // From the bottom: one that may not be entered any more is the last of those below it.
+    // From the bottom: a folder whose new mode forbids access is done after those below it.
     for (auto name = folders.rbegin(); name != folders.rend(); ++name)
         take_over_mode(from / *name, to / *name);
 }
@@ -134,7 +134,7 @@ std::vector<std::string> empty_out(const fs::path& folder, const fs::path& home,
     std::vector<std::string> left;
     std::vector<Found> all = all_below(folder);
     std::reverse(all.begin(), all.end());
-    // The manifest goes last: without it nobody could go on where this was interrupted.
+    // The manifest is removed last: without it no process could continue after an interruption.
     std::stable_partition(all.begin(), all.end(),
                           [](const Found& found) { return found.name != manifest_name; });
     make_writable(folder);

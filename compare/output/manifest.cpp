@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* schema = "shadowproof/manifest/1";
-/// A million files' worth. What is larger was not written by this program.
+/// Enough for a million files. A larger one was not written by this program.
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28U;
 
 std::string hexadecimal(XXH128_hash_t hash) {
@@ -32,7 +32,7 @@ std::string hexadecimal(XXH128_hash_t hash) {
 }
 
 /// Whether an error means that there is no such file, or none that this program would have written:
-/// not there, a link, a folder or a device, too large. Others mean that nobody can tell.
+/// not there, a link, a folder or a device, too large. After other errors it is unknown.
 bool is_no_manifest(int reason) {
     return reason == ENOENT || reason == ENOTDIR || reason == ELOOP || reason == EINVAL ||
            reason == ENXIO || reason == EFBIG;

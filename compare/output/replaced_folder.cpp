@@ -65,9 +65,9 @@ FateOf fate_of_new_content(const JournalRecord& record, bool has_home) {
     };
 }
 
-/// Removes what a run has left in its work folder, this one or one that died: new content that was
-/// not finished, old content that was exchanged. `replaced`: names of old files that need not be
-/// kept though no manifest lists them. Returns what is nobody's, and left.
+/// Removes what this run, or one that died, left in the work folder: unfinished new content, and
+/// exchanged old content. `replaced`: names of old files that need not be kept though no manifest
+/// lists them. Returns what belongs to no report and stays.
 std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path& place,
                                            const std::set<std::string>& replaced) {
     const fs::path content = work / "report";
@@ -75,7 +75,7 @@ std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path&
     const JournalRecord record = read_journal(work / "journal");
     std::vector<std::string> left;
     if (is_there(older)) {
-        // It stepped aside, and nothing came in its place.
+        // It was moved away, and nothing has taken its place.
         if (!is_there(place) && ::rename(older.c_str(), place.c_str()) != 0) throw_errno();
         if (is_there(older)) left = empty_out(older, place, fate_of_old_content(older, replaced));
     }
@@ -115,7 +115,7 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-/// Foreign folders stand for what they hold.
+/// A foreign folder stands for its contents.
 std::vector<std::string> names_to_say(const std::vector<KeptFile>& kept, bool changed) {
     std::vector<std::string> names;
     for (const KeptFile& each : kept) {
@@ -238,7 +238,7 @@ void ReplacedFolder::finish() {
         const JournalRecord record = read_journal(work_ / "journal");
         for (const std::string& name : record.begun) {
             if (record.written.contains(name)) continue;
-            // A process that wrote it has died.
+            // The process that wrote it has died.
             if (::unlink((content_ / name).c_str()) != 0 && errno != ENOENT) throw_errno();
         }
         check_report_place(named_, place_, fixed_);
@@ -263,7 +263,7 @@ void ReplacedFolder::finish() {
 }
 
 void ReplacedFolder::clean_up() {
-    constexpr int tries = 2; // what fails for a moment must not leave anything
+    constexpr int tries = 2; // a passing failure must not leave anything behind
     for (int i = 0; i < tries && lock_; ++i) {
         try {
             if (empty_work_folder(work_, place_, requested_).empty()) lock_.give_back();

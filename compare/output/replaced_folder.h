@@ -1,7 +1,7 @@
-// A folder that replaces another at once: the report's. It is written beside its place, in
+// Replaces the folder of a report in one step. The new folder is written beside its place, in
 // DIR.writing/, which holds
 //   lock      held by the process that writes; its first line names it
-//   journal   what has been written so far, for the one who finishes or cleans up
+//   journal   what has been written so far, for finishing the work or cleaning up
 //   report/   the new content; then, for a moment, the old one that was exchanged for it
 //   older/    the old one, where the file system cannot exchange two folders
 #pragma once
@@ -18,10 +18,10 @@
 
 namespace shadowproof {
 
-/// At each moment, also where the process is killed, the old content or the new one stands whole at
-/// the folder's place (where the file system can exchange two folders; else there is a moment
-/// without either, which the next run mends). What this program did not write stays at its place.
-/// Dropped before finish(), or ended by a signal, it leaves nothing behind.
+/// At any moment, even if the process is killed, either the old or the new content is complete at
+/// the folder's place. (If the file system cannot exchange two folders, there is a moment without
+/// either, which the next run repairs.) Files that this program did not write stay at their place.
+/// Nothing is left behind if this is destroyed before finish(), or if a signal ends the program.
 class ReplacedFolder {
 public:
     /// `fixed`: names of files that the new content will have in any case, manifest.json not among
@@ -32,18 +32,18 @@ public:
     ReplacedFolder& operator=(const ReplacedFolder&) = delete;
     ~ReplacedFolder() = default;
 
-    /// Writes a file of the new content; `name` is relative to the folder, with slashes. Several
-    /// threads may, and processes forked from the one that made this. Throws Error naming the file,
-    /// also where one of that name was added already.
+    /// Writes a file of the new content; `name` is relative to the folder, with slashes. For
+    /// several threads, and processes forked from the one that made this. Throws Error naming the
+    /// file, also if that name was added already.
     void add(const std::string& name, std::string_view bytes) const;
     /// The same for a file that the user asked for by its name: it replaces what has that name.
     void add_requested(const std::string& name, std::string_view bytes);
 
-    /// Puts the new content in its place, with manifest.json, and removes the old one. By the
-    /// process that made this. Throws Error, with the old content untouched.
+    /// Puts the new content in its place, with manifest.json, and removes the old one. Only by the
+    /// process that made this. If it throws Error, the old content is untouched.
     void finish();
 
-    /// What a person should hear of: files that were kept.
+    /// Messages for the user: files that were kept.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:

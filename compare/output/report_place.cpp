@@ -30,7 +30,7 @@ constexpr std::array version_control{".git", ".hg", ".svn",      ".bzr",     "_d
 }
 
 fs::path home_of(uid_t user) {
-    const passwd* entry = ::getpwuid(user); // one thread asks, before the work
+    const passwd* entry = ::getpwuid(user); // called by one thread, before the work
     return entry != nullptr && entry->pw_dir != nullptr ? entry->pw_dir : "";
 }
 
@@ -55,15 +55,15 @@ bool is_mount_point(const fs::path& folder) {
     if (::statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &status) == 0 &&
         (status.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0)
         return (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
-    // Kernels before 5.8 do not say; they tell another file system by its device.
+    // Kernels before 5.8 do not report it; another file system still shows by its device.
     struct stat own {};
     struct stat above {};
     return ::stat(folder.c_str(), &own) == 0 && ::stat(folder.parent_path().c_str(), &above) == 0 &&
            own.st_dev != above.st_dev;
 }
 
-/// Older versions of this program wrote no manifest: what marks their reports is the schema in the
-/// first bytes of results.json.
+/// Older versions of this program wrote no manifest: their reports are recognised by the schema in
+/// the first bytes of results.json.
 bool is_report_without_manifest(const fs::path& folder) {
     std::error_code ignored;
     const fs::path file = folder / "results.json";

@@ -7,11 +7,11 @@
 
 namespace shadowproof {
 
-/// Throws Error, naming `named`, the folder as the user gave it, where `place`, the same without
-/// links, must not be replaced: the current folder, a home, those that hold them, a mount point, a
-/// folder with version control in it, and what is neither empty nor a report with a manifest.
-/// `fixed`: names that every report has. A file of such a name that the older report's manifest
-/// does not list, or that was changed, is refused too.
+/// Throws Error if a folder must not be replaced. `named`: the folder as the user gave it, for the
+/// message; `place`: the same without links. Refused are the current folder, a home, those that
+/// hold them, a mount point, a folder with version control in it, and what is neither empty nor a
+/// report with a manifest. `fixed`: names that every report has. A file of such a name that the
+/// older report's manifest does not list, or that was changed, is refused too.
 void check_report_place(const std::filesystem::path& named, const std::filesystem::path& place,
                         const std::vector<std::string>& fixed);
 

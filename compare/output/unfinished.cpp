@@ -8,8 +8,8 @@ namespace shadowproof {
 
 namespace {
 
-/// The process's, as signals are. Never destroyed: the thread that waits for signals may outlive
-/// main().
+/// Global, as signals are sent to the process. Never destroyed: the thread that waits for signals
+/// may outlive main().
 struct Registry {
     std::recursive_mutex guard;
     std::list<std::function<void()>> removals;
@@ -47,7 +47,7 @@ std::unique_lock<std::recursive_mutex> hold_unfinished() {
 }
 
 void remove_unfinished() {
-    registry().guard.lock(); // never unlocked: nobody writes until the end
+    registry().guard.lock(); // never unlocked: no thread writes any more
     for (const auto& remove : registry().removals) remove();
 }
 

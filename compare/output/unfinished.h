@@ -1,5 +1,5 @@
-// What is being written and is not at its place yet, so that whoever interrupts the program finds
-// none of it.
+// Files that are being written: they are removed if the work fails or a signal ends the program
+// before they are complete and at their place.
 #pragma once
 
 #include <sys/types.h>
@@ -10,8 +10,8 @@
 
 namespace shadowproof {
 
-/// Something unfinished. When this goes, or when a signal ends the program, `remove` is called,
-/// which must not throw: in the process that made this alone, whatever children it has.
+/// Guards something unfinished. If this is destroyed before done(), or a signal ends the program,
+/// it calls `remove`, which must not throw. Child processes that inherit the guard never call it.
 class Unfinished {
 public:
     explicit Unfinished(std::function<void()> remove);
@@ -19,7 +19,7 @@ public:
     Unfinished(const Unfinished&) = delete;
     Unfinished& operator=(const Unfinished&) = delete;
 
-    /// It is finished: nothing is left to be removed.
+    /// To be called when it is finished: `remove` is not called any more.
     void done();
 
 private:
@@ -28,12 +28,12 @@ private:
     bool done_ = false;
 };
 
-/// Held while anything unfinished is written, so that it cannot grow behind the one who removes it.
-/// One thread may hold several.
+/// The lock to hold while writing anything unfinished, so that nothing is added during a removal. A
+/// thread may lock it repeatedly.
 std::unique_lock<std::recursive_mutex> hold_unfinished();
 
-/// Removes whatever is unfinished. From then on nobody can hold_unfinished(): to be called where
-/// the process ends, by the thread that ends it.
+/// Removes everything unfinished, and keeps the lock: from then on hold_unfinished() blocks all
+/// other threads. To be called only by the thread that ends the process.
 void remove_unfinished();
 
 } // namespace shadowproof

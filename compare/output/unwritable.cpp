@@ -10,7 +10,7 @@ namespace shadowproof {
 
 namespace {
 
-/// What helps against `reason`; `otherwise` where it has no remedy of its own.
+/// The remedy for `reason`; `otherwise` if it has none of its own.
 std::string remedy_for(int reason, const char* otherwise) {
     switch (reason) {
     case ENOSPC:

@@ -1,5 +1,5 @@
-// What is said where a file or a folder cannot be written: the name that the user gave, the reason,
-// and what helps against it.
+// The error for a file or folder that cannot be written: the name that the user gave, the reason,
+// and the remedy.
 #pragma once
 
 #include "scenes/error.h"

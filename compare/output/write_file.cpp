@@ -28,7 +28,7 @@ namespace {
 
 using Status = struct stat;
 
-/// Of what links lead to; none where nothing is there.
+/// Status of a link's target; none if nothing is there.
 std::optional<Status> status_of(const fs::path& file) {
     Status status{};
     if (::stat(file.c_str(), &status) == 0) return status;
@@ -40,7 +40,7 @@ std::optional<Status> status_of(const fs::path& file) {
     throw std::system_error(reason, std::generic_category());
 }
 
-/// Where a file goes: all that is asked before anything is written.
+/// Where a file goes: all that is determined before anything is written.
 struct Destination {
     std::optional<int> descriptor; ///< an open one of this process
     std::optional<Status> there;   ///< what is there already
@@ -62,7 +62,7 @@ bool is_written_into(const Destination& to) {
     return to.descriptor || (to.there && !S_ISREG(to.there->st_mode));
 }
 
-/// A pipe without a reader is waited for a while: who reads may be starting.
+/// Waits a while for the reader of a pipe, which may be starting.
 Descriptor open_to_write_into(const fs::path& file) {
     using namespace std::chrono_literals;
     constexpr auto pause = 50ms;
@@ -78,7 +78,7 @@ Descriptor open_to_write_into(const fs::path& file) {
 }
 
 void write_into(const Destination& to, const fs::path& file, std::string_view bytes) {
-    if (to.descriptor) std::fflush(nullptr); // what was printed before comes before
+    if (to.descriptor) std::fflush(nullptr); // keeps the order with what was printed before
     Descriptor opened = to.descriptor ? Descriptor(::fcntl(*to.descriptor, F_DUPFD_CLOEXEC, 0))
                                       : open_to_write_into(file);
     if (!opened) throw_errno();
@@ -89,14 +89,14 @@ void write_into(const Destination& to, const fs::path& file, std::string_view by
 
 constexpr std::string_view passing_prefix = ".shadowproof-";
 
-/// A name that no file of this run has, nor of another that is running.
+/// A name that no file of this run, or of another running one, has.
 fs::path passing_name(const fs::path& folder) {
     static std::atomic<int> number = 0;
     return folder / fmt::format("{}{}-{}", passing_prefix, getpid(), number++);
 }
 
-/// Files under a passing name are locked as long as their writer lives: others are what a run left
-/// that was killed.
+/// Files under a temporary name are locked as long as their writer lives: unlocked ones are left
+/// from a killed run.
 void remove_leftovers(const fs::path& folder) {
     std::error_code ignored;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
@@ -111,7 +111,8 @@ void remove_leftovers(const fs::path& folder) {
     }
 }
 
-/// A new file in `folder`: without a name where the file system can, else under a passing one.
+/// A new file in `folder`: without a name if the file system can do that, else under a temporary
+/// one.
 struct NewFile {
     Descriptor opened;
     fs::path name; ///< empty: it has none
@@ -138,9 +139,9 @@ void give_name(const Descriptor& unnamed, const fs::path& name) {
         throw_errno();
 }
 
-/// Whose it was, and who may read it, stays.
+/// Keeps owner and mode.
 void take_over_mode(const Descriptor& file, const Status& from) {
-    // Where files may not be given away the owner is another, and the mode is what counts.
+    // If the owner may not be changed, at least the mode is kept.
     if (::fchown(file.number(), from.st_uid, from.st_gid) != 0 && !may_not_give_away(errno))
         throw_errno();
     if (::fchmod(file.number(), from.st_mode & 07777U) != 0) throw_errno();
@@ -154,8 +155,8 @@ void put_in_place(const Destination& to, std::string_view bytes) {
         if (!made.name.empty()) ::unlink(made.name.c_str());
     };
     Unfinished unfinished(remove);
-    // Not every file system has locks; a file that kill -9 leaves is then taken for one of another
-    // run at the worst, and stays.
+    // Not every file system has locks: a file left by kill -9 may then be taken for another run's,
+    // and stays.
     static_cast<void>(::flock(made.opened.number(), LOCK_EX | LOCK_NB));
     if (to.there) take_over_mode(made.opened, *to.there);
     write_all(made.opened, bytes);
@@ -195,13 +196,13 @@ void check_writable(const fs::path& file) {
             if ((flags & O_ACCMODE) == O_RDONLY) throw_code(EBADF);
             return;
         }
-        // Never opened: a pipe's reader would see it end.
+        // Not opened: a pipe's reader would see end of file.
         if (to.there && ::faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0) throw_errno();
         if (is_written_into(to)) return;
         const fs::path folder = to.place.parent_path();
         if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) throw_errno();
         try {
-            open_file(folder, O_TMPFILE | O_WRONLY); // gone again with its descriptor
+            open_file(folder, O_TMPFILE | O_WRONLY); // removed with its descriptor
         } catch (const std::system_error& error) {
             if (!takes_no_unnamed(error.code().value())) throw;
         }

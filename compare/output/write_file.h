@@ -1,5 +1,5 @@
-// Files that the user names: --json, --junit, -o and the like. Their bytes are made in memory, and
-// written here, so that every writer has the same checks.
+// Writes files that the user names: --json, --junit, -o and the like. Their bytes are made in
+// memory first, so that all are written with the same checks.
 #pragma once
 
 #include <filesystem>
@@ -8,21 +8,21 @@
 namespace shadowproof {
 
 /// A file appears whole or not at all, and is on the disk when this returns. Links are followed,
-/// and stay. A regular file that is there keeps its mode, and its owner where that is allowed; it
-/// is replaced by a new one, so that other hard links to it keep the old content, and extended
+/// and stay. An existing regular file keeps its mode, and its owner where that is allowed; it is
+/// replaced by a new one, so that other hard links to it keep the old content, and extended
 /// attributes and access control lists are not taken over. What is no regular file (a device, a
 /// pipe, /dev/stdout, /dev/fd/3) is written into. Where the file system takes files without a name
 /// (O_TMPFILE), kill -9 leaves nothing behind, unless it comes between the two calls that give the
-/// file its name; the next file that is written into that folder removes what is left then.
-/// Throws Error naming `file`, with what was there untouched.
+/// file its name; the next file that is written into that folder removes what is left then. Throws
+/// Error naming `file`, with what was there untouched.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
-/// Throws Error, naming the file, where write_file could not write it now: for asking before the
-/// work, not after. Changes and leaves nothing.
+/// Throws Error naming the file if write_file could not write it now. To be called before the work.
+/// Changes nothing.
 void check_writable(const std::filesystem::path& file);
 
-/// Adds to the end of a file that others add to as well, and makes it where there is none. Throws
-/// Error naming it.
+/// Appends to a file to which others append as well, and creates it if there is none. Throws Error
+/// naming it.
 void append_to_file(const std::filesystem::path& file, std::string_view bytes);
 
 } // namespace shadowproof

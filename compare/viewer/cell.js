@@ -3,7 +3,7 @@
 const views = ['side', 'slide', 'blend', 'toggle'];
 const viewTitles = { side: 'Side by side', slide: 'Slide', blend: 'Blend', toggle: 'Toggle' };
 
-/** What the cell's page shows of it: all that a link restores. */
+/** What the cell's page shows: all that a link restores. */
 function lookOf(params, opened) {
   const names = picturesOf(opened.cell);
   const of = (params.get('of') ?? '').split(',').filter((name) => names.includes(name));
@@ -95,7 +95,7 @@ function stepControls(page) {
         value: name, selected: page.look.cause === name }, `${name} (${grouped(pixels)})`))));
 }
 
-/** A pane with its name, or the words why there is none. */
+/** A pane with its name, or the reason why there is none. */
 function pane(page, name) {
   const { scene, cell } = page.opened;
   const problem = name ? page.pictures[name].problem
@@ -217,6 +217,14 @@ const savingWords = ({ against, ms, volume_fragments: fragments, plan_ms: planni
   `${fragments < 0 ? '−' : ''}${grouped(Math.abs(fragments))} volume fragments a frame against ` +
   `${against}, after ${milliseconds(planning)} of planning`;
 
+/** "z-pass, which ...: explains 67,754 wrong pixels, contradicts 0" */
+const diagnosisWords = (cell) => cell.diagnosis?.map(({ words, explained, contradicted }) =>
+  `${words}: explains ${counted(explained, 'wrong pixel')}, contradicts ${grouped(contradicted)}`);
+
+/** "1,204 to 1,210" */
+const rangeWords = ({ low, high }) =>
+  (low === high ? grouped(low) : `${grouped(low)} to ${grouped(high)}`);
+
 /** Plan, times, versions and the command that makes this cell again. */
 function howMade(results, { scene, cell }) {
   const { reference, provokes } = scene;
@@ -225,7 +233,9 @@ function howMade(results, { scene, cell }) {
     cell.command ? commandLine('copy-command', 'Reproduce this cell', cell.command) : null,
     facts([
       ['Technique', cell.summary], ['Drawn in', cell.error ? null : milliseconds(cell.ms)],
-      ['Volume fragments', cell.error ? null : grouped(cell.volume_fragments)],
+      ['Volume fragments', cell.volume_fragments === undefined ? null
+                                                                  : grouped(cell.volume_fragments)],
+      ['Predicted', cell.volumes && rangeWords(cell.volumes.fragments)],
       ['Saved', cell.saved && savingWords(cell.saved)],
       ['Truth traced in', reference && milliseconds(reference.ms)],
       ['Rays', reference && grouped(reference.rays)],
@@ -233,18 +243,21 @@ function howMade(results, { scene, cell }) {
       ['File', scene.file], ['Size', `${scene.width} × ${scene.height}`],
       ['Triangles', scene.triangles && grouped(scene.triangles)], ['Light', scene.light],
       ['Provokes', provokes?.join(', ')]]),
+    remarks('What would explain wrong pixels', diagnosisWords(cell)),
     remarks('Left out by the technique', cell.left_out),
     remarks('The plan: left out, as this scene does not need it', scene.left_out),
     remarks('Notes', scene.notes),
     madeWith(results));
 }
 
-/** What must be said before any picture: damage, blank truth, unexplained counters and colours. */
+/** Warnings above the pictures: damage, blank truth, unexplained counters and colours. */
 function warnings(opened) {
   const { scene, cell, problems } = opened;
-  const said = [unforeseenWords(opened), ...problems].filter(Boolean);
+  const said = [unpredictedWords(opened), ...problems].filter(Boolean);
   if (scene.reference && scene.reference.lit + scene.reference.shadowed === 0)
     said.unshift('The truth is blank: no pixel sees a surface.');
+  if (cell.volumes?.words)
+    said.unshift(`Nothing that the volumes’ faces make: ${cell.volumes.words}.`);
   if (cell.ledger?.unexplained > 0) {
     const { first } = cell.ledger;
     said.unshift(`The counter read back is not the one predicted, nor any in the band, or no ` +

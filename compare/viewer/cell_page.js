@@ -1,4 +1,4 @@
-// The state of the cell's page that is open, and what buttons and keys do to it.
+// The state of the open cell's page, and what buttons and keys do to it.
 
 let openPage = null; // the cell's page that is shown, or null
 

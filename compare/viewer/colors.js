@@ -1,18 +1,19 @@
-// Colours, of cells whose technique lights bump maps: how far off they are, and what one pixel has.
-// The bytes are those of the pictures; the figures are of linear light, in steps of 1/255.
+// The colours of cells whose technique lights bump maps: how far off they are, and those of one
+// pixel. The bytes are those of the pictures; the figures are of linear light, in steps of 1/255.
 
 /** By the values of the block color_verdict. */
 const colorVerdictWords = [
   'not judged, as surface or visibility are not the truth’s',
-  'within the bound of what rounding explains',
-  'beyond the bound of what rounding explains, as the technique’s arithmetic foresees',
-  'not what the technique’s arithmetic foresees',
-  'beyond the bound of what rounding explains, and not what the technique’s arithmetic foresees',
+  'within the bound of what the error budget explains',
+  'beyond the bound of what the error budget explains, as the technique’s arithmetic predicts',
+  'not what the technique’s arithmetic predicts',
+  'beyond the bound of what the error budget explains, and not what the technique’s arithmetic predicts',
+  'more than 1/255 off, and right where the rasterizer may have drawn instead',
 ];
 const colorBeyond = 2;
-const isUnforeseen = (verdict) => verdict > colorBeyond;
+const isUnpredicted = (verdict) => verdict === 3 || verdict === 4;
 
-/** "0.03", "24": steps of 1/255 where there is room for few digits. */
+/** "0.03", "24": steps of 1/255 in few digits. */
 const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
 
 const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pixel + 3));
@@ -20,6 +21,17 @@ const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pix
 function modelWords({ normalise, bumps }) {
   return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}`}, ` +
     `bumps as ${bumps === 'as-given' ? 'given' : bumps}`;
+}
+
+/** How wide the intervals of right colours are; missing in results of older versions. */
+function boundWords({ bound_width: width, interpolated, beyond_by: by }) {
+  if (!width) return '';
+  const ways = Object.entries(by ?? {}).sort((a, b) => b[1] - a[1])
+    .map(([way, pixels]) => `${way} ${grouped(pixels)}`);
+  return `right within ${fewSteps(width.median)}/255 from end to end at the median, ` +
+    `${fewSteps(width.p999)} of 99.9 %, ${fewSteps(width.widest)} at most, at ` +
+    `${counted(interpolated, 'pixel')} only with what the rasterizer may draw aside or round; ` +
+    (ways.length > 0 ? `beyond that by ${ways.join(', ')}; ` : '');
 }
 
 /** How far the colours of a cell are off; null where it has none. */
@@ -33,25 +45,25 @@ function colorLine(scene, cell) {
            element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
                    `(${at.x}, ${at.y})`),
            `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}; `],
-    `${modelWords(color)}.`);
+    at ? boundWords(color) : '', `${modelWords(color)}.`);
 }
 
-/** The alarm where colours are not as foreseen; null where they are. */
-function unforeseenWords({ cell, colorVerdict, width }) {
-  const count = cell.color?.unforeseen ?? 0;
+/** The alarm where colours are not as predicted; null where they are. */
+function unpredictedWords({ cell, colorVerdict, width }) {
+  const count = cell.color?.unpredicted ?? 0;
   if (count === 0) return null;
-  const first = colorVerdict ? colorVerdict.findIndex(isUnforeseen) : -1;
+  const first = colorVerdict ? colorVerdict.findIndex(isUnpredicted) : -1;
   const place = `(${first % width}, ${Math.floor(first / width)})`;
-  return 'The colour is not what the technique’s arithmetic foresees at ' +
+  return 'The colour is not what the technique’s arithmetic predicts at ' +
     `${counted(count, 'pixel')}${first < 0 ? '' : `; the first is ${place}`}.`;
 }
 
-/** Files of two runs must not be taken for one. */
+/** Checks that the files are of one run. */
 function checkColors({ cell, id, colorVerdict, problems }) {
   const counts = tallied(colorVerdict);
-  const { judged, beyond, unforeseen } = cell.color;
+  const { judged, beyond, unpredicted, moved = 0 } = cell.color;
   if (colorVerdict.length - counts[0] !== judged || counts[colorBeyond] !== beyond ||
-      counts[3] + counts[4] !== unforeseen)
+      counts[3] + counts[4] !== unpredicted || counts[5] !== moved)
     problems.push(`${id}/cell.js does not belong to results.js: ` +
                   'its colours were judged otherwise there');
 }
@@ -76,7 +88,7 @@ function pixelColors({ cell, trueColor, claimedColor, colorVerdict }, pixel) {
       valueChip('claimed', claimed.join(' '), `rgb(${claimed})`),
       element('span', { class: 'value' }, 'off by ',
               element('b', {}, claimed.map((byte, i) => signed(byte - right[i])).join(' ')))),
-    element('p', { class: isUnforeseen(verdict) ? 'counter unequal' : 'quiet' },
+    element('p', { class: isUnpredicted(verdict) ? 'counter unequal' : 'quiet' },
       `8-bit sRGB, as the pictures have them${judged ? `. In linear light: ${judged}` : ''}.`)];
 }
 
@@ -88,10 +100,12 @@ function colorErrorRows({ color }) {
     element('td', { class: 'number' }, grouped(pixels)), element('td', {}, meaning)));
   return [
     row('within', 'linear-gradient(90deg, #000000, #fff4c8)',
-        color.judged - color.beyond - color.unforeseen,
-        'what rounding explains; the lighter, the further off'),
+        color.judged - color.beyond - color.unpredicted - (color.moved ?? 0),
+        'what the error budget explains; the lighter, the further off'),
     row('beyond', causeLegend('shading').color, color.beyond,
-        'what rounding explains, as the technique’s arithmetic foresees'),
-    row('unforeseen', causeLegend('unexplained').color, color.unforeseen,
+        'what the error budget explains, as the technique’s arithmetic predicts'),
+    row('moved', causeLegend('edge').color, color.moved ?? 0,
+        'more than 1/255 off, and right where the rasterizer may have drawn instead'),
+    row('unpredicted', causeLegend('unexplained').color, color.unpredicted,
         'by the technique’s arithmetic')];
 }

@@ -1,6 +1,6 @@
 // The drawing of one pixel: a side view in the plane of the eye ray and the light, after the
-// cutaways of the shadow volume papers, below it the ray's events in order, and what came of them in
-// words. ECMAScript 5 without a DOM, because the command runs these very files too.
+// cutaways of the shadow volume papers, below it the ray's events in order, and their result in
+// words. ECMAScript 5 without a DOM, because the command runs these files too.
 var cutaway = (function () {
   'use strict';
 

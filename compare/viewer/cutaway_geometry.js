@@ -1,5 +1,5 @@
 // The geometry of the drawing of one pixel: the plane through eye ray and light, what lies along
-// the ray in order, and where all of it goes on the paper. ECMAScript 5, as the command runs it.
+// the ray in order, and where all of it is drawn. ECMAScript 5, as the command runs it.
 var cutawayGeometry = (function () {
   'use strict';
 
@@ -25,7 +25,7 @@ var cutawayGeometry = (function () {
 
   /**
    * The plane of the drawing: `at(point)` is [depth, height towards the light in units of depth],
-   * `normal` stands on it. A light on the ray's line leaves no plane: `degenerate`.
+   * `normal` is its normal. With a light on the ray's line there is no plane: `degenerate`.
    */
   function planeOf(record) {
     var d = record.direction, length = Math.sqrt(dot(d, d));
@@ -47,7 +47,7 @@ var cutawayGeometry = (function () {
     };
   }
 
-  /** Where segment p q meets the plane of the drawing; the nearer end where it just does not. */
+  /** Where segment p q meets the plane of the drawing; if it just misses it, the nearer end. */
   function cutPoint(plane, eye, p, q) {
     var side = dot(plane.normal, minus(p, eye)), other = dot(plane.normal, minus(q, eye));
     var along = side === other ? 0.5 : clamp(side / (side - other), 0, 1);
@@ -97,7 +97,7 @@ var cutawayGeometry = (function () {
     return columns.reduce(function (sum, column) { return sum + breadth(column); }, 0);
   }
 
-  /** The longest run of columns of crossings that share one fate: [begin, end), or null. */
+  /** The longest run of columns of crossings with one outcome: [begin, end), or null. */
   function longestRun(columns) {
     var best = null, begin = 0, end;
     while (begin < columns.length) {
@@ -111,12 +111,12 @@ var cutawayGeometry = (function () {
     return best;
   }
 
-  /** Columns of the strip: an event each, or a run of one fate where there are many. */
+  /** Columns of the strip: one per event, or per run of one outcome if there are many. */
   function columnsOf(events, most) {
     var columns = events.map(function (event) { return [event]; });
     var run = longestRun(columns), keep, grouped;
     while (run && breadthOf(columns) > most) {
-      // The ends of a run stay, where there is room for them: they lie beside what decides.
+      // The ends of a run stay if there is room: they lie beside the events that decide.
       keep = run[1] - run[0] > 4 && breadthOf(columns) - (run[1] - run[0]) + 3.4 <= most ? 1 : 0;
       grouped = [].concat.apply([], columns.slice(run[0] + keep, run[1] - keep));
       columns.splice(run[0] + keep, run[1] - run[0] - 2 * keep, grouped);
@@ -126,8 +126,8 @@ var cutawayGeometry = (function () {
   }
 
   /**
-   * Where depths and heights go, inside a panel `width` wide: to scale where that is readable;
-   * else heights are squeezed, or depths stand only in their order at `columnX`.
+   * Maps depths and heights into a panel `width` wide: to scale where that is readable; else
+   * heights are compressed, or depths are placed by their order alone, at `columnX`.
    */
   function layout(record, plane, events, casters, width, columnX) {
     var left = 34, right = 18, most = 250, least = 96, top = 26;
@@ -173,7 +173,7 @@ var cutawayGeometry = (function () {
       lightIn = !plane.degenerate && !plane.directional;
       tall = 190;
       ray = top + tall;
-      if (plane.directional) // as far away on the paper as it is among the depths
+      if (plane.directional) // as far away in the drawing as among the depths
         lightAt = [0, 1].map(function (i) {
           var size = Math.sqrt(light[0] * light[0] + light[1] * light[1]);
           return (i ? ray : 0) + (i ? -1 : 1) * 1e4 * tall * light[i] / size;
@@ -191,14 +191,14 @@ var cutawayGeometry = (function () {
     };
   }
 
-  /** The way of a directional light's rays on the paper, at the upper border: [tail, tip]. */
+  /** A directional light's direction in the drawing, at the upper border: [tail, tip]. */
   function arrowAlong(way) {
     var length = Math.sqrt(way[0] * way[0] + way[1] * way[1]), x = way[0] / length * 13,
         y = way[1] / length * 13;
     return [[24 - x, 18 - y], [24 + x, 18 + y]];
   }
 
-  /** Depth to x by the places of the columns, straight in between. */
+  /** Depth to x by the places of the columns, linear in between. */
   function interpolation(events, columnX) {
     var knots = events.map(function (event, i) { return [event.depth, columnX(i)]; })
       .filter(function (knot) { return isFinite(knot[0]); });

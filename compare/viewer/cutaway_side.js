@@ -149,7 +149,7 @@ var cutawaySide = (function () {
                     'class': 'cut-fill-ink', fill: colors.ink });
   }
 
-  /** Names of what stands in the geometry, each where it hides no other. */
+  /** Labels of what is drawn, each where it hides no other. */
   function labelsDrawn(record, events, points, place, width) {
     var taken = [], text = '';
     if (place.lightIn) taken.push([place.light[0] - 100, place.light[1] - 14,

@@ -1,6 +1,6 @@
-// The lower part of the drawing of one pixel: the ray's events in order, a column each or a run of
-// them, which stay legible where the picture to scale puts them onto one spot. ECMAScript 5, as the
-// command runs it too.
+// The lower part of the drawing of one pixel: the ray's events in order, one column per event or
+// run of events. They stay legible where the drawing to scale puts them onto one spot. ECMAScript
+// 5, as the command runs it too.
 var cutawayStrip = (function () {
   'use strict';
 
@@ -70,7 +70,7 @@ var cutawayStrip = (function () {
     return text;
   }
 
-  /** Brackets under the strip: the fate of each run of crossings, in words that never overlap. */
+  /** Brackets under the strip: the outcome of each run of crossings, in words without overlap. */
   function fatesDrawn(columns, columnCentre, at, step, width) {
     var runs = [], text = '', rows = [], lowest = 0;
     columns.forEach(function (column, i) {
@@ -99,7 +99,7 @@ var cutawayStrip = (function () {
     return { text: text, height: runs.length ? 22 + 15 * lowest : 0 };
   }
 
-  /** Below the side view: { text, bottom }, with the least y that is free. */
+  /** Below the side view: { text, bottom }; `bottom` is the least y that is free. */
   function strip(record, columns, columnX, columnCentre, step, place, width) {
     var fan = place.bottom, top = fan + 30, marks = top + 22, steps = marks + 48;
     var text = leadersDrawn(columns, columnX, place, fan, top + 4, width);

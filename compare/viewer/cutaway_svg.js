@@ -40,7 +40,7 @@ var cutawaySvg = (function () {
       'class': 'cut-fill-' + color, fill: colors[color], 'fill-opacity': String(opacity) });
   }
 
-  /** What was lost is struck through in another colour than what nobody asked for. */
+  /** Lost crossings and those that do not count are struck through in different colours. */
   function struck(status, at, x, y) {
     if (status === 'counted') return '';
     return line([at[0] - x, at[1] + y], [at[0] + x, at[1] - y],

@@ -11,12 +11,12 @@ var cutawayWords = (function () {
   /** Room that a text takes in the widest of the fonts. */
   function room(text, size) { return 0.6 * size * text.length; }
 
-  /** How a technique counts a crossing: behind the surface an exit adds and an entry takes. */
+  /** How a technique counts a crossing: behind the surface an exit adds and an entry subtracts. */
   function contribution(technique, crossing, i) {
     return testOf(technique, i) === 'depth_fail' ? -crossing.change : crossing.change;
   }
 
-  /** Which crossings count: technique.tests tells it where casters are not counted alike. */
+  /** Which crossings count: technique.tests says so if casters are not counted alike. */
   function testOf(technique, i) { return technique.tests ? technique.tests[i] : technique.test; }
 
   function fateWords(status, test) {

@@ -1,5 +1,5 @@
-// What the report's scripts hand over, loaded when it is asked for: a page from disk cannot read
-// files, it can only run them. What is missing or damaged is an Error that names it.
+// Loads the data of the report's scripts on demand: a page from disk cannot read files, but it can
+// run scripts. Missing or damaged data is an Error that names it.
 
 const received = { legend: null, results: null, files: new Map() };
 
@@ -62,10 +62,10 @@ async function decodedBlock(block, length = block?.length) {
   if (bytes.byteLength !== length * Type.BYTES_PER_ELEMENT)
     throw new Error(`is damaged: ${bytes.byteLength} bytes where ` +
                     `${length * Type.BYTES_PER_ELEMENT} belong`);
-  return new Type(bytes); // little endian, as every machine with a browser is
+  return new Type(bytes); // little endian, like every machine with a browser
 }
 
-/** Decodes named blocks; those that cannot be are null, and said in `problems`. */
+/** Decodes named blocks; those that cannot be decoded are null, and named in `problems`. */
 async function decodedBlocks(file, blocks, lengths, problems) {
   const arrays = {};
   await Promise.all(Object.entries(lengths).map(async ([name, length]) => {

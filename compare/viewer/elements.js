@@ -15,7 +15,7 @@ function element(tag, attributes = {}, ...children) {
 
 const found = (id) => document.getElementById(id);
 
-/** Says something to a screen reader, and shows nothing. */
+/** Announces something to screen readers only. */
 function announce(text) {
   found('said').textContent = text;
 }
@@ -33,7 +33,7 @@ const facts = (rows) =>
     .map(([term, value]) => element('div', {}, element('dt', {}, term),
                                     element('dd', {}, value))));
 
-/** navigator.clipboard is not there for pages from disk everywhere. */
+/** Some browsers have no navigator.clipboard for pages from disk. */
 async function copyText(text) {
   try {
     await navigator.clipboard.writeText(text);

@@ -11,7 +11,7 @@ foreach(file ${FILES})
     endif()
 endforeach()
 file(WRITE ${OUTPUT} "// Made by compare/viewer/embed.cmake.
-#include \"compare/report_template.h\"
+#include \"compare/report/report_template.h\"
 
 #include <cassert>
 

@@ -43,7 +43,7 @@ function pixelFacts(record) {
   ]);
 }
 
-/** What a technique's counter gets of a crossing that it counts. */
+/** What a counted crossing adds to a technique's counter. */
 const testOf = (technique, i) => technique.tests?.[i] ?? technique.test;
 const countedAs = (technique, i, change) =>
   (testOf(technique, i) === 'depth_fail' ? -change : change);
@@ -117,7 +117,7 @@ function counterLine(technique, bits) {
           : `: not what the pixel’s centre predicts (${counterWords(technique.read_back, bits)}).`);
 }
 
-/** The drawing as wide as there is room. */
+/** The drawing, as wide as the room that there is. */
 function drawCutaway(page) {
   const place = found('cutaway');
   if (!place || !page.record) return;
@@ -138,46 +138,35 @@ function saveDrawing(page) {
   announce('Drawing saved');
 }
 
-function differingPixel(page, record) {
-  const [technique] = record.techniques;
-  page.record = record;
+function differingPixel(page, pixel) {
+  const { visibility, claim, causes } = page.opened;
+  const { name, meaning } = received.legend.causes[causes[pixel]];
+  // First, as it fails where the evidence cannot be shown.
+  const evidence = familyOf(page.opened.cell).differing(page, pixel);
   return [
-    verdictLine(record.truth, technique.claim, technique.cause),
-    element('p', { class: 'why' }, `${technique.cause}: ${causeLegend(technique.cause).meaning}.`),
-    ...pixelColors(page.opened, record.y * page.opened.width + record.x),
-    element('div', { id: 'cutaway', class: 'scroll', tabindex: '0', role: 'region',
-                     'aria-label': 'Side view along the eye ray' }),
-    element('div', { class: 'ledger-head' }, element('h3', { id: 'ledger-title' }, 'Ledger'),
-            button('save-drawing', 'Save the drawing', () => saveDrawing(page))),
-    ledgerTable(record), counterLine(technique, page.opened.bits),
-    record.adds_up ? null
-      : alertLine('Rounding lost a crossing here: those listed do not add up to the exact counts.'),
-    pixelFacts(record)];
+    verdictLine(visibility && visibilityNames[visibility[pixel]],
+                claim && visibilityNames[claim[pixel]], name),
+    element('p', { class: 'why' }, `${name}: ${meaning}.`),
+    ...pixelColors(page.opened, pixel),
+    ...evidence];
 }
 
 /** A pixel without a cause. Says "agree" only where both values are there and equal. */
-function otherPixel({ opened }, pixel) {
-  const { visibility, claim, predicted, readBack, causes, bits } = opened;
+function otherPixel(page, pixel) {
+  const { opened } = page;
+  const { visibility, claim, causes } = opened;
   if (!visibility || !claim || !causes)
     return [alertLine(`Nothing can be said of this pixel: ${opened.problems.join('; ')}.`)];
   const truth = visibilityNames[visibility[pixel]];
   const said = visibilityNames[claim[pixel]];
   const agrees = truth === said && causes[pixel] === noDifference;
-  const counters = predicted && readBack;
   return [
     verdictLine(truth, said, null),
-    agrees ? element('p', { class: 'why' }, isUnforeseen(opened.colorVerdict?.[pixel])
+    agrees ? element('p', { class: 'why' }, isUnpredicted(opened.colorVerdict?.[pixel])
       ? 'Truth and claim agree here on visibility.' : 'Truth and claim agree here.')
            : alertLine('Truth and claim differ here, and the results have no cause for it.'),
     ...pixelColors(opened, pixel),
-    counters ? element('p', { class: predicted[pixel] === readBack[pixel] ? 'counter'
-                                                                          : 'counter unequal' },
-      'Stored counter: predicted ',
-      element('b', { id: 'stored' }, counterWords(predicted[pixel], bits)), ', read back ',
-      element('b', { id: 'read-back' }, counterWords(readBack[pixel], bits)),
-      predicted[pixel] === readBack[pixel] ? '.' : ': not what the pixel’s centre predicts.')
-      : alertLine('The counters cannot be shown.'),
-    element('p', { class: 'quiet' }, 'The ledger of pixels that agree is printed by the command.')];
+    ...familyOf(opened.cell).agreeing(page, pixel)];
 }
 
 function pixelBody(page, x, y) {
@@ -186,14 +175,14 @@ function pixelBody(page, x, y) {
   page.record = null;
   if (!opened.causes || opened.causes[pixel] === noDifference) return otherPixel(page, pixel);
   try {
-    return differingPixel(page, pixelRecord(opened, x, y));
+    return differingPixel(page, pixel);
   } catch (error) {
     return [alertLine(`This pixel differs, and its ledger cannot be shown: ${error.message}.`),
             ...pixelColors(opened, pixel)];
   }
 }
 
-/** Lets a person name the pixel. */
+/** Input of a pixel by its coordinates. */
 function pixelForm(page) {
   const { opened, look } = page;
   const value = look.pixel ? look.pixel.join(',') : '';

@@ -1,4 +1,4 @@
-// One cell with all that the report holds of its pixels. What could not be had is null and named
+// One cell with all that the report holds of its pixels. What could not be loaded is null and named
 // in `problems`; the pages say so, and never take it for agreement.
 
 const noDifference = 255;
@@ -58,7 +58,7 @@ function checkTruth(opened) {
                   `${grouped(counts[255])} pixels are lit, the results have ${grouped(said.lit)}`);
 }
 
-/** Files of two runs must not be taken for one. */
+/** Checks that the files are of one run. */
 function checkCell(opened) {
   const { cell, id, causes, claim, visibility, problems } = opened;
   const counts = tallied(causes);
@@ -70,15 +70,10 @@ function checkCell(opened) {
                   'pixels differ that have no cause there');
 }
 
-const lengthsOfCell = (pixels, n) => ({
-  claim: pixels, predicted: pixels, read_back: pixels, faces: pixels,
-  seen: n, shown: n, exactness: n, ledger: n,
-  ledger_start: null, ledger_counts: null, ledger_exact: null, ledger_predicted: null,
-  crossing_face: null, crossing_change: null, crossing_status: null,
-  face: null, triangle: null, vertex: null,
-});
+const lengthsOfCell = (cell, pixels) =>
+  ({ claim: pixels, ...familyOf(cell).blocks(pixels, cell.differing) });
 
-/** The blocks of the colours, of cells that have some; their damage costs no ledger. */
+/** The blocks of a cell's colours, if it has some. Damaged ones do not affect the ledgers. */
 async function openColors({ scene, cell, id, sceneFile, cellFile, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;
@@ -102,7 +97,7 @@ async function openCell(scene, cell) {
   const truth = sceneFile && await decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
                                                  { visibility: pixels }, problems);
   const blocks = cellFile && await decodedBlocks(`${id}/cell.js`, cellFile.blocks,
-                                                 lengthsOfCell(pixels, cell.differing), problems);
+                                                 lengthsOfCell(cell, pixels), problems);
   const opened = {
     scene, cell, id, problems, sceneFile, cellFile, causes,
     width: scene.width, height: scene.height,

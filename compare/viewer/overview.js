@@ -77,7 +77,7 @@ function baselineLine(results) {
     (changed ? `${counted(changed, 'cell')} changed.` : 'nothing changed.'));
 }
 
-/** A picture that says so where it cannot be shown. */
+/** A picture, or a message if it cannot be shown. */
 function thumbnail(path, alt) {
   const image = element('img', { src: path, alt, loading: 'lazy', width: 112, height: 112 });
   image.addEventListener('error', () =>
@@ -132,7 +132,7 @@ const searchedText = (scene, cell) =>
   [scene.name, scene.file, cell.name, verdicts[verdictOf(cell)].words, cell.error ?? '',
    ...Object.keys(cell.causes ?? {})].join(' ').toLowerCase();
 
-/** Whether a cell is one that the filter asks for: { cause, find, verdict }. */
+/** Whether a cell passes the filter: { cause, find, verdict }. */
 function isWanted(scene, cell, filter) {
   if (filter.cause && !cell.causes?.[filter.cause]) return false;
   if (filter.verdict && verdictOf(cell) !== filter.verdict) return false;

@@ -1,5 +1,5 @@
-// Pointer and wheel on the panes. All panes share one look, so that what is done to one is done to
-// all.
+// Pointer and wheel on the panes. All panes share one look (zoom and place), so that they move
+// together.
 
 /** Zooms to `zoom`, and keeps the picture point `around` where it is on the screen. */
 function zoomTo(look, opened, pane, zoom, around = visibleMiddle(look, opened)) {
@@ -96,7 +96,7 @@ function listenToPane(pane, look, opened, { changed, inspect, hover }) {
   pane.addEventListener('pointerleave', () => hover(null));
 }
 
-/** Whether a pointer holds the line between the two pictures of the slide view. */
+/** Whether a pointer is on the line between the two pictures of the slide view. */
 function sliderGrabbed(event, pane, look) {
   if (look.view !== 'slide' || pane.dataset.picture) return false;
   const box = pane.getBoundingClientRect();

@@ -2,8 +2,7 @@
 // and pan as one, or two in one pane that slide, blend or toggle. A pane is a canvas that shows the
 // picture's pixels as they are, by nearest sampling.
 
-const pictureNames = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back',
-                      'volumes'];
+const pictureNames = ['truth', 'claim', 'difference', 'cause'];
 const colorPictureNames = ['true_color', 'claimed_color', 'color_error'];
 const pictureTitles = { true_color: 'True colour', claimed_color: 'Claimed colour',
                         color_error: 'Colour error', truth: 'Truth', claim: 'Claim',
@@ -11,7 +10,8 @@ const pictureTitles = { true_color: 'True colour', claimed_color: 'Claimed colou
                         read_back: 'Counter read back', volumes: 'Volumes' };
 
 /** The names of a cell's pictures, colours first. */
-const picturesOf = (cell) => [...(cell.color ? colorPictureNames : []), ...pictureNames];
+const picturesOf = (cell) =>
+  [...(cell.color ? colorPictureNames : []), ...pictureNames, ...familyOf(cell).pictures];
 
 /** The two that are compared until others are chosen. */
 const comparedFirst = (cell) =>
@@ -55,15 +55,16 @@ function counterPicture(values, width, height, bits) {
   return canvas;
 }
 
-/** What a picture says of one pixel, in a word that fits into it. */
+/** A picture's value at one pixel, as a word that fits into the pixel. */
 function pixelWord(opened, name, pixel) {
   const { visibility, claim, causes, predicted, readBack, faces, trueColor, claimedColor,
           colorVerdict } = opened;
   switch (name) {
   case 'true_color': return trueColor ? bytesAt(trueColor, pixel).join(' ') : '';
   case 'claimed_color': return claimedColor ? bytesAt(claimedColor, pixel).join(' ') : '';
-  case 'color_error': return !colorVerdict || colorVerdict[pixel] < colorBeyond ? ''
-    : isUnforeseen(colorVerdict[pixel]) ? 'unforeseen' : 'beyond';
+  case 'color_error': return !colorVerdict ? ''
+    : isUnpredicted(colorVerdict[pixel]) ? 'unpredicted'
+    : colorVerdict[pixel] === colorBeyond ? 'beyond' : '';
   case 'truth': return visibility ? valueNames[visibility[pixel]] : '';
   case 'claim': return claim ? valueNames[claim[pixel]] : '';
   case 'predicted': return predicted ? String(predicted[pixel]) : '';
@@ -87,7 +88,7 @@ function pixelInk(opened, name, pixel) {
     true_color: () => bytesAt(trueColor, pixel),
     claimed_color: () => bytesAt(claimedColor, pixel),
     color_error: () => colorBytes(
-      causeLegend(isUnforeseen(colorVerdict[pixel]) ? 'unexplained' : 'shading').color),
+      causeLegend(isUnpredicted(colorVerdict[pixel]) ? 'unexplained' : 'shading').color),
     truth: () => [visibility[pixel], visibility[pixel], visibility[pixel]],
     claim: () => [claim[pixel], claim[pixel], claim[pixel]],
     predicted: () => counterColor(asCount(predicted[pixel], bits)),
@@ -105,13 +106,14 @@ async function loadedPictures(opened) {
   const paths = { ...cell.images, truth: scene.images?.truth, true_color: scene.images?.color,
                   claimed_color: cell.images?.color };
   const pictures = {};
-  const fromFiles = picturesOf(cell).filter((name) => !['predicted', 'read_back'].includes(name));
+  const drawn = familyOf(cell).drawn(opened);
+  const fromFiles = picturesOf(cell).filter((name) => !drawn.some(([other]) => other === name));
   await Promise.all(fromFiles.map(async (name) => {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
       : { problem: `the results name no picture of the ${pictureTitles[name].toLowerCase()}` };
   }));
-  for (const [name, values] of [['predicted', opened.predicted], ['read_back', opened.readBack]])
-    pictures[name] = values ? { image: counterPicture(values, width, height, opened.bits) }
+  for (const [name, image] of drawn)
+    pictures[name] = image ? { image }
       : { problem: opened.problems.find((text) => text.includes(`block ${name} `)) ??
                    `${opened.id}/cell.js is missing or damaged` };
   return pictures;
@@ -183,7 +185,7 @@ function paintGrid(context, view) {
   context.stroke();
 }
 
-/** A word in its pixel, a line for each part of it, as large as fits; nothing where none fits. */
+/** A word in its pixel, one line per part, as large as fits; nothing if none fits. */
 function paintWord(context, view, word, x, y) {
   const lines = word.split(/[_ ]/);
   const longest = Math.max(3, ...lines.map((line) => line.length));

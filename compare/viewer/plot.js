@@ -1,5 +1,5 @@
-// Error against run time: each cell a small mark, each technique a labelled one at its median time
-// and worst error. Logarithmic axes; no error has a line of its own below 1.
+// Error against run time: each cell is a small mark, each technique a labelled one at its median
+// time and worst error. Logarithmic axes; zero error has a line of its own below 1.
 
 const plotShapes = {
   agrees: (x, y) => `M${x - 4} ${y}a4 4 0 1 0 8 0a4 4 0 1 0-8 0z`,

@@ -17,7 +17,7 @@ function routeText(cell, params) {
 
 let pendingLink = null;
 
-/** Makes the address that of what is shown. Browsers limit how often that may be done. */
+/** Updates the address to what is shown. Browsers limit how often that may be done. */
 function rememberLink(text) {
   clearTimeout(pendingLink);
   pendingLink = setTimeout(() => {

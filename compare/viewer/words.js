@@ -1,4 +1,4 @@
-// Words and marks, so that nothing is told by colour alone.
+// Words and marks, so that nothing is shown by colour alone.
 
 const verdicts = {
   unexplained: { mark: '?', words: 'unexplained', meaning: 'a difference that nothing predicts' },
@@ -42,14 +42,16 @@ function reasonOf(cell) {
   const said = [];
   if (counters > 0)
     said.push(`The counter read back is not the one predicted at ${counted(counters, 'pixel')}`);
-  const colors = cell.color?.unforeseen ?? 0;
+  const colors = cell.color?.unpredicted ?? 0;
   if (colors > 0)
-    said.push(`The colour is not what the technique’s arithmetic foresees at ` +
+    said.push(`The colour is not what the technique’s arithmetic predicts at ` +
               counted(colors, 'pixel'));
+  if (cell.volumes?.words) said.push(`Not as predicted: ${cell.volumes.words}`);
   if (worst && worst[0] !== 'edge')
     said.push(`${worst[0]} at ${counted(worst[1], 'pixel')}: ${causeLegend(worst[0]).meaning}`);
+  if (cell.diagnosis?.length) said.push(`Best explained by ${diagnosisWords(cell)[0]}`);
   if (said.length === 0)
-    said.push(cell.differing > 0 ? 'Only edge pixels differ, within the rasterizer’s freedom'
+    said.push(cell.differing > 0 ? 'Only edge pixels differ, within the rasterizer’s error bound'
                                  : 'Every pixel agrees');
   return `${said.join('. ')}.`;
 }
@@ -68,6 +70,8 @@ const wordsOfStatus = (status, test) =>
 /** The same settings and technique, for one pixel. Gates and files do not concern it. */
 const explainCommand = (command, x, y) =>
   `${command.replace(/^(\S*shadowproof) verify /, '$1 explain ')
+    .replace(/^(\S*shadowproof) check ('[^']*'|\S+) ('[^']*'|\S+)( --(mask|unlit) ('[^']*'|\S+))?/,
+             '$1 explain $2')
     .replace(/ --(gate|allow|baseline|junit|json|out) \S+/g, '')} --pixel ${x},${y}`;
 
 const contradictionOf = (truth, claim) => {

@@ -1,12 +1,12 @@
 #version 450 core
-// For volumes made by a geometry shader: each vertex where it is, and where it is at infinity. The
-// products are those of project.vert, so that a light cap has its surface's depth bit for bit.
+// For volumes made by a geometry shader: each vertex at its position, and at infinity. The products
+// are those of project.vert, so that a light cap has its surface's depth bit for bit.
 
 layout(location = 0) in vec3 position;
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or zero
-layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
+layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it

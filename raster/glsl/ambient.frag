@@ -1,5 +1,5 @@
 #version 450 core
-// What is seen under ambient light alone.
+// The visible surfaces under ambient light alone.
 #include lighting.glsl
 
 void main() {

@@ -1,5 +1,5 @@
 #version 450 core
-// The ambient light on what is seen, before any decal.
+// The ambient light on the visible surfaces, before any decal.
 #include lighting.glsl
 
 void main() {

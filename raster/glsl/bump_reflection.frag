@@ -1,11 +1,11 @@
 #version 450 core
-// What the surface reflects of the environment, looked up along the eye's direction mirrored at the
-// small normal, in world space.
+// The surface's reflection of the environment, looked up along the eye's direction mirrored at the
+// perturbed normal, in world space.
 #include tangent_space.glsl
 
 layout(binding = 5) uniform sampler2DArray environment;
 
-vec3 small_normal(mat3 frame) {
+vec3 perturbed_normal(mat3 frame) {
     vec3 normal = mixed_normal();
     return seen_side() * (frame * (dot(normal, normal) > 0 ? unit(normal) : vec3(0, 0, 1)));
 }
@@ -16,6 +16,6 @@ vec3 mirrored_at(vec3 normal, vec3 v) {
 
 void main() {
     if (!is_seen()) discard;
-    vec3 r = mirrored_at(small_normal(frame()), unit(-surface.from_eye));
+    vec3 r = mirrored_at(perturbed_normal(frame()), unit(-surface.from_eye));
     color = reflectance * decal().a * sampled_on_cube(environment, r);
 }

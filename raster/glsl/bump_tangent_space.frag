@@ -1,9 +1,9 @@
 #version 450 core
-// Lighting in the tangent space of the point: light and half-angle vector are carried into it, and
-// the normal map is used as it is.
+// Lighting in the tangent space of the point: light and half-angle vector are transformed to it,
+// and the normal map is used as it is.
 #include tangent_space.glsl
 
-vec3 small_normal() {
+vec3 perturbed_normal() {
     vec3 normal = mixed_normal();
     return dot(normal, normal) > 0 ? unit(normal) : vec3(0, 0, 1);
 }
@@ -13,6 +13,6 @@ void main() {
     mat3 frame = frame();
     vec3 l = carried(light_direction(), frame);
     vec3 h = carried(half_angle(), frame);
-    vec3 normal = small_normal();
+    vec3 normal = perturbed_normal();
     color = lit_color(arriving_light(), l.z, dot(l, normal), h.z, dot(h, normal));
 }

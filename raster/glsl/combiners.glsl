@@ -1,9 +1,9 @@
-// Register combiners (NV_register_combiners), as one pass of Kilgard's "bump mapping in one pass on
-// GeForce3" sets them: four general stages and the final one. A register holds 8 bits and a sign,
-// within [-1, 1], and what a stage writes is read by the next. Names are the extension's.
+// Register combiners (NV_register_combiners), as set by one pass of Kilgard's "bump mapping in one
+// pass on GeForce3": four general stages and the final one. A register holds 8 bits and a sign,
+// within [-1, 1], and each stage reads what the one before wrote. Names are the extension's.
 
 struct Registers {
-    vec4 tex0; // rgb: the small normal, and then what the highlight is multiplied by
+    vec4 tex0; // rgb: the perturbed normal; then the factor of the highlight
     vec3 tex1; // L
     vec3 tex2; // H
     vec4 tex3; // the decal and, in alpha, gloss
@@ -13,7 +13,7 @@ struct Registers {
     vec4 spare1;
 };
 
-// What a register keeps of a number.
+// A number as a register holds it.
 float q(float x) {
     return clamp(floor(255 * x + 0.5) / 255, -1, 1);
 }
@@ -26,17 +26,17 @@ float max0(float x) {
     return max(0, x);
 }
 
-// A texture's bytes, of numbers in [0, 1].
+// Numbers in [0, 1] as a texture's bytes hold them.
 vec4 in_bytes(vec4 t) {
     return clamp(floor(255 * t + 0.5) / 255, 0, 1);
 }
 
-// A texture's bytes of a vector, by the input mapping "expand normal": 0 becomes 1/255.
+// A vector in a texture's bytes, by the input mapping "expand normal": 0 becomes 1/255.
 vec3 expanded_bytes(vec3 v) {
     return q(2 * in_bytes(vec4(0.5 + 0.5 * v, 0)).rgb - 1);
 }
 
-// N'.L, N'.H, and how far L's self-shadowing lets light through.
+// N'.L, N'.H, and the factor of L's self-shadowing.
 void stage0(inout Registers r) {
     Registers from = r;
     r.spare0.rgb = vec3(q(dot(from.tex0.rgb, from.tex1)));
@@ -74,8 +74,9 @@ vec3 final_stage(Registers r) {
     return clamp(q(r.tex0.rgb * e_f + d), 0, 1);
 }
 
-// From vectors in tangent space; tex0.a, by which rough texels of smaller mipmap levels are dimmed,
-// is 1 at level 0. The highlight is multiplied by the self-shadowing of L too, as on the slides.
+// The colour from vectors in tangent space. tex0.a, which dims rough texels of smaller mipmap
+// levels, is 1 at level 0. The highlight is multiplied by the self-shadowing of L too, as on the
+// slides.
 vec3 combined(vec3 normal, vec3 l, vec3 h, vec4 decal, vec3 light, vec3 specular, vec3 ambient) {
     Registers r;
     r.tex0 = vec4(expanded_bytes(normal), 1);

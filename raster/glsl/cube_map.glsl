@@ -1,7 +1,7 @@
-// Cube maps, a face a layer, as cube_map.h has them.
+// Cube maps with one layer per face, as in cube_map.h.
 
-// The face that a vector looks at, and where: along its rows and down them, in [-1, 1] (OpenGL 4.5,
-// table 8.19). Of components of equal size x goes before y before z.
+// The face that a vector points to, and the place on it: along its rows and down them, in [-1, 1]
+// (OpenGL 4.5, table 8.19). Among components of equal size x goes before y before z.
 vec3 place_on_cube(vec3 v) {
     vec3 size = abs(v);
     if (size.x >= size.y && size.x >= size.z)
@@ -11,8 +11,8 @@ vec3 place_on_cube(vec3 v) {
     return vec3(vec2(v.z < 0 ? -v.x : v.x, -v.y) / size.z, v.z < 0 ? 5 : 4);
 }
 
-// The texels are mixed here: a driver's own filter may have weights and results of 8 bits, which
-// would leave more than a step of doubt.
+// The texels are interpolated here: a driver's own filter may have weights and results of 8 bits,
+// which would add an error of more than a step.
 vec3 sampled_on_cube(sampler2DArray faces, vec3 v) {
     vec3 place = place_on_cube(v);
     int size = textureSize(faces, 0).x;

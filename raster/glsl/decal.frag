@@ -1,5 +1,5 @@
 #version 450 core
-// The decals of what is seen.
+// The decals of the visible surfaces.
 #include lighting.glsl
 
 void main() {

@@ -1,6 +1,6 @@
 #version 450 core
-// Every triangle once as a light cap and, after all of those, once as a dark cap; without an extent
-// where the light does not see its front.
+// Every triangle once as a light cap and, after all of those, once as a dark cap; degenerate where
+// its front does not face the light.
 #include facing.glsl
 #include pulled.glsl
 

@@ -3,7 +3,7 @@ set(entries "")
 foreach(file IN LISTS FILES)
     get_filename_component(name ${file} NAME)
     file(READ ${file} text)
-    # A line "#include NAME" stands for the file of that name.
+    # A line "#include NAME" is replaced by the file of that name.
     while(text MATCHES "#include ([a-z_.]+)\n")
         set(included ${CMAKE_MATCH_1})
         get_filename_component(folder ${file} DIRECTORY)
@@ -13,7 +13,7 @@ foreach(file IN LISTS FILES)
     string(APPEND entries "    if (file == \"${name}\") return R\"glsl(${text})glsl\";\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by embed.cmake.
-#include \"raster/shader.h\"
+#include \"raster/gl/shader.h\"
 
 namespace shadowproof {
 

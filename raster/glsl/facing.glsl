@@ -1,6 +1,6 @@
-// Whether the light sees a triangle's front: the determinant of scenes/orientation.h, in double.
-// Where rounding decides its sign, another than the exact one may come out; but the same for all who
-// ask.
+// Whether a triangle's front faces the light: the determinant of scenes/orientation.h, in double.
+// Where rounding decides its sign, it may differ from the exact one, but it is the same wherever it
+// is computed.
 
 layout(location = 11) uniform float light_w; // 0: the light is a direction
 
@@ -9,7 +9,7 @@ bool is_before(vec3 a, vec3 b) {
 }
 
 bool faces(vec3 a, vec3 b, vec3 c, dvec3 light) {
-    // From the first of its corners on, so that neighbours that know it in another order agree.
+    // From the first of its corners on, so that neighbours that have it in another order agree.
     for (int turn = 0; turn < 2 && (is_before(b, a) || is_before(c, a)); ++turn) {
         vec3 first = a;
         a = b;

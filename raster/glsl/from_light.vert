@@ -1,12 +1,12 @@
 #version 450 core
-// The picture as the light sees it through the near plane: each point where its shadow falls on
-// that plane, as long as it lies on the light's side of it.
+// The picture as seen from the light through the near plane: each point is projected to where its
+// shadow falls on that plane, if it lies on the light's side of it.
 
 layout(location = 0) in vec3 position;
 
 // Row z: how far a point lies on the light's side of the near plane.
 layout(location = 0) uniform mat4 clip_from_relative;
-layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye
+layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the light, or the eye
 layout(location = 2) uniform vec3 origin_low;
 
 out float gl_ClipDistance[1];

@@ -1,9 +1,9 @@
 #version 450 core
-// Lights the surfaces that the shadow test let through. Of two triangles that tie in depth only the
-// one that is seen speaks.
+// Lights the surfaces that pass the shadow test. Of two triangles with equal depth only the visible
+// one counts.
 
 layout(binding = 0) uniform usampler2D seen_triangle;
-layout(binding = 1) uniform sampler2D counter; // where colour counts, and the stencil does not
+layout(binding = 1) uniform sampler2D counter; // where a colour counts in place of the stencil
 layout(std430, binding = 0) readonly buffer LitSides { uint triangle_drawn[]; };
 
 layout(location = 7) uniform uint first_side; // of this draw call

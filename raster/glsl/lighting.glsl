@@ -1,12 +1,12 @@
-// What lighting knows of surface, material and light. Of two triangles that tie in depth only the
-// one that is seen is lit. `forms_in_use` is defined in front of this: bit k where some material's
-// bump_form is k.
+// The inputs of lighting: surface, material and light. Of two triangles with equal depth only the
+// visible one is lit. `forms_in_use` is defined before this text: bit k is set where some
+// material's bump_form is k.
 #include texels.glsl
 #include normalise.glsl
 
 layout(binding = 0) uniform usampler2D seen_triangle;
 layout(binding = 1) uniform sampler2D decal_map; // white where the material has none
-layout(binding = 2) uniform sampler2D bump_map; // as bump_forms.h has it
+layout(binding = 2) uniform sampler2D bump_map; // as in bump_forms.h
 layout(binding = 4) uniform sampler2D normal_table; // of number 256 y + x
 
 layout(location = 6) uniform vec3 material_color;
@@ -72,7 +72,7 @@ bool has_slopes() {
     return holds(bump_height_field) || holds(bump_derivatives);
 }
 
-// In heights per texel: along a row, and down the rows.
+// The slopes along a row and down the rows, in heights per texel.
 vec2 slope() {
     Taps s = bump_taps_s();
     Taps t = bump_taps_t();
@@ -88,7 +88,7 @@ vec3 indexed_normal(int s, int t) {
     return texelFetch(normal_table, ivec2(number % 256, number / 256), 0).rgb;
 }
 
-// Numbers cannot be mixed, but the normals that they stand for can.
+// Numbers cannot be interpolated, but the normals that they index can.
 vec3 mixed_indexed_normal(Taps s, Taps t) {
     vec3 upper = mix(indexed_normal(s.first, t.first), indexed_normal(s.second, t.first),
                      s.fraction);
@@ -97,8 +97,8 @@ vec3 mixed_indexed_normal(Taps s, Taps t) {
     return mix(upper, lower, t.fraction);
 }
 
-// Of a map that holds normals: the normal in its texture's axes, x along a row, y up the picture,
-// as the texels were mixed, not of unit length.
+// The normal of a map that holds normals, in its texture's axes, x along a row, y up the picture;
+// interpolated and not normalised.
 vec3 mapped_normal() {
     Taps s = bump_taps_s();
     Taps t = bump_taps_t();
@@ -108,14 +108,14 @@ vec3 mapped_normal() {
     return vec3(bump_scale * normal.xy, normal.z);
 }
 
-// Tangent, bitangent and normal; of a surface without a bump map the normal alone.
+// Tangent, bitangent and normal; without a bump map the normal alone.
 mat3 frame() {
     vec3 normal = unit(surface.normal);
     vec3 tangent = unit(surface.tangent - normal * dot(normal, surface.tangent));
     return mat3(tangent, surface.hand * cross(normal, tangent), normal);
 }
 
-// -1 where the back is seen: normals are those of the side that is seen.
+// -1 where the back is seen: normals are taken on the visible side.
 float seen_side() {
     return gl_FrontFacing ? 1 : -1;
 }
@@ -130,7 +130,7 @@ float specular_power(float cosine) {
     return fourth * fourth;
 }
 
-// L, V and H, of unit length as far as normalised() makes them so.
+// L, V and H, as exactly normalised as normalised() does it.
 vec3 light_direction() {
     return normalised(surface.to_light);
 }
@@ -141,7 +141,7 @@ vec3 half_angle() {
     return normalised(light_direction() + eye_direction());
 }
 
-// The light that arrives, without visibility. Its direction is exact whatever is set.
+// The light that arrives, without visibility. Its direction is exact under all settings.
 vec3 arriving_light() {
     vec3 light = light_color;
     if (cone_scale > 0) {
@@ -152,17 +152,18 @@ vec3 arriving_light() {
     return inverse_square ? light / dot(surface.to_light, surface.to_light) : light;
 }
 
-// From the cosines of light (l) or half-angle vector (h) with the surface's and the small normal.
-float diffuse_term(float l_normal, float l_small) {
-    return self_shadow(l_normal) * max(0, l_small);
+// From the cosines of light (l) or half-angle vector (h) with the surface's and the perturbed
+// normal.
+float diffuse_term(float l_normal, float l_perturbed) {
+    return self_shadow(l_normal) * max(0, l_perturbed);
 }
-float specular_term(float h_normal, float h_small) {
-    return self_shadow(h_normal) * specular_power(max(0, h_small));
+float specular_term(float h_normal, float h_perturbed) {
+    return self_shadow(h_normal) * specular_power(max(0, h_perturbed));
 }
 
-vec3 lit_color(vec3 light, float l_normal, float l_small, float h_normal, float h_small) {
-    float diffuse = diffuse_term(l_normal, l_small);
-    float specular = specular_term(h_normal, h_small);
+vec3 lit_color(vec3 light, float l_normal, float l_perturbed, float h_normal, float h_perturbed) {
+    float diffuse = diffuse_term(l_normal, l_perturbed);
+    float specular = specular_term(h_normal, h_perturbed);
     vec4 decal = decal();
     return light * (diffuse * decal.rgb + specular * decal.a * specular_color);
 }

@@ -1,23 +1,23 @@
 #version 450 core
-// Corners with what lighting needs of them, three a triangle. Their place in the picture is
+// Corners with their lighting attributes, three per triangle. Their place in the picture is
 // project.vert's, bit for bit; all that is interpolated is linear over a triangle.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec4 tangent; // w: the hand of the frame
+layout(location = 2) in vec4 tangent; // w: the handedness of the frame
 layout(location = 3) in vec2 decal_at;
 layout(location = 4) in vec2 bump_at;
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye
-layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
+layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 layout(location = 5) uniform mat3 lit_from_world; // the axes in which the technique lights
 
 out Surface {
-    vec3 from_eye; // neither these two nor the next are of unit length
+    vec3 from_eye; // neither these two nor the next are normalised
     vec3 to_light;
     vec3 normal;
     vec3 tangent;

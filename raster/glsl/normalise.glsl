@@ -1,9 +1,9 @@
-// Vectors made of unit length, in the way that the technique is set to; zero where they are zero.
+// Normalises vectors in the way set for the technique; a zero vector stays zero.
 #include cube_map.glsl
 
-layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h, a face a layer
+layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h, one layer per face
 
-// `normalisation`, a value of Normalisation, is defined in front of this.
+// `normalisation`, a value of Normalisation, is defined before this text.
 
 const int normalisation_cube_map = 1;
 const int normalisation_newton_raphson = 2;
@@ -13,8 +13,8 @@ vec3 unit(vec3 v) {
     return square > 0 ? v / sqrt(square) : vec3(0);
 }
 
-// 1 / sqrt(x): a guess by the float's bits and one step of Newton's. Its relative error is at most
-// 0.0017523 (Lomont 2003), but for the rounding of floats.
+// 1 / sqrt(x): an estimate from the float's bits and one step of Newton's method. Its relative
+// error is at most 0.0017523 (Lomont 2003), apart from the rounding of floats.
 float reciprocal_root(float x) {
     float y = uintBitsToFloat(0x5f3759dfu - (floatBitsToUint(x) >> 1));
     return y * (1.5 - 0.5 * x * y * y);

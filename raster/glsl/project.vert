@@ -1,13 +1,13 @@
 #version 450 core
-// The one vertex shader of every pass: what coincides in the scene coincides in depth, bit for bit.
-// Vertices [0, finite_vertices) are the scene's; those after them the same, moved away from the
-// light to infinity: w = 0.
+// The vertex shader shared by the passes: what coincides in the scene coincides in depth, bit for
+// bit. Vertices [0, finite_vertices) are the scene's; those after them are the same, moved away
+// from the light to infinity: w = 0.
 
 layout(location = 0) in vec3 position;
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or zero
-layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
+layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it

@@ -1,10 +1,10 @@
-// Vertices that a shader asks for by their numbers, transformed as project.vert does.
+// Vertices that a shader fetches by their numbers, transformed as in project.vert.
 
 layout(std430, binding = 1) readonly buffer Positions { float coordinates[]; };
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or zero
-layout(location = 2) uniform vec3 origin_low;  // what rounding to float left of it
+layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 8) uniform dvec3 light;
@@ -22,7 +22,7 @@ vec4 projected(uint vertex, bool at_infinity) {
     return clip_from_relative * (at_infinity ? vec4(away, 0) : vec4(relative, 1));
 }
 
-// A corner of a face that is not there: all of them, in one point out of sight.
+// A corner of a face that is not drawn: all its corners coincide outside of the clip volume.
 vec4 nowhere() {
     return vec4(2, 2, 2, 1);
 }

@@ -1,7 +1,7 @@
 #version 450 core
-// What is seen, and that it is shadowed until the light pass says otherwise.
+// The visible surfaces, shadowed until the light pass lights them.
 
-layout(location = 6) uniform vec2 visible_depths; // view depths; what lies outside is not seen
+layout(location = 6) uniform vec2 visible_depths; // view depths; what lies outside is not drawn
 layout(location = 7) uniform uint first_triangle; // of this draw call
 
 layout(location = 0) out float claim;

@@ -1,7 +1,8 @@
 #version 450 core
-// Surfaces on the way that a geometry shader's volumes take. Behind a geometry shader the driver may
-// round the viewport transform otherwise than behind a vertex shader (llvmpipe does where half the
-// picture's width is no power of two), and a light cap must have its surface's depth bit for bit.
+// Draws surfaces through a geometry shader, for volumes that are made by one. After a geometry
+// shader the driver may round the viewport transform differently than after a vertex shader
+// (llvmpipe does where half the picture's width is no power of two), and a light cap must have its
+// surface's depth bit for bit.
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;

@@ -1,20 +1,20 @@
-// Lighting in the tangent space of the point, where the small normals are as the map has them.
+// Lighting in the tangent space of the point, in which the map stores the perturbed normals.
 #include lighting.glsl
 
-// On the back seen from the eye, turned over in place of the normals.
+// A vector in tangent space. On a back face it is negated instead of the normals.
 vec3 carried(vec3 v, mat3 frame) {
     return seen_side() * (v * frame); // frame's transpose: its inverse
 }
 
-// As the texels were mixed, not of unit length.
+// The interpolated normal, not normalised.
 vec3 mixed_normal() {
     if (!has_slopes()) return mapped_normal();
     vec2 slope = slope();
     return vec3(-slope.x, slope.y, 1);
 }
 
-// As graphics hardware before 2003 used it: what was mixed is not made of unit length again. It had
-// no slopes in texels, of which the normal is.
+// As used by graphics hardware before 2003: the interpolated normal is not normalised again. That
+// hardware had no slopes in texels; a normal made of slopes is normalised.
 vec3 hardware_normal() {
     return has_slopes() ? unit(mixed_normal()) : mixed_normal();
 }

@@ -1,11 +1,12 @@
-// Sampling at level 0, bilinearly, texel by texel: the weights of a driver's own filter may have no
+// Bilinear sampling at level 0, texel by texel: the weights of a driver's own filter may have no
 // more than 8 bits.
 
 const int wrap_repeat = 0; // values of Wrap
 const int wrap_mirrored_repeat = 1;
 const int wrap_clamp_to_edge = 2;
 
-// The two texels of one axis around a coordinate, and how far it lies from the first to the second.
+// The two texels around a coordinate along one axis, and how far it lies from the first to the
+// second.
 struct Taps {
     int first;
     int second;
@@ -40,7 +41,7 @@ vec4 sampled(sampler2D map, Taps s, Taps t) {
     return mix(upper, lower, t.fraction);
 }
 
-// The texels beside one, across the border as the wrap mode has it.
+// The texels before and after one, beyond the border by the wrap mode.
 int before(int wrap, int texels, int texel) {
     return texel > 0 ? texel - 1 : (wrap == wrap_repeat ? texels - 1 : 0);
 }
@@ -48,7 +49,8 @@ int behind(int wrap, int texels, int texel) {
     return texel + 1 < texels ? texel + 1 : (wrap == wrap_repeat ? 0 : texels - 1);
 }
 
-// Of heights in red: central differences along a row and down the rows, in heights per texel.
+// Slopes of heights in red: central differences along a row and down the rows, in heights per
+// texel.
 vec2 slope_of_texel(sampler2D map, int wrap_s, int wrap_t, ivec2 texel) {
     ivec2 size = textureSize(map, 0);
     ivec2 low = ivec2(before(wrap_s, size.x, texel.x), before(wrap_t, size.y, texel.y));

@@ -1,6 +1,6 @@
 #version 450 core
-// The faces of the shadow volumes. A stencil buffer counts them by itself; where a colour counts
-// them, or shows them, each adds what its side says.
+// The faces of the shadow volumes. A stencil buffer counts them itself; where a colour counts or
+// shows them, each adds the number set for its side.
 
 layout(location = 15) uniform vec2 worth; // of a front face, and of a back face
 

@@ -1,7 +1,7 @@
 #version 450 core
-// A triangle that faces the light gives its caps, and a side over each edge whose other triangle
-// does not. Where there is no other triangle, the index buffer names the own third corner again:
-// the triangle turned over, which never faces the light when this one does.
+// Emits the caps of a triangle that faces the light, and a side over each edge whose other triangle
+// does not. Where there is no other triangle, the index buffer names the triangle's own third
+// corner again: that is the flipped triangle, which never faces the light when this one does.
 #include facing.glsl
 
 layout(triangles_adjacency) in;
@@ -10,7 +10,7 @@ layout(triangle_strip, max_vertices = 24) out;
 layout(location = 8) uniform dvec3 light;
 layout(location = 9) uniform bool light_cap;
 layout(location = 10) uniform bool dark_cap;
-layout(location = 12) uniform bool turned; // those sides that run down, wound as if they ran up
+layout(location = 12) uniform bool flipped; // only the sides that run down, wound as if they ran up
 
 in Corner {
     vec3 world;
@@ -31,10 +31,11 @@ void emit(vec4 a, vec4 b, vec4 c) {
     EndPrimitive();
 }
 
-// Beside the edge from a to b of a triangle that faces the light: cut as raster/volume.cpp does.
+// The side over the edge from a to b of a triangle that faces the light: split as in
+// raster/volumes/volume.cpp.
 void emit_side(int a, int b) {
     bool up = corner[a].index < corner[b].index;
-    if (up == turned) return;
+    if (up == flipped) return;
     int low = up ? a : b;
     int high = up ? b : a;
     vec4 far = corner[low].at_infinity;

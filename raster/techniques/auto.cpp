@@ -1,7 +1,7 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
-#include "scenes/caster_plan.h"
-#include "scenes/topology.h"
+#include "raster/volumes/stencil.h"
+#include "scenes/mesh/topology.h"
+#include "scenes/plan/caster_plan.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,8 +15,8 @@ namespace shadowproof {
 
 namespace {
 
-/// What the plan leaves of one caster's volume. Counting in front of the surface needs no dark cap;
-/// counting behind it needs the light cap always.
+/// How a caster is counted under its plan. Counting in front of the surface needs no dark cap;
+/// counting behind it always needs the light cap.
 Counting::Caster counted_as(const CasterPlan& plan) {
     if (!plan.left_out.empty()) return {.left_out = true};
     if (plan.meets_near) return {.dark_cap = plan.reaches_infinity};
@@ -99,10 +99,11 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     const std::vector<CasterPlan> plans = plan_casters(scene);
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_half_edges;
+    recipe.sides = VolumeFaces::Sides::half_edges;
     recipe.counting.dark_cap = true;
     recipe.counting.casters = counted_as(scene, plans);
     if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
-        // What lies past the far plane is not asked for.
+        // Faces past the far plane are not counted.
         recipe.counting.test = Counting::Test::depth_pass;
         recipe.depth_model.projection = DepthModel::Projection::finite_reversed;
         recipe.depth_model.far = finite_far(scene);
@@ -115,12 +116,12 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     const Technique* whole = find_technique("zfail_reversed");
     assert(whole != nullptr);
     const Frame spent = whole->run(gpu, scene, plan);
-    frame.saved = {.against = std::string(whole->name),
-                   .milliseconds = spent.milliseconds - frame.milliseconds,
-                   .volume_fragments = static_cast<std::int64_t>(spent.volume_fragments) -
-                                       static_cast<std::int64_t>(frame.volume_fragments),
-                   .plan_milliseconds =
-                       std::chrono::duration<double, std::milli>(planning).count()};
+    frame.counted->saved = {
+        .against = std::string(whole->name),
+        .milliseconds = spent.milliseconds - frame.milliseconds,
+        .volume_fragments = static_cast<std::int64_t>(spent.counted->volume_fragments) -
+                            static_cast<std::int64_t>(frame.counted->volume_fragments),
+        .plan_milliseconds = std::chrono::duration<double, std::milli>(planning).count()};
     return frame;
 }
 

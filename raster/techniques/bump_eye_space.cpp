@@ -1,13 +1,14 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// The normal perturbed in eye space, in 32-bit floating point and with exact normalisation: by a
-/// height field's slopes, N' = N + h_u (N x P_v) + h_v (P_u x N), or by a normal map's normal,
-/// carried there. Ambient light everywhere, the rest where the stencil of zfail_reversed is zero.
+/// The normal is perturbed in eye space, in 32-bit floating point and with exact normalisation: by
+/// a height field's slopes, N' = N + h_u (N x P_v) + h_v (P_u x N), or by a normal map's normal,
+/// transformed to eye space. Ambient light everywhere, the rest where the stencil of zfail_reversed
+/// is zero.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),

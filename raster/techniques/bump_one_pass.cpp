@@ -1,14 +1,14 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Bumps as the GeForce3 lights them, by four textures and four register combiners: ambient light
-/// times the decal, and over it, where it is lit, all in one pass. Every number is kept in 8 bits
-/// and a sign. Vectors are made of unit length by a cube map, and what is mixed of the normal map
-/// not again.
+/// Bumps as lit by the GeForce3, with four textures and four register combiners: ambient light
+/// times the decal, then over it, where it is lit, everything in one pass. Every number has 8 bits
+/// and a sign. Vectors are normalised by a cube map; interpolated normals of the normal map are not
+/// normalised again.
 ///
 /// The combiners multiply the highlight by the self-shadowing of L too, which the three passes and
 /// the truth do not.

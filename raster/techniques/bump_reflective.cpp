@@ -1,13 +1,13 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// As bump_tangent_space, and over it, lit or not, what the surface reflects of the scene's
-/// environment: the small normal carried into world space, the eye's direction mirrored at it, and
-/// a lookup that depends on that, all by the pixel.
+/// As bump_tangent_space and, added to it whether lit or not, the reflection of the scene's
+/// environment: the perturbed normal transformed to world space, the eye's direction mirrored at
+/// it, and a dependent lookup, all per pixel.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),

@@ -1,17 +1,18 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Light and half-angle vector carried into tangent space, where a normal map's normals are used as
-/// they are, in 32-bit floating point and with exact normalisation; ambient light everywhere, the
-/// rest where the stencil of zfail_reversed is zero.
+/// Light and half-angle vector are transformed to tangent space, where a normal map's normals are
+/// used as they are, in 32-bit floating point and with exact normalisation. Ambient light
+/// everywhere, the rest where the stencil of zfail_reversed is zero.
 ///
-/// The slides carry the vectors over at the vertices and interpolate them. A product of two things
-/// that are linear over a triangle is not: that is right only where its three frames are the same.
-/// So the frame and the vectors are interpolated, none of unit length, and multiplied by the pixel.
+/// The slides transform the vectors at the vertices and interpolate the results. But a product of
+/// two quantities that are linear over a triangle is not linear, so that is right only where the
+/// triangle's three frames are equal. Here the frame and the vectors are interpolated, not
+/// normalised, and multiplied per pixel.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),

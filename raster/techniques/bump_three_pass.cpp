@@ -1,16 +1,17 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Bumps as the GeForce 256 and 2 light them, which have two textures a pass: ambient light, over
-/// it ambient and diffuse light where it is lit, all times the decal, and the highlight added where
-/// it is lit. Between passes the colour is kept in 8 bits a channel, and nothing is above 1.
-/// Vectors are made of unit length by a cube map, and what is mixed of the normal map not again.
+/// Bumps as lit by the GeForce 256 and 2, which have two textures per pass: ambient light; over it,
+/// where it is lit, ambient and diffuse light; all of it times the decal; and the highlight added
+/// where it is lit. Between passes the colour has 8 bits per channel, and nothing exceeds 1.
+/// Vectors are normalised by a cube map; interpolated normals of the normal map are not normalised
+/// again.
 ///
-/// The diffuse pass clamps at 1 what the truth multiplies by a darker decal before it is shown.
+/// The diffuse pass clamps at 1 what the truth first multiplies by a darker decal.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     using Step = LightingStep;
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::three_passes,

@@ -1,11 +1,11 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zpass with a counter of one bit: each face turns the stencil over. Right where volumes do not
+/// zpass with a counter of one bit: each face inverts the stencil. Right where volumes do not
 /// overlap.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = zpass_recipe(scene);
@@ -22,7 +22,7 @@ Technique invert_technique() {
             .needs = "volumes that do not overlap",
             .cost = 0.93,
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
-                         Cause::open_mesh},
+                         Cause::open_mesh, Cause::light_inside},
             .by_nature = {Cause::parity},
             .run = run};
 }

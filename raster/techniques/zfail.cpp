@@ -1,13 +1,13 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Counts volume faces behind the visible surface, so an eye inside shadow is no special case, but
-/// the far plane clips: s(surface) - s(far plane). It clips all of the dark cap, which is therefore
-/// not drawn.
+/// Counts volume faces behind the visible surface, so an eye in shadow is no special case, but the
+/// far plane clips: s(surface) - s(far plane). It clips the whole dark cap, which is therefore not
+/// drawn.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     return draw_stencil_shadows(
         gpu, scene,
@@ -23,7 +23,8 @@ Technique zfail_technique() {
             .source = "Kilgard 2001, \"Carmack's reverse\"; VGP353 week 5",
             .needs = "closed volumes, and a far plane that cuts none of them",
             .cost = 0.97,
-            .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
+                         Cause::light_inside},
             .run = run};
 }
 

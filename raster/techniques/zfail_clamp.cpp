@@ -1,20 +1,21 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Counts volume faces behind the visible surface; depth clamping keeps what lies past the far
-/// plane, so the whole volume is counted. Where no volume gets there, nothing needs clamping.
+/// Counts volume faces behind the visible surface; depth clamping keeps faces past the far plane,
+/// so the whole volume is counted. Where no volume reaches that plane, nothing is clamped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(
-        gpu, scene,
-        {.counting = {.test = Counting::Test::depth_fail,
-                      .depth_clamp = plan.volume_meets_far,
-                      .dark_cap = plan.dark_cap,
-                      .turned = plan.around_light},
-         .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
+    return draw_stencil_shadows(gpu, scene,
+                                {.counting = {.test = Counting::Test::depth_fail,
+                                              .dark_cap = plan.dark_cap,
+                                              .flips = {.around_light = true}},
+                                 .depth_model = {.near = scene.camera.near,
+                                                 .far = finite_far(scene),
+                                                 .clamp = plan.volume_meets_far},
+                                 .flipped = plan.around_light});
 }
 
 } // namespace

@@ -1,12 +1,12 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed with volumes that lie ready for any light: a quad over every edge, which the
-/// vertex shader stretches out where the light passes between the edge's triangles.
+/// zfail_reversed with volumes prepared for any light position: a quad per edge, which the vertex
+/// shader extrudes where one of the edge's triangles faces the light and the other does not.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.making = VolumeMaking::degenerate_quads;

@@ -1,13 +1,13 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed with a counter that no scene overflows: faces are added up in a colour of 32-bit
-/// floating point, which holds all whole numbers of 24 bits. Blending takes what passes a depth
-/// test, so the test asks for what lies behind the surface.
+/// zfail_reversed with a counter that no scene overflows: faces are summed in a colour of 32-bit
+/// floating point, which holds all integers of 24 bits. Blending applies to what passes the depth
+/// test, so the test passes what lies behind the surface.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counter = Counter::sum;

@@ -1,15 +1,16 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
 /// zfail_reversed with volumes from a half-edge mesh: each edge once, with both its triangles. Open
-/// casters are closed first, as the source asks for, by triangles that only cast.
+/// casters are closed first, as the source requires, by triangles that only cast.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_half_edges;
+    recipe.sides = VolumeFaces::Sides::half_edges;
     recipe.counting.dark_cap = plan.dark_cap || plan.hole_filling;
     recipe.counting.holes_filled = plan.hole_filling;
     return draw_stencil_shadows(gpu, scene, recipe);

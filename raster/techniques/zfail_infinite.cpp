@@ -1,19 +1,20 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// Counts volume faces behind the visible surface; the far plane lies at infinity, where the dark
-/// cap is just not clipped.
+/// Counts volume faces behind the visible surface; the far plane is at infinity, where the dark cap
+/// is just not clipped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(gpu, scene,
-                                {.counting = {.test = Counting::Test::depth_fail,
-                                              .dark_cap = plan.dark_cap,
-                                              .turned = plan.around_light},
-                                 .depth_model = {.projection = DepthModel::Projection::infinite,
-                                                 .near = scene.camera.near}});
+    return draw_stencil_shadows(
+        gpu, scene,
+        {.counting = {.test = Counting::Test::depth_fail,
+                      .dark_cap = plan.dark_cap,
+                      .flips = {.around_light = true}},
+         .depth_model = {.projection = DepthModel::Projection::infinite, .near = scene.camera.near},
+         .flipped = plan.around_light});
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 

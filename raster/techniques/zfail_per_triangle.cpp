@@ -1,19 +1,22 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
-#include "scenes/counted_casters.h"
+#include "raster/volumes/stencil.h"
+#include "scenes/mesh/counted_casters.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed with a volume for each triangle by itself: nothing has to be known of neighbours,
-/// and the most is drawn. Those averted from the light are turned round where the light-facing ones
-/// alone would not throw all shadows: any polygon soup throws its own, but for a closed shell that
+/// zfail_reversed with one volume per triangle: no adjacency is needed, and the most faces are
+/// drawn. Triangles that face away from the light are flipped where the light-facing ones alone
+/// would not cast all shadows. So any polygon soup casts its shadows, except a closed shell that
 /// crosses itself.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.extruder = by_triangles;
-    recipe.counting.turned = triangles_to_turn(scene);
+    recipe.counting.flips = {.around_light = true,
+                             .averted = Counting::Flips::Averted::of_faulty_shells};
+    recipe.sides = VolumeFaces::Sides::all;
+    recipe.flipped = triangles_to_flip(scene);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -1,12 +1,13 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_infinite where numbers are dense: depth n/t in floating point, far things near zero, and
-/// vertices made relative to the eye before the matrix rounds them.
+/// zfail_infinite with more precise depths: n/t in floating point, so that distant depths are near
+/// zero, where floats are dense; and vertices made relative to the eye before the matrix rounds
+/// them.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     return draw_stencil_shadows(gpu, scene, recipe);

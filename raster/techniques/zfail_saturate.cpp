@@ -1,12 +1,12 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed where the counter stops at 0 and 255 instead of wrapping: a step down before the
-/// step up that belongs to it is lost.
+/// zfail_reversed with a counter that stops at 0 and 255 instead of wrapping: a decrement at 0,
+/// before its increment, is lost.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.operation = Counting::Operation::saturate;

@@ -1,16 +1,16 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
-#include "scenes/extrusion.h"
+#include "raster/volumes/stencil.h"
+#include "scenes/mesh/extrusion.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zfail_reversed with volumes that end: extruded by half the diagonal of the scene's bounding box,
+/// zfail_reversed with finite volumes: extruded by half the diagonal of the scene's bounding box,
 /// and capped there.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.counting.dark_cap = true; // which is not at infinity
+    recipe.counting.dark_cap = true; // at the finite end
     recipe.counting.extrusion = finite_extrusion(scene);
     return draw_stencil_shadows(gpu, scene, recipe);
 }

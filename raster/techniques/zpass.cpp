@@ -1,5 +1,5 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
@@ -7,7 +7,7 @@ namespace {
 
 /// Counts volume faces in front of the visible surface: s(surface) - s(near plane), which is wrong
 /// where the near plane lies inside a volume. The dark cap is never in front of anything; the light
-/// cap is only where its own surface is culled, seen from behind.
+/// cap only where its own surface is culled, being seen from behind.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     return draw_stencil_shadows(gpu, scene, zpass_recipe(scene));
 }
@@ -21,7 +21,7 @@ Technique zpass_technique() {
             .needs = "a near plane outside every shadow volume",
             .cost = 0.96,
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
-                         Cause::open_mesh},
+                         Cause::open_mesh, Cause::light_inside},
             .run = run};
 }
 

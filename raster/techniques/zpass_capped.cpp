@@ -1,17 +1,18 @@
-#include "raster/near_cap.h"
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/near_cap.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
-/// zpass with volumes closed on the near plane, drawn on a ledge of depths in front of the scene:
-/// what lies between eye and near plane is missed, and the caps count it.
+/// zpass with volumes capped on the near plane; the caps are drawn at depths reserved in front of
+/// the scene. They count the faces between eye and near plane, which are clipped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zpass_recipe(scene);
     recipe.counting.start = Counting::Start::near_plane;
-    recipe.counting.turned = plan.around_light;
+    recipe.counting.flips = {.around_light = true};
+    recipe.flipped = plan.around_light;
     recipe.near_plane = NearPlane::capped;
     recipe.depth_model.front = ledge;
     return draw_stencil_shadows(gpu, scene, recipe);

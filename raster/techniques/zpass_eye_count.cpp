@@ -1,12 +1,12 @@
-#include "raster/stencil.h"
 #include "raster/technique.h"
+#include "raster/volumes/stencil.h"
 
 namespace shadowproof {
 
 namespace {
 
 /// zpass with the stencil cleared to the number of volumes around the eye: right as long as the
-/// near plane is in the same ones.
+/// near plane lies in the same ones.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = zpass_recipe(scene);
     recipe.counting.start = Counting::Start::eye;
@@ -21,7 +21,8 @@ Technique zpass_eye_count_technique() {
             .source = "VGP353 week 5",
             .needs = "no volume between the eye and a part of the near plane",
             .cost = 1,
-            .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
+                         Cause::light_inside},
             .run = run};
 }
 

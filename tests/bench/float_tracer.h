@@ -2,7 +2,7 @@
 // them (packets of 16, robust). Its answers are not exact; its speed is what one would have.
 #pragma once
 
-#include "reference/trace.h"
+#include "reference/trace/trace.h"
 #include "scenes/scene.h"
 
 #include <memory>

@@ -3,8 +3,8 @@
 // the other. Fails above 2.
 //   build/bench/tests/bench/shadowproof_shading_bench
 
-#include "reference/shading.h"
-#include "scenes/catalog.h"
+#include "reference/shade/shading.h"
+#include "scenes/load/catalog.h"
 #include "tests/bench/dense_scene.h"
 
 #include <benchmark/benchmark.h>

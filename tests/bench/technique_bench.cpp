@@ -7,11 +7,12 @@
 //   build/bench/tests/bench/shadowproof_technique_bench [ROUNDS] [SCENE...]
 
 #include "compare/classify.h"
+#include "compare/families.h"
 #include "raster/render.h"
 #include "raster/technique.h"
-#include "scenes/caster_plan.h"
-#include "scenes/catalog.h"
-#include "scenes/plan.h"
+#include "scenes/load/catalog.h"
+#include "scenes/plan/caster_plan.h"
+#include "scenes/plan/plan.h"
 
 #include <fmt/format.h>
 
@@ -35,11 +36,8 @@ struct Cost {
 
 using Costs = std::map<std::string_view, Cost>; // by technique
 
-bool is_right(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
-              const ShadowDepths& depths, const Frame& frame) {
-    const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
-                                frame.depth_model);
-    const Comparison comparison = classify(tracer, silhouette, truth, depths, frame, prediction);
+bool is_right(const TracedScene& traced, const Frame& frame) {
+    const Comparison comparison = classify(traced, frame, *judge_of(traced, frame));
     return comparison.differing == comparison.causes[static_cast<std::size_t>(Cause::edge)];
 }
 
@@ -66,8 +64,7 @@ Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
     const Plan plan = make_plan(scene);
     const Tracer tracer(scene);
     const GroundTruth truth = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const Silhouette silhouette(tracer);
+    const TracedScene traced(tracer, truth);
     Costs costs;
     double quickest = std::numeric_limits<double>::infinity();
     const auto asks_for_more = [&](int round) {
@@ -81,9 +78,9 @@ Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
             if (round > 0 && cost.milliseconds > 4 * quickest) continue;
             const Frame frame = render(technique, scene, plan, gpu);
             cost.milliseconds = std::min(cost.milliseconds, frame.milliseconds);
-            cost.fragments = frame.volume_fragments;
+            cost.fragments = frame.counted->volume_fragments;
             quickest = std::min(quickest, cost.milliseconds);
-            if (round == 0) cost.right = is_right(tracer, silhouette, truth, depths, frame);
+            if (round == 0) cost.right = is_right(traced, frame);
         }
     return costs;
 }

@@ -2,7 +2,7 @@
 // the pairwise ratios, exact over float, each pair taken one right after the other.
 //   build/bench/tests/bench/shadowproof_trace_bench
 
-#include "reference/trace.h"
+#include "reference/trace/trace.h"
 #include "tests/bench/dense_scene.h"
 #include "tests/bench/float_tracer.h"
 

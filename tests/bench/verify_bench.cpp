@@ -4,10 +4,11 @@
 //   time build/release/shadowproof verify ordinary
 
 #include "compare/classify.h"
+#include "compare/families.h"
 #include "raster/render.h"
 #include "raster/technique.h"
-#include "scenes/catalog.h"
-#include "scenes/plan.h"
+#include "scenes/load/catalog.h"
+#include "scenes/plan/plan.h"
 
 #include <benchmark/benchmark.h>
 
@@ -43,15 +44,12 @@ void classification(benchmark::State& state, const std::string& name, const Tech
     const Scene scene = load_scene(name, {});
     const Tracer tracer(scene);
     const GroundTruth ground = trace(tracer);
-    const ShadowDepths depths = count_shadow_depths(tracer, ground, finite_far(scene));
+    const TracedScene traced(tracer, ground);
+    traced.depths();
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = render(technique, scene, make_plan(scene), gpu);
-    const Silhouette silhouette(tracer);
-    for (auto _ : state) {
-        const Prediction prediction(tracer, silhouette, ground, depths, frame.counting,
-                                    frame.depth_model);
-        benchmark::DoNotOptimize(classify(tracer, silhouette, ground, depths, frame, prediction));
-    }
+    for (auto _ : state)
+        benchmark::DoNotOptimize(classify(traced, frame, *judge_of(traced, frame)));
 }
 
 const bool registered = [] {

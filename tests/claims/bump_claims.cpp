@@ -1,12 +1,12 @@
 #include "tests/claims/bump_claims.h"
 
-#include "compare/color_check.h"
+#include "compare/color/color_check.h"
 #include "raster/render.h"
-#include "scenes/catalog.h"
-#include "scenes/normalisation_cube.h"
-#include "scenes/plan.h"
-#include "scenes/plane_equations.h"
-#include "scenes/relief.h"
+#include "scenes/load/catalog.h"
+#include "scenes/plan/plan.h"
+#include "scenes/surface/normalisation_cube.h"
+#include "scenes/surface/relief.h"
+#include "tests/claims/plane_equations.h"
 
 #include <fmt/format.h>
 
@@ -165,7 +165,7 @@ Section cube_map_error() {
                     largest = std::max(largest, off);
                     squares += off * off;
                 }
-        // Bytes: sqrt 3 times 1/255. Between texels h apart the chord of a curve whose second
+        // FileBytes: sqrt 3 times 1/255. Between texels h apart the chord of a curve whose second
         // derivatives are at most 1 lies within h^2 / 8 of it an axis; past the last texel's
         // centre, h / 2 from the edge, the texel stays, and the vector turns by at most 1 / sqrt 2
         // of that (at the middle of an edge) an axis.

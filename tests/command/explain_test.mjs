@@ -60,3 +60,11 @@ test('a drawing that cannot be written is an error that names the file', () => {
   assert.equal(run.code, 3);
   assert.match(run.err, /missing\/x\.svg/);
 });
+
+test('where one limitation alone is not the cause, all that are needed are named', () => {
+  const { text, record } = explained('light_inside', '179,114', ['--technique', 'zfail,zpass']);
+  assert.deepEqual(record.techniques.map(({ name, cause, also }) => [name, cause, also]),
+                   [['zfail', 'far_plane', ['light_inside']], ['zpass', 'light_inside', []]]);
+  assert.match(text, /^ +zfail +.* lit +far_plane with light_inside$/m);
+  assert.match(text, /^ +zpass +.* lit +light_inside$/m);
+});

@@ -96,6 +96,19 @@ test('a cell that hangs is given up after --timeout, with a verdict of its own t
   assert.match(again.out, /^fails: "zpass" on "near_plane": timed_out$/m);
 });
 
+test('explain and render are given up after --timeout, and write nothing', () => {
+  for (const [args, words] of [
+    [['render', 'ordinary', '-o', 'late.png'], 'rtcBuildBVH:1:hang'],
+    [['explain', 'ordinary', '--pixel', '3,3', '--technique', 'zpass', '--json', 'late.json'],
+     'glReadPixels:1:hang'],
+  ]) {
+    const run = shadowproof([...args, ...size, '--timeout', '2'], fault(words));
+    assert.equal(run.code, 3);
+    assert.match(run.err, /^shadowproof: ordinary: took longer than --timeout 2; /m);
+  }
+  assert.ok(!existsSync(join(scratch, 'late.png')) && !existsSync(join(scratch, 'late.json')));
+});
+
 test('a crash of Embree is the scene’s own', () => {
   const run = shadowproof(verify, fault('rtcBuildBVH:1:6', 'built'));
   assert.equal(run.code, 3);

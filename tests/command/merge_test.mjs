@@ -162,6 +162,10 @@ test('results that are damaged are refused by pointer, whatever is wrong with th
           /\/scenes\/1\/techniques\/2\/images\/claim/);
   refused(with_((r) => { r.scenes[0].techniques[0].causes.moon = 1; }), /moon/);
   refused(with_((r) => { r.scenes[0].width = -4; }), /\/scenes\/0\/width/);
+  const baseline = { file: 'base.json', passed: true, notes: [] };
+  refused(with_((r) => { r.baseline = { ...baseline, notes: 3 }; }), /\/baseline\/notes/);
+  refused(with_((r) => { r.baseline = { ...baseline, notes: [3] }; }), /\/baseline\/notes\/0/);
+  refused(with_((r) => { r.baseline = { ...baseline, passed: 'yes' }; }), /\/baseline\/passed/);
 });
 
 test('every member of results, taken away or of another type, is refused or harmless', () => {

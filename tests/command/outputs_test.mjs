@@ -12,34 +12,11 @@ test('list names every scene, technique and cause, alike as text and as JSON', (
     assert.ok(json.scenes.some((scene) => scene.name === name), name);
   for (const name of ['zpass', 'zfail', 'zfail_clamp', 'zfail_infinite', 'zfail_reversed'])
     assert.ok(json.techniques.some((technique) => technique.name === name), name);
-  assert.equal(json.causes.length, 15);
+  assert.equal(json.causes.length, 13);
   for (const { name } of [...json.scenes, ...json.techniques, ...json.causes])
     assert.ok(text.includes(`  ${name} `), name);
   for (const { name, cost } of json.techniques)
     assert.match(text, new RegExp(`\\n  ${name} [^]*?\\n +cost: ${cost.toFixed(2)} x zfail_reversed\\n`));
-});
-
-test("the README's table of techniques says what list says", () => {
-  const readme = readFileSync(new URL('../../README.md', import.meta.url), 'utf8');
-  const [titles, , ...rows] = readme.match(/^\| technique \|[^]*?\n\n/m)[0].trim().split('\n')
-    .map((line) => line.split('|').slice(1, -1).map((words) => words.trim()));
-  const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
-  const shown = rows.map((row) => Object.fromEntries(titles.map((title, i) => [title, row[i]])));
-  // What all may show, the text below the table says.
-  const uncounted = ['invert', 'zfail_float'];
-  const common = ({ name }) =>
-    ['precision', 'open_mesh', ...(uncounted.includes(name) ? [] : ['counter'])];
-  for (const technique of techniques)
-    for (const cause of common(technique))
-      assert.ok(technique.fails_at.includes(cause), `${technique.name} ${cause}`);
-  const failings = ({ fails_at, by_nature, ...technique }) =>
-    [...by_nature, ...fails_at.filter((cause) => !by_nature.includes(cause) &&
-                                                 !common(technique).includes(cause))]
-      .map((cause) => `\`${cause}\`${by_nature.includes(cause) ? '\\*' : ''}`).join(', ') || '–';
-  assert.deepEqual(
-    shown.map((row) => [row.technique, row.source, row.needs, row['fails at'], Number(row.time)]),
-    techniques.map((technique) => [`\`${technique.name}\``, technique.source, technique.needs,
-                                   failings(technique), technique.cost]));
 });
 
 test('verify prints one line a cell, and what auto leaves out only into the results', () => {

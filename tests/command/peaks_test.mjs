@@ -42,6 +42,8 @@ const cases = [
   ['explain', 'ordinary', '--pixel', '9,9', '--technique', 'zfail', '--size', '2000x2000'],
   ['render', 'ordinary', '-o', 'a.exr', '--size', '3000x3000'],
   ['render', 'bumpy_sphere', '-o', 'a.exr', '--size', '1000x1000'],
+  ['render', 'ordinary', '-o', 'a.png', '--size', '6000x6000'],
+  ['render', 'bumpy_sphere', '-o', 'a.png', '--aov', 'color', '--size', '3000x3000'],
   ['render', 'bumpy_sphere', '-o', 'a.png', '--aov', 'normal', '--size', '1000x1000'],
   ['verify', 'many.gltf', '--technique', 'zfail', '--size', '64x64'],
   ['verify', 'texture.gltf', '--technique', 'bump_tangent_space', '--size', '64x64'],

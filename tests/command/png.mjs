@@ -36,7 +36,7 @@ function paeth(left, up, corner) {
   return dl <= du && dl <= dc ? left : du <= dc ? up : corner;
 }
 
-/** Bytes of a gray PNG of 16 bits, of value(x, y) from 0 to 65535. */
+/** FileBytes of a gray PNG of 16 bits, of value(x, y) from 0 to 65535. */
 export function grayPng(width, height, value) {
   const rows = Buffer.alloc((2 * width + 1) * height);
   for (let y = 0; y < height; ++y)

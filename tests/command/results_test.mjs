@@ -19,7 +19,7 @@ function assertValid({ code, ...results }) {
 
 // Whole runs of every scene are tests of their own.
 const all = resultsOf(['verify', 'ordinary', 'eye_inside', 'many_lights', 'nested', 'open_lid',
-                       '--size', '96x96']);
+                       'light_inside', '--size', '96x96']);
 
 test('the results of scenes of every kind are valid', () => assertValid(all));
 
@@ -43,6 +43,38 @@ test('pixels add up: classes to the picture, causes to the differing, ledger to 
       assert.equal('first' in cell, cell.differing > 0);
     }
   }
+});
+
+test('figures of volumes are those that were predicted, and each ray has its pixel', () => {
+  for (const scene of all.scenes) {
+    const { rays, lit, shadowed } = scene.reference;
+    const pixels = scene.width * scene.height;
+    assert.ok(rays >= pixels && rays <= pixels + lit + shadowed);
+    for (const { name, volumes, volume_fragments: shown, saved, ...cell } of scene.techniques) {
+      const { fragments, against } = volumes;
+      assert.equal(volumes.checked, cell.pixels);
+      assert.equal(volumes.unexplained, 0);
+      assert.equal(fragments.shown, shown);
+      assert.ok(fragments.low <= shown && shown <= fragments.high, `${scene.name}/${name}`);
+      assert.equal(against?.shown, saved && shown + saved.volume_fragments);
+      assert.ok(!('words' in volumes));
+    }
+  }
+});
+
+test('results whose figures contradict each other are refused, and the figure is named', () => {
+  const refused = (change, figure) => {
+    const { code, ...results } = structuredClone(all);
+    change(results.scenes[0], results.scenes[0].techniques[0]);
+    writeFileSync(join(scratch, 'changed.json'), JSON.stringify(results));
+    const run = shadowproof(['report', '--from', 'changed.json', '--out', 'changed']);
+    assert.equal(run.code, 3, run.err);
+    assert.match(run.err, figure);
+  };
+  refused((scene, cell) => (cell.volume_fragments += 1), /volumes\/fragments\/shown/);
+  refused((scene, cell) => (cell.volumes.checked -= 1), /volumes\/checked/);
+  refused((scene, cell) => (cell.volumes.unexplained = 3), /volumes/);
+  refused((scene) => (scene.reference.rays = 1), /reference\/rays/);
 });
 
 test('the report folder holds the same results as --json, but for nothing', () => {

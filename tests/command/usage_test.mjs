@@ -6,8 +6,8 @@ import { test } from 'node:test';
 import { scratch, shadowproof } from './shadowproof.mjs';
 
 const wrongUsage = [
-  [[], /there are verify, render, explain, list/],
-  [['check', 'ordinary', 'x.png'], /no command 'check'; there are verify, render, explain, list/],
+  [[], /there are verify, check, render, explain, list/],
+  [['inspect', 'ordinary', 'x.png'], /no command 'inspect'; there are verify, check, render, explain/],
   [['--nonsense'], /there are verify/],
   [['verify', '--technique', 'zmaybe'], /no technique 'zmaybe'; there are zpass, zfail/],
   [['verify', '--technique', ''], /technique/],

@@ -1,7 +1,7 @@
 // The bundled scenes under each of their lights, by name.
 #pragma once
 
-#include "scenes/catalog.h"
+#include "scenes/load/catalog.h"
 #include "scenes/scene.h"
 
 #include <string>

@@ -37,6 +37,8 @@ protected:
         return compare(name, *find_technique(technique));
     }
 
+    Gpu& gpu() { return gpu_; }
+
 private:
     Gpu gpu_{GlPlatform::osmesa};
 };
@@ -67,12 +69,12 @@ TEST_P(ClassifyScene, the_predicted_counter_is_read_back_at_every_pixel_outside_
         if (!suits(technique, traced(GetParam()).scene)) continue;
         SCOPED_TRACE(technique.name);
         const Comparison comparison = compare(GetParam(), technique);
-        EXPECT_EQ(comparison.ledger.unexplained, 0U)
-            << "first at " << comparison.ledger.first_x << "," << comparison.ledger.first_y;
+        EXPECT_EQ(comparison.evidence.unexplained, 0U)
+            << "first at " << comparison.evidence.first_x << "," << comparison.evidence.first_y;
         EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
-        EXPECT_EQ(comparison.ledger.equal + comparison.ledger.in_band,
+        EXPECT_EQ(comparison.evidence.equal + comparison.evidence.in_band,
                   comparison.cause.pixels.size());
-        EXPECT_LT(comparison.ledger.in_band,
+        EXPECT_LT(comparison.evidence.in_band,
                   comparison.cause.pixels.size() * widest_band(GetParam(), technique) / 1000);
     }
 }
@@ -95,6 +97,29 @@ TEST_P(ClassifyScene,
         if (technique == std::string("zfail_reversed")) {
             EXPECT_LE(pixels_of(comparison, Cause::precision), 10U);
         }
+    }
+}
+
+TEST_P(ClassifyScene, a_pixel_judged_alone_is_what_it_is_in_the_whole_picture) {
+    const TracedScene& scene = traced(GetParam());
+    for (const Technique& technique : all_techniques()) {
+        if (!suits(technique, scene.scene)) continue;
+        const Frame frame = render(technique, scene.scene, scene.plan, gpu());
+        const std::unique_ptr<Judge> judge = judge_of(scene.traced, frame);
+        const Comparison whole = compared(scene, frame);
+        // Of every value of the cause map, some of the first pixels and some of the last.
+        std::map<std::uint8_t, std::vector<std::pair<int, int>>> places;
+        for (int y = 0; y < whole.cause.height; ++y)
+            for (int x = 0; x < whole.cause.width; ++x)
+                places[whole.cause.at(x, y)].emplace_back(x, y);
+        for (const auto& [cause, all] : places)
+            for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / 2)) {
+                const auto [x, y] = all[i];
+                const PixelFinding alone = classify_pixel(scene.traced, frame, *judge, x, y);
+                EXPECT_EQ(alone.cause, cause) << technique.name << " " << x << "," << y;
+                EXPECT_EQ(alone.also.bits(), whole.also.pixels.empty() ? 0U : whole.also.at(x, y));
+                EXPECT_FALSE(alone.unexplained);
+            }
     }
 }
 

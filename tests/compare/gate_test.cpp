@@ -54,8 +54,17 @@ TEST(Gate, unexplained_pixels_and_counters_fail_whatever_is_allowed) {
     EXPECT_TRUE(fails(handmade_scene("x", Cause::unexplained, Verdict::defect).cells[0], gate));
     Cell counter = cell_with(Verdict::agrees);
     EXPECT_FALSE(fails(counter, gate));
-    counter.comparison.ledger.unexplained = 1;
+    counter.comparison.evidence.unexplained = 1;
     EXPECT_TRUE(fails(counter, gate));
+}
+
+TEST(Gate, a_figure_that_nothing_makes_fails_whatever_is_allowed) {
+    Gate gate;
+    for (const CauseWords& words : all_causes)
+        if (words.cause != Cause::unexplained) gate.allow.push_back({words.cause, {}});
+    Cell cell = cell_with(Verdict::agrees);
+    cell.comparison.summary.unexplained = {"2,408 fragments shown where 1,204 predicted"};
+    EXPECT_TRUE(fails(cell, gate));
 }
 
 TEST(Gate, what_cannot_be_allowed_is_refused_with_what_can) {

@@ -1,10 +1,21 @@
 // A report whose every figure is known by hand: 4 by 3 pixels, of which three differ.
 #pragma once
 
-#include "compare/report.h"
-#include "compare/report_data.h"
+#include "compare/report/report.h"
+#include "compare/report/report_data.h"
+#include "compare/stencil/stencil_report.h"
 
 namespace shadowproof {
+
+/// What a report shows of the handmade cells' counters: the picture of their volumes alone.
+class HandmadeEvidence final : public EvidenceReport {
+public:
+    std::vector<Picture> pictures() const override {
+        return {{"volumes", [](const Frame& frame) { return to_png(volume_picture(frame)); }}};
+    }
+    std::string header() const override { return "{}"; }
+    Blocks blocks(const Frame& /*frame*/) const override { return {}; }
+};
 
 /// Truth:      claim:      cause:
 ///   . L L L     . L L L     - - - -
@@ -26,6 +37,7 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     scene.digest = "0123456789abcdef";
     scene.truth.visibility = Image<Visibility>(4, 3);
     scene.truth.visibility.pixels = {B, L, L, L, B, L, S, S, B, L, S, S};
+    scene.truth.statistics.rays = 20;
     scene.truth.statistics.lit = 5;
     scene.truth.statistics.shadowed = 4;
     scene.truth.statistics.background = 3;
@@ -36,8 +48,10 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     cell.verdict = verdict;
     cell.milliseconds = 3.125;
     cell.frame.claim = Image<Visibility>(4, 3);
-    cell.frame.volumes = Image<std::uint8_t>(4, 3);
-    cell.frame.volumes.pixels = {0, 1, 2, 2, 0, 1, 0, 255, 0, 0, 0, 0};
+    cell.family = cell.frame.family = "stencil";
+    cell.evidence = std::make_shared<HandmadeEvidence>();
+    cell.frame.counted.emplace().volumes = Image<std::uint8_t>(4, 3);
+    cell.frame.counted->volumes.pixels = {0, 1, 2, 2, 0, 1, 0, 255, 0, 0, 0, 0};
     cell.frame.claim.pixels = {B, L, L, L, B, L, L, S, B, S, S, L};
     Comparison& comparison = cell.comparison;
     comparison.cause = Image<std::uint8_t>(4, 3, no_difference);
@@ -51,11 +65,15 @@ inline SceneResult handmade_scene(const std::string& name, Cause corner_cause, V
     mark(3, 2, corner_cause);
     cell.cause_map = packed_cause_map(comparison);
     comparison.first = FirstDifference{2, 1, Cause::near_plane};
+    comparison.evidence_name = "counter";
     if (verdict == Verdict::unexplained)
-        comparison.ledger = {
+        comparison.evidence = {
             .equal = 9, .in_band = 1, .unexplained = 2, .first_x = 3, .first_y = 0};
     else
-        comparison.ledger = {.equal = 11, .in_band = 1};
+        comparison.evidence = {.equal = 11, .in_band = 1};
+    VolumeCheck volumes;
+    volumes.checked = 12;
+    comparison.summary = summary_of(cell.frame, comparison.evidence, volumes);
     if (verdict == Verdict::fails_as_predicted) cell.excused = {Cause::near_plane};
     return scene;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -18,15 +20,38 @@ std::string refusal(const std::function<void()>& ask) {
     return "";
 }
 
+constexpr std::array every_workload{Workload::class_map, Workload::truth,     Workload::colors,
+                                    Workload::terms,     Workload::lit_truth, Workload::comparison};
+
 TEST(Memory, a_picture_that_just_fits_is_taken_and_one_byte_less_refuses_it) {
-    const std::uint64_t needed = program_bytes + 1000 * pixel_bytes(Workload::comparison, false);
-    const auto ask = [&](std::uint64_t bytes) {
-        return refusal([&] {
-            require_picture({bytes, "--memory"}, 100, 10, Workload::comparison);
-        });
-    };
-    EXPECT_EQ(ask(needed), "");
-    EXPECT_EQ(ask(needed - 1).find("--size 100x10: needs "), 0U) << ask(needed - 1);
+    for (const Workload work : every_workload) {
+        const std::uint64_t needed = program_bytes + 1000 * pixel_bytes(work, false);
+        const auto ask = [&](std::uint64_t bytes) {
+            return refusal([&] { require_picture({bytes, "--memory"}, 100, 10, work); });
+        };
+        EXPECT_EQ(ask(needed), "");
+        EXPECT_EQ(ask(needed - 1).find("--size 100x10: needs "), 0U) << ask(needed - 1);
+    }
+}
+
+TEST(Memory, colours_of_a_lit_scene_count_with_its_picture) {
+    EXPECT_GT(pixel_bytes(Workload::comparison, true), pixel_bytes(Workload::comparison, false));
+    for (const Workload work : every_workload) {
+        Scene scene;
+        scene.file = "model.glb";
+        scene.camera.width = 100;
+        scene.camera.height = 10;
+        const auto ask = [&](std::uint64_t bytes) {
+            return refusal([&] { require_scene({bytes, "--memory"}, scene, work); });
+        };
+        const std::uint64_t plain = program_bytes + 1000 * pixel_bytes(work, false);
+        EXPECT_EQ(ask(plain), "");
+        EXPECT_NE(ask(plain - 1).find("a picture of 100x10"), std::string::npos) << ask(plain - 1);
+        scene.surfaces.resize(1);
+        const std::uint64_t lit = program_bytes + 1000 * pixel_bytes(work, true);
+        EXPECT_NE(ask(lit - 1).find("a picture of 100x10"), std::string::npos) << ask(lit - 1);
+        EXPECT_EQ(ask(lit + 4 * sizeof(Surface)), "");
+    }
 }
 
 TEST(Memory, the_largest_size_that_parses_does_not_overflow) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "compare/classify.h"
+#include "compare/families.h"
 #include "raster/render.h"
-#include "scenes/plan.h"
+#include "reference/predict/prediction.h"
+#include "scenes/plan/plan.h"
 
 #include <string_view>
 #include <utility>
@@ -14,21 +16,32 @@ struct TracedScene {
     Scene scene;
     Plan plan;
     Tracer tracer;
-    Silhouette silhouette;
     GroundTruth truth;
-    ShadowDepths depths;
+    shadowproof::TracedScene traced;
+    const Silhouette& silhouette;
+    const ShadowDepths& depths;
 
-    explicit TracedScene(Scene given)
-        : scene(std::move(given)), plan(make_plan(scene)), tracer(scene), silhouette(tracer),
-          truth(trace(tracer)), depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
+    explicit TracedScene(Scene given, int threads = 0)
+        : scene(std::move(given)), plan(make_plan(scene)), tracer(scene, threads),
+          truth(trace(tracer)), traced(tracer, truth), silhouette(traced.silhouette()),
+          depths(traced.depths()) {}
     TracedScene(const TracedScene&) = delete; // the tracer refers to the scene
     TracedScene& operator=(const TracedScene&) = delete;
 };
 
+inline Prediction prediction_of(const TracedScene& traced, const Frame& frame) {
+    return {traced.tracer, traced.silhouette,       traced.truth,
+            traced.depths, frame.counted->counting, frame.depth_model};
+}
+
+/// The counter at the pixel's centre, as stored.
+inline std::uint32_t predicted_counter(const TracedScene& traced, const Frame& frame, int x,
+                                       int y) {
+    return stored(prediction_of(traced, frame).counts().at(x, y), frame.counted->counting);
+}
+
 inline Comparison compared(const TracedScene& traced, const Frame& frame) {
-    return classify(traced.tracer, traced.silhouette, traced.truth, traced.depths, frame,
-                    {traced.tracer, traced.silhouette, traced.truth, traced.depths, frame.counting,
-                     frame.depth_model});
+    return classify(traced.traced, frame, *judge_of(traced.traced, frame));
 }
 
 inline Comparison compared(const TracedScene& traced, const Technique& technique, Gpu& gpu) {
@@ -39,8 +52,6 @@ inline Comparison compared(const TracedScene& traced, std::string_view technique
     return compared(traced, *find_technique(technique), gpu);
 }
 
-inline std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
-    return comparison.causes[static_cast<std::size_t>(cause)];
-}
+using shadowproof::pixels_of;
 
 } // namespace shadowproof::tests

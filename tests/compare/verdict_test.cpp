@@ -1,3 +1,4 @@
+#include "compare/stencil/stencil_report.h"
 #include "compare/verdict.h"
 
 #include <gtest/gtest.h>
@@ -22,6 +23,24 @@ const std::vector<Cause> zpass_fails_at{Cause::near_plane, Cause::precision};
 
 TEST(Verdict, edge_pixels_alone_agree) {
     EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::edge})), Verdict::agrees);
+}
+
+TEST(Verdict, a_figure_that_the_volumes_do_not_make_is_unexplained) {
+    const auto verdict_of = [](const VolumeCheck& volumes) {
+        Frame frame;
+        frame.counted.emplace();
+        Comparison comparison;
+        comparison.summary = summary_of(frame, {}, volumes);
+        return judge(declaring({}), zpass_fails_at, {}, comparison);
+    };
+    VolumeCheck volumes;
+    volumes.fragments = {.shown = 11, .predicted = {11, 12}};
+    EXPECT_EQ(verdict_of(volumes), Verdict::agrees);
+    volumes.fragments.shown = 13;
+    EXPECT_EQ(verdict_of(volumes), Verdict::unexplained);
+    volumes.fragments.shown = 12;
+    volumes.unexplained = 1;
+    EXPECT_EQ(verdict_of(volumes), Verdict::unexplained);
 }
 
 TEST(Verdict, a_known_failing_that_the_scene_provokes_is_as_predicted) {
@@ -66,25 +85,24 @@ TEST(Verdict, an_unexplained_pixel_outweighs_everything) {
 
 TEST(Verdict, a_counter_that_was_not_predicted_is_unexplained_though_every_claim_is_right) {
     Comparison comparison;
-    comparison.ledger.unexplained = 1;
+    comparison.evidence.unexplained = 1;
     EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, comparison), Verdict::unexplained);
 }
 
 TEST(Verdict, a_scene_that_stops_provoking_what_it_declares_is_named) {
     const std::vector<std::vector<Cause>> fails_at{zpass_fails_at};
     const Scene scene = declaring({Cause::near_plane});
-    const std::vector<Comparison> found{with({Cause::near_plane})};
-    const std::vector<Comparison> not_found{with({Cause::edge})};
-    EXPECT_TRUE(no_longer_provoked(scene.provokes, fails_at, found).empty());
-    EXPECT_EQ(no_longer_provoked(scene.provokes, fails_at, not_found),
+    const auto shows = [](Cause shown) { return [=](Cause cause) { return cause == shown; }; };
+    EXPECT_TRUE(no_longer_provoked(scene.provokes, fails_at, shows(Cause::near_plane)).empty());
+    EXPECT_EQ(no_longer_provoked(scene.provokes, fails_at, shows(Cause::edge)),
               std::vector<Cause>{Cause::near_plane});
 }
 
 TEST(Verdict, a_cause_that_no_technique_shown_is_known_for_is_not_missed) {
     const std::vector<std::vector<Cause>> fails_at{{Cause::far_plane}};
-    const std::vector<Comparison> none{Comparison{}};
-    EXPECT_TRUE(
-        no_longer_provoked(declaring({Cause::near_plane}).provokes, fails_at, none).empty());
+    EXPECT_TRUE(no_longer_provoked(declaring({Cause::near_plane}).provokes, fails_at, [](Cause) {
+                    return false;
+                }).empty());
 }
 
 } // namespace

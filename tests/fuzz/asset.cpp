@@ -21,7 +21,7 @@ std::uint32_t word_at(std::span<const std::uint8_t> bytes, std::size_t offset) {
     return word;
 }
 
-void put_word(Bytes& bytes, std::uint32_t word) {
+void put_word(FileBytes& bytes, std::uint32_t word) {
     for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<std::uint8_t>(word >> (8 * k)));
 }
 
@@ -58,11 +58,11 @@ std::optional<Asset> read_glb(std::span<const std::uint8_t> bytes) {
     if (!tree) return std::nullopt;
     Asset asset{std::move(*tree), {}, true};
     const auto rest = bytes.subspan(20 + length);
-    if (rest.size() > 8) asset.buffers.emplace_back(Bytes(rest.begin() + 8, rest.end()));
+    if (rest.size() > 8) asset.buffers.emplace_back(FileBytes(rest.begin() + 8, rest.end()));
     return asset;
 }
 
-void append_chunk(Bytes& glb, const char* type, Bytes content, std::uint8_t padding) {
+void append_chunk(FileBytes& glb, const char* type, FileBytes content, std::uint8_t padding) {
     while (content.size() % 4 != 0) content.push_back(padding);
     put_word(glb, static_cast<std::uint32_t>(content.size()));
     glb.insert(glb.end(), type, type + 4);
@@ -84,12 +84,12 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return text;
 }
 
-Bytes from_base64(std::string_view text) {
+FileBytes from_base64(std::string_view text) {
     std::array<std::int8_t, 256> value{};
     value.fill(-1);
     for (std::size_t i = 0; i < digits.size(); ++i)
         value[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
-    Bytes bytes;
+    FileBytes bytes;
     std::uint32_t group = 0;
     int bits = 0;
     for (const char c : text) {
@@ -131,12 +131,12 @@ void embed_files(Asset& asset, const std::filesystem::path& folder) {
         if (uri == nullptr || uri->starts_with("data:")) continue;
         std::ifstream file(folder / *uri, std::ios::binary);
         if (!file) continue;
-        asset.buffers[i] = Bytes(std::istreambuf_iterator<char>(file), {});
+        asset.buffers[i] = FileBytes(std::istreambuf_iterator<char>(file), {});
         (*buffers)[i]["uri"] = std::string(embedded);
     }
 }
 
-Bytes written(const Asset& asset) {
+FileBytes written(const Asset& asset) {
     json tree = asset.json;
     json* buffers = buffers_of(tree);
     for (std::size_t i = 0; buffers != nullptr && i < buffers->size(); ++i)
@@ -144,13 +144,13 @@ Bytes written(const Asset& asset) {
             uri && uri->starts_with("data:") && i < asset.buffers.size() && asset.buffers[i])
             (*buffers)[i]["uri"] = uri->substr(0, uri->find(',') + 1) + base64(*asset.buffers[i]);
     const std::string text = tree.dump(-1, ' ', false, json::error_handler_t::replace);
-    const Bytes content(text.begin(), text.end());
+    const FileBytes content(text.begin(), text.end());
     if (!asset.binary) return content;
-    Bytes chunks;
+    FileBytes chunks;
     append_chunk(chunks, "JSON", content, ' ');
     if (!asset.buffers.empty() && asset.buffers[0])
         append_chunk(chunks, "BIN\0", *asset.buffers[0], 0);
-    Bytes glb{'g', 'l', 'T', 'F'};
+    FileBytes glb{'g', 'l', 'T', 'F'};
     put_word(glb, 2);
     put_word(glb, static_cast<std::uint32_t>(12 + chunks.size()));
     glb.insert(glb.end(), chunks.begin(), chunks.end());

@@ -13,12 +13,12 @@
 
 namespace shadowproof::fuzz {
 
-using Bytes = std::vector<std::uint8_t>;
+using FileBytes = std::vector<std::uint8_t>;
 
 struct Asset {
     nlohmann::json json;
     /// Of json["buffers"], by index; none where a buffer is neither embedded nor GLB's.
-    std::vector<std::optional<Bytes>> buffers;
+    std::vector<std::optional<FileBytes>> buffers;
     bool binary = false; ///< a GLB, whose first buffer is its chunk
 };
 
@@ -29,10 +29,10 @@ std::optional<Asset> read_asset(std::span<const std::uint8_t> bytes);
 void embed_files(Asset& asset, const std::filesystem::path& folder);
 
 /// The file's bytes again. Its buffers' URIs hold what `buffers` says; byteLength stays as it is.
-Bytes written(const Asset& asset);
+FileBytes written(const Asset& asset);
 
 std::string base64(std::span<const std::uint8_t> bytes);
 /// What is no digit is skipped.
-Bytes from_base64(std::string_view digits);
+FileBytes from_base64(std::string_view digits);
 
 } // namespace shadowproof::fuzz

@@ -50,7 +50,7 @@ public:
         for (std::size_t i = 0; i < settings_.count; ++i) {
             const Original& original = originals_[dice_.below(originals_.size())];
             const fs::path file = folder_ / fmt::format("m{}{}", i, original.extension);
-            const Bytes bytes = mutated(original, dice_);
+            const FileBytes bytes = mutated(original, dice_);
             std::ofstream(file, std::ios::binary)
                 .write(reinterpret_cast<const char*>(bytes.data()),
                        static_cast<std::streamsize>(bytes.size()));

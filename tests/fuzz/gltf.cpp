@@ -1,5 +1,5 @@
 // glTF and GLB bytes: load, or are refused in a sentence.
-#include "scenes/gltf.h"
+#include "scenes/load/gltf/gltf.h"
 
 #include "scenes/error.h"
 #include "tests/fuzz/allocations.h"

@@ -76,7 +76,7 @@ std::optional<Elements> elements_of(Asset& asset, std::size_t index) {
     if (view == nullptr) return std::nullopt;
     const std::size_t buffer = unsigned_of(*view, "buffer", none);
     if (buffer >= asset.buffers.size() || !asset.buffers[buffer]) return std::nullopt;
-    Bytes& bytes = *asset.buffers[buffer];
+    FileBytes& bytes = *asset.buffers[buffer];
     const std::size_t type = unsigned_of(*accessor, "componentType", 5126);
     Elements elements{nullptr, unsigned_of(*accessor, "count", 0), components_of(*accessor),
                       component_bytes(type), type == 5126};

@@ -144,6 +144,7 @@ std::span<const std::string_view> gltf_words() {
                                                  "aspectRatio",
                                                  "near_plane",
                                                  "open_mesh",
+                                                 "light_inside",
                                                  "data:,",
                                                  "data:application/octet-stream;base64,AAAA",
                                                  "data:image/png;base64,iVBORw0KGgo=",

@@ -1,6 +1,6 @@
-// Bytes of a Quake II model: loads, or is refused in a sentence. Two pictures that its skin may
+// FileBytes of a Quake II model: loads, or is refused in a sentence. Two pictures that its skin may
 // name lie beside it.
-#include "scenes/md2.h"
+#include "scenes/load/md2/md2.h"
 
 #include "scenes/error.h"
 #include "tests/fuzz/asset.h"

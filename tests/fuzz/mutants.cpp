@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr std::size_t most_bytes = 2'000'000;
 
-Bytes bytes_of(const fs::path& file) {
+FileBytes bytes_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -41,8 +41,8 @@ void drop_declarations(json& tree) {
     if (tree.contains(ours) && tree[ours].is_object()) tree[ours].erase("provokes");
 }
 
-Bytes in_one_file(const fs::path& file) {
-    Bytes bytes = bytes_of(file);
+FileBytes in_one_file(const fs::path& file) {
+    FileBytes bytes = bytes_of(file);
     auto asset = read_asset(bytes);
     if (!asset) return bytes;
     embed_files(*asset, file.parent_path());
@@ -51,7 +51,7 @@ Bytes in_one_file(const fs::path& file) {
     return written(*asset);
 }
 
-void flip_bytes(Bytes& bytes, Dice& dice) {
+void flip_bytes(FileBytes& bytes, Dice& dice) {
     if (bytes.empty()) return;
     switch (dice.below(6)) {
     case 0: // a run left out
@@ -79,10 +79,10 @@ void flip_bytes(Bytes& bytes, Dice& dice) {
     }
 }
 
-Bytes mutated_picture(const Bytes& bytes, Dice& dice) {
+FileBytes mutated_picture(const FileBytes& bytes, Dice& dice) {
     auto chunks = dice.one_in(6) ? std::nullopt : read_png(bytes);
     if (!chunks) {
-        Bytes flipped = bytes;
+        FileBytes flipped = bytes;
         flip_bytes(flipped, dice);
         return flipped;
     }
@@ -103,10 +103,10 @@ void mutate_pictures(Asset& asset, Dice& dice) {
                    base64(mutated_picture(from_base64(uri.substr(comma + 1)), dice));
 }
 
-Bytes mutated_gltf(const Bytes& bytes, Dice& dice) {
+FileBytes mutated_gltf(const FileBytes& bytes, Dice& dice) {
     auto asset = dice.one_in(6) ? std::nullopt : read_asset(bytes);
     if (!asset) {
-        Bytes flipped = bytes;
+        FileBytes flipped = bytes;
         flip_bytes(flipped, dice);
         return flipped;
     }
@@ -133,17 +133,17 @@ std::vector<Original> originals_in(std::span<const fs::path> folders) {
     std::vector<Original> originals;
     for (const fs::path& file : files) {
         const std::string extension = file.extension().string();
-        Bytes bytes = extension.starts_with(".gl") ? in_one_file(file) : bytes_of(file);
+        FileBytes bytes = extension.starts_with(".gl") ? in_one_file(file) : bytes_of(file);
         if (bytes.size() <= most_bytes) originals.push_back({extension, std::move(bytes)});
     }
     if (originals.empty()) throw std::runtime_error("no assets in the folders given");
     return originals;
 }
 
-Bytes mutated(const Original& original, Dice& dice) {
+FileBytes mutated(const Original& original, Dice& dice) {
     if (original.extension == ".png") return mutated_picture(original.bytes, dice);
     if (original.extension.starts_with(".gl")) return mutated_gltf(original.bytes, dice);
-    Bytes bytes = original.bytes;
+    FileBytes bytes = original.bytes;
     for (std::size_t n = 1 + dice.below(3); n > 0; --n) flip_bytes(bytes, dice);
     return bytes;
 }

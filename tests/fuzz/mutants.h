@@ -14,7 +14,7 @@ namespace shadowproof::fuzz {
 
 struct Original {
     std::string extension; ///< ".gltf", ".glb", ".md2", ".png"
-    Bytes bytes;           ///< of a glTF asset with its buffers and pictures embedded
+    FileBytes bytes;       ///< of a glTF asset with its buffers and pictures embedded
 };
 
 /// Files of those kinds below the folders, in the order of their paths. Those of more than 2 MB are
@@ -22,6 +22,6 @@ struct Original {
 std::vector<Original> originals_in(std::span<const std::filesystem::path> folders);
 
 /// Changed in one to four places.
-Bytes mutated(const Original& original, Dice& dice);
+FileBytes mutated(const Original& original, Dice& dice);
 
 } // namespace shadowproof::fuzz

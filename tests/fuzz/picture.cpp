@@ -1,5 +1,6 @@
-// Bytes of a picture: decoded, or refused in a sentence before more is allocated than was allowed.
-#include "scenes/picture.h"
+// FileBytes of a picture: decoded, or refused in a sentence before more is allocated than was
+// allowed.
+#include "scenes/load/picture.h"
 
 #include "scenes/error.h"
 #include "tests/fuzz/allocations.h"

@@ -19,7 +19,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes) {
            std::uint32_t{bytes[2]} << 8U | bytes[3];
 }
 
-void put_big_endian(Bytes& bytes, std::uint32_t word) {
+void put_big_endian(FileBytes& bytes, std::uint32_t word) {
     for (int shift = 24; shift >= 0; shift -= 8)
         bytes.push_back(static_cast<std::uint8_t>(word >> shift));
 }
@@ -28,10 +28,10 @@ bool is(const PngChunk& chunk, const char* type) {
     return std::memcmp(chunk.type.data(), type, 4) == 0;
 }
 
-std::optional<Bytes> inflated(const Bytes& packed) {
+std::optional<FileBytes> inflated(const FileBytes& packed) {
     const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
         inflater(libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-    Bytes bytes(most_pixel_bytes);
+    FileBytes bytes(most_pixel_bytes);
     std::size_t size = 0;
     if (libdeflate_zlib_decompress(inflater.get(), packed.data(), packed.size(), bytes.data(),
                                    bytes.size(), &size) != LIBDEFLATE_SUCCESS)
@@ -40,16 +40,16 @@ std::optional<Bytes> inflated(const Bytes& packed) {
     return bytes;
 }
 
-Bytes deflated(const Bytes& bytes) {
+FileBytes deflated(const FileBytes& bytes) {
     const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> deflater(
         libdeflate_alloc_compressor(1), &libdeflate_free_compressor);
-    Bytes packed(libdeflate_zlib_compress_bound(deflater.get(), bytes.size()));
+    FileBytes packed(libdeflate_zlib_compress_bound(deflater.get(), bytes.size()));
     packed.resize(libdeflate_zlib_compress(deflater.get(), bytes.data(), bytes.size(),
                                            packed.data(), packed.size()));
     return packed;
 }
 
-void change_bytes(Bytes& bytes, Dice& dice) {
+void change_bytes(FileBytes& bytes, Dice& dice) {
     if (bytes.empty() || dice.one_in(8)) {
         bytes.insert(bytes.end(), 1 + dice.below(4), static_cast<std::uint8_t>(dice.bits()));
         return;
@@ -60,7 +60,7 @@ void change_bytes(Bytes& bytes, Dice& dice) {
 }
 
 /// Width, height, bits, colour type, interlacing: a field that fits, mostly.
-void change_header(Bytes& header, Dice& dice) {
+void change_header(FileBytes& header, Dice& dice) {
     if (header.size() != 13) return change_bytes(header, dice);
     static constexpr std::array<std::uint8_t, 6> depths{1, 2, 4, 8, 16, 0};
     static constexpr std::array<std::uint8_t, 6> types{0, 2, 3, 4, 6, 1};
@@ -84,7 +84,7 @@ void change_header(Bytes& header, Dice& dice) {
 
 /// All pixel chunks become one.
 void change_pixels(std::vector<PngChunk>& chunks, Dice& dice) {
-    Bytes packed;
+    FileBytes packed;
     PngChunk* first = nullptr;
     for (PngChunk& chunk : chunks)
         if (is(chunk, "IDAT")) {
@@ -119,8 +119,8 @@ std::optional<std::vector<PngChunk>> read_png(std::span<const std::uint8_t> byte
     return chunks;
 }
 
-Bytes written(const std::vector<PngChunk>& chunks) {
-    Bytes bytes(signature.begin(), signature.end());
+FileBytes written(const std::vector<PngChunk>& chunks) {
+    FileBytes bytes(signature.begin(), signature.end());
     for (const PngChunk& chunk : chunks) {
         put_big_endian(bytes, static_cast<std::uint32_t>(chunk.content.size()));
         const std::size_t checked = bytes.size();

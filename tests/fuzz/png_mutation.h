@@ -14,14 +14,14 @@ namespace shadowproof::fuzz {
 
 struct PngChunk {
     std::array<std::uint8_t, 4> type{};
-    Bytes content;
+    FileBytes content;
 };
 
 /// None where the bytes do not begin as a PNG does. What is behind a chunk that is cut off is lost.
 std::optional<std::vector<PngChunk>> read_png(std::span<const std::uint8_t> bytes);
 
 /// With lengths and checksums that are right.
-Bytes written(const std::vector<PngChunk>& chunks);
+FileBytes written(const std::vector<PngChunk>& chunks);
 
 /// One change.
 void mutate_png(std::vector<PngChunk>& chunks, Dice& dice);

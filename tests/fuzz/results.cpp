@@ -1,7 +1,7 @@
 // Texts of results.json, two with a NUL between them: read, merged, compared with; or refused in a
 // sentence.
-#include "compare/baseline.h"
-#include "compare/merge.h"
+#include "compare/results/baseline.h"
+#include "compare/results/merge.h"
 #include "scenes/error.h"
 #include "tests/fuzz/findings.h"
 #include "tests/fuzz/promises.h"

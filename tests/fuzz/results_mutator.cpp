@@ -1,5 +1,5 @@
 // Of the results target: the trees of both texts.
-#include "compare/results_file.h"
+#include "compare/results/results_file.h"
 #include "tests/fuzz/json_mutation.h"
 #include "tests/fuzz/mutator.h"
 

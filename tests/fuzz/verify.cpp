@@ -3,13 +3,14 @@
 // promises. With SHADOWPROOF_FUZZ_FINDINGS=FOLDER these are kept there, few of each kind, and the
 // run goes on.
 #include "compare/blank.h"
+#include "compare/classify.h"
+#include "compare/families.h"
 #include "compare/verdict.h"
 #include "raster/render.h"
-#include "reference/prediction.h"
-#include "scenes/admission.h"
 #include "scenes/error.h"
-#include "scenes/gltf.h"
-#include "scenes/plan.h"
+#include "scenes/load/admission.h"
+#include "scenes/load/gltf/gltf.h"
+#include "scenes/plan/plan.h"
 #include "tests/fuzz/findings.h"
 #include "tests/fuzz/private_folder.h"
 #include "tests/fuzz/promises.h"
@@ -30,23 +31,14 @@ struct Truth {
     Plan plan;
     Tracer tracer;
     GroundTruth truth;
-    ShadowDepths depths;
-    Silhouette silhouette;
-};
+    TracedScene traced;
 
-Truth truth_of(const Scene& scene) {
-    Plan plan = make_plan(scene);
-    Tracer tracer(scene, 1);
-    GroundTruth truth = trace(tracer);
-    ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    Silhouette silhouette(tracer);
-    return {scene,
-            std::move(plan),
-            std::move(tracer),
-            std::move(truth),
-            std::move(depths),
-            std::move(silhouette)};
-}
+    explicit Truth(const Scene& given)
+        : scene(given), plan(make_plan(scene)), tracer(scene, 1), truth(trace(tracer)),
+          traced(tracer, truth) {}
+    Truth(const Truth&) = delete; // what is traced refers to the tracer
+    Truth& operator=(const Truth&) = delete;
+};
 
 /// What is odd about a scene, so that what is known of one kind of scene does not hide another's
 /// findings: "-large-near".
@@ -81,8 +73,8 @@ std::string kind_of(const Technique& technique, Verdict verdict, const Compariso
         if (words.cause != Cause::edge &&
             comparison.causes[static_cast<std::size_t>(words.cause)] > 0)
             kind += "-" + std::string(name_of(words.cause));
-    if (comparison.ledger.unexplained > 0) kind += "-counters";
-    if (comparison.colors && comparison.colors->unforeseen > 0) kind += "-colors";
+    if (comparison.evidence.unexplained > 0) kind += "-counters";
+    if (comparison.colors && comparison.colors->unpredicted > 0) kind += "-colors";
     return kind;
 }
 
@@ -91,11 +83,9 @@ std::optional<std::string> judged(const Truth& truth, const Technique& technique
                                   Gpu& gpu) {
     try {
         const Frame frame = render(technique, truth.scene, truth.plan, gpu);
-        const Prediction prediction(truth.tracer, truth.silhouette, truth.truth, truth.depths,
-                                    frame.counting, frame.depth_model);
-        const Comparison comparison =
-            classify(truth.tracer, truth.silhouette, truth.truth, truth.depths, frame, prediction);
-        refuse_blank(technique.name, truth.truth, frame, comparison);
+        const Comparison comparison = classify(truth.traced, frame, *judge_of(truth.traced, frame));
+        refuse_blank(technique.name, truth.truth, frame,
+                     pixels_of(comparison, Cause::unexplained) > 0);
         const Verdict verdict =
             judge(truth.scene, technique.fails_at, technique.by_nature, comparison);
         if (verdict == Verdict::unexplained || (robust && verdict == Verdict::defect))
@@ -128,7 +118,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
         scene.declares_provokes = false;
         if (scene.triangles.size() > most_triangles) return -1;
         admit(scene);
-        truth.emplace(truth_of(scene));
+        truth.emplace(scene);
     } catch (const Error& error) {
         fuzz::check_message(error.what(), file.string(), "verify", input);
         return 0;

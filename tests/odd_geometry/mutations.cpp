@@ -1,6 +1,6 @@
 #include "tests/odd_geometry/mutations.h"
 
-#include "scenes/catalog.h"
+#include "scenes/load/catalog.h"
 #include "tests/raster/small_scenes.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // Mutation goes through admission, truth, all techniques and the judge.
 //   SHADOWPROOF_SEEDS="FIRST COUNT" tries other seeds than the fixed ones.
 #include "compare/verdict.h"
-#include "scenes/admission.h"
-#include "scenes/catalog.h"
 #include "scenes/error.h"
+#include "scenes/load/admission.h"
+#include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/odd_geometry/mutations.h"
 #include "tests/reference/rational_witness.h"
@@ -34,9 +34,10 @@ Seeds seeds_to_try() {
     return seeds;
 }
 
-/// Nobody explains these yet: corners 1e18 and more away, a light 1e18 away, and one 5e-324 from a
-/// caster's corner, which the driver's doubles take for zero. See nobody_explains_these_yet.
-const std::set<std::uint64_t> open_seeds{639, 713, 779, 928};
+/// Nobody explains these yet: corners 1e18 and more away, a light 1e18 away, one 5e-324 from a
+/// caster's corner, which the driver's doubles take for zero, and a filled hole with a corner 1e15
+/// away (93), and colours of a triangle as wide (981). See nobody_explains_these_yet.
+const std::set<std::uint64_t> open_seeds{93, 639, 713, 779, 928, 981};
 
 bool names_its_thing(const std::string& message) {
     const auto says = [&](const char* words) { return message.find(words) != std::string::npos; };
@@ -61,10 +62,10 @@ std::string words_of(const Comparison& comparison) {
     for (const CauseWords& cause : all_causes)
         if (const std::uint64_t pixels = pixels_of(comparison, cause.cause); pixels > 0)
             words += fmt::format(" {} {}", pixels, cause.name);
-    if (comparison.ledger.unexplained > 0)
+    if (comparison.evidence.unexplained > 0)
         words += fmt::format(", {} counters unexplained, first at ({},{})",
-                             comparison.ledger.unexplained, comparison.ledger.first_x,
-                             comparison.ledger.first_y);
+                             comparison.evidence.unexplained, comparison.evidence.first_x,
+                             comparison.evidence.first_y);
     if (comparison.first)
         words += fmt::format(", first at ({},{})", comparison.first->x, comparison.first->y);
     return words;
@@ -153,6 +154,11 @@ TEST(OddGeometry, a_triangle_with_one_corner_far_away_has_its_true_depth_near_by
     try_seeds({204});
 }
 
+TEST(OddGeometry,
+     figures_of_a_near_plane_of_1e_16_and_of_a_caster_flat_from_the_light_are_explained) {
+    try_seeds({155, 422});
+}
+
 TEST(OddGeometry, a_tiny_scene_with_one_huge_coordinate_is_refused) {
     try_seeds({533});
 }
@@ -172,11 +178,11 @@ TEST(OddGeometry, a_volume_that_is_a_ten_thousandth_of_a_pixel_wide_is_counted_o
     const TracedScene traced(load_scene(ODD_SCENES "/askew_label.gltf", request));
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
-    EXPECT_EQ(compared(traced, frame).ledger.unexplained, 0U);
+    EXPECT_EQ(compared(traced, frame).evidence.unexplained, 0U);
     const auto is_caught = [&](int x, int y, std::uint32_t counter) {
         Frame faulty = frame;
-        faulty.counter.at(x, y) = counter;
-        return compared(traced, faulty).ledger_miss.at(x, y) == 1;
+        faulty.counted->counter.at(x, y) = counter;
+        return compared(traced, faulty).evidence_miss.at(x, y) == 1;
     };
     EXPECT_FALSE(is_caught(20, 13, 1));
     EXPECT_FALSE(is_caught(20, 13, 2));

@@ -7,8 +7,7 @@
 //   FAULTS_ERRNO    with which errno (EIO)
 //   FAULTS_KILL     set: instead of failing, the call ends all processes by SIGKILL
 //   FAULTS_WITHOUT  what the file system does not have: "unnamed" files, "exchange" of two names,
-//   or
-//                   both, with a comma between
+//                   or both, with a comma between
 //   FAULTS_BYTES    from that many bytes written below the folder on, writing fails (ENOSPC)
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -113,6 +112,17 @@ bool is_below(int folder, const char* path) {
     return length > 0 && static_cast<std::size_t>(length) < sizeof whole && is_below(whole);
 }
 
+/// Ends the process that began, the one that waits for this one, and this one. Each in between
+/// would otherwise live long enough to report that its child was killed.
+[[noreturn]] void kill_all(const Settings& set) {
+    const auto first = static_cast<pid_t>(set.shared->first_process.load());
+    const pid_t parent = getppid();
+    kill(first, SIGKILL);
+    if (getpid() != first && parent > 1) kill(parent, SIGKILL);
+    kill(getpid(), SIGKILL);
+    for (;;) pause();
+}
+
 /// Counts a call; whether it is the one that fails.
 bool fails(bool counted) {
     const int before = errno;
@@ -121,11 +131,7 @@ bool fails(bool counted) {
         errno = before;
         return false;
     }
-    if (set.kill) {
-        kill(static_cast<pid_t>(set.shared->first_process.load()), SIGKILL);
-        kill(getpid(), SIGKILL);
-        for (;;) pause();
-    }
+    if (set.kill) kill_all(set);
     errno = set.reason;
     return true;
 }

@@ -98,11 +98,12 @@ test('a FIFO gets the bytes and stays; asking does not end it for its reader', a
   const reader = spawn('cat', ['pipe'], { cwd: below });
   let text = '';
   reader.stdout.on('data', (chunk) => { text += chunk; });
+  const ended = new Promise((resolve) => reader.on('close', resolve));
   assert.equal(assertAskingChangesNothing(below, 'pipe').code, 0);
   const done = await new Promise((resolve) =>
     spawn(program, ['pipe', '300000'], { cwd: below }).on('close', resolve));
   assert.equal(done, 0);
-  await new Promise((resolve) => reader.on('close', resolve));
+  await ended;
   assert.equal(text, 'n'.repeat(300000));
   assert.ok(lstatSync(join(below, 'pipe')).isFIFO());
 });

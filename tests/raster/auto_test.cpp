@@ -1,7 +1,7 @@
 // What auto leaves out, and what the volumes of a frame are said to cost.
 #include "raster/render.h"
-#include "scenes/catalog.h"
-#include "scenes/plan.h"
+#include "scenes/load/catalog.h"
+#include "scenes/plan/plan.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Frame draw(Gpu& gpu, const Scene& scene, const char* technique) {
 
 Counting::Caster counted_as(const Scene& scene, const Frame& frame, std::string_view mesh) {
     const auto found = std::ranges::find(scene.meshes, mesh, &Mesh::name);
-    return frame.counting.caster(found->first_triangle);
+    return frame.counted->counting.caster(found->first_triangle);
 }
 
 std::size_t differing_claims(const Frame& frame, const Frame& other) {
@@ -36,14 +36,16 @@ std::size_t differing_claims(const Frame& frame, const Frame& other) {
 /// Pixels that face the light of which one counter says lit and the other shadowed.
 std::size_t differing_shadows(const Scene& scene, const Frame& frame, const Frame& other) {
     std::size_t differing = 0;
-    for (std::size_t i = 0; i < frame.counter.pixels.size(); ++i) {
+    for (std::size_t i = 0; i < frame.counted->counter.pixels.size(); ++i) {
         const std::uint32_t seen = frame.triangle.pixels[i];
         if (seen == no_triangle || seen != other.triangle.pixels[i]) continue;
         const glm::dvec4 light = homogeneous(chosen_light(scene));
         const double facing =
             side(scene, seen, light) * side(scene, seen, glm::dvec4(scene.camera.eye, 1));
         if (facing <= 0) continue;
-        differing += (frame.counter.pixels[i] == 0) != (other.counter.pixels[i] == 0) ? 1U : 0U;
+        differing +=
+            (frame.counted->counter.pixels[i] == 0) != (other.counted->counter.pixels[i] == 0) ? 1U
+                                                                                               : 0U;
     }
     return differing;
 }
@@ -84,11 +86,12 @@ TEST_P(AutoClaims, are_those_of_zfail_reversed_but_for_depths_that_tie) {
     EXPECT_LE(differing_claims(frame, whole), few);
     // Whether a counter is zero is what must be kept: a volume that is left out changes others.
     EXPECT_LE(differing_shadows(scene, frame, whole), few);
-    EXPECT_LE(frame.volume_fragments, whole.volume_fragments);
-    ASSERT_TRUE(frame.saved.has_value());
-    EXPECT_EQ(frame.saved->against, "zfail_reversed");
-    EXPECT_EQ(frame.saved->volume_fragments,
-              static_cast<std::int64_t>(whole.volume_fragments - frame.volume_fragments));
+    EXPECT_LE(frame.counted->volume_fragments, whole.counted->volume_fragments);
+    ASSERT_TRUE(frame.counted->saved.has_value());
+    EXPECT_EQ(frame.counted->saved->against, "zfail_reversed");
+    EXPECT_EQ(frame.counted->saved->volume_fragments,
+              static_cast<std::int64_t>(whole.counted->volume_fragments -
+                                        frame.counted->volume_fragments));
     EXPECT_FALSE(frame.left_out.empty());
 }
 
@@ -105,9 +108,10 @@ TEST(Auto, draws_no_volume_where_no_caster_can_shadow_anything) {
     add_rectangle(scene, {-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2});
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = draw(gpu, scene, "auto");
-    EXPECT_EQ(frame.volume_fragments, 0U);
-    EXPECT_TRUE(std::ranges::all_of(frame.counter.pixels, [](auto count) { return count == 0; }));
-    EXPECT_GT(draw(gpu, scene, "zfail_reversed").volume_fragments, 0U);
+    EXPECT_EQ(frame.counted->volume_fragments, 0U);
+    EXPECT_TRUE(
+        std::ranges::all_of(frame.counted->counter.pixels, [](auto count) { return count == 0; }));
+    EXPECT_GT(draw(gpu, scene, "zfail_reversed").counted->volume_fragments, 0U);
 }
 
 // Past the far plane, casters are no surfaces, and under a projection without one their light caps
@@ -161,17 +165,20 @@ TEST(Volumes, a_box_over_a_floor_shows_the_faces_that_nothing_hides) {
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = draw(gpu, scene, "zfail_reversed");
     const std::uint64_t shown =
-        std::accumulate(frame.volumes.pixels.begin(), frame.volumes.pixels.end(), std::uint64_t{0});
+        std::accumulate(frame.counted->volumes.pixels.begin(), frame.counted->volumes.pixels.end(),
+                        std::uint64_t{0});
     EXPECT_GT(shown, 0U);
-    EXPECT_LT(shown, frame.volume_fragments); // some are hidden
+    EXPECT_LT(shown, frame.counted->volume_fragments); // some are hidden
     // Each method draws the same faces.
     for (const char* technique : {"zfail_half_edge", "zfail_float"}) {
         const Frame other = draw(gpu, scene, technique);
-        EXPECT_EQ(other.volumes.pixels, frame.volumes.pixels) << technique;
-        EXPECT_EQ(other.volume_fragments, frame.volume_fragments) << technique;
+        EXPECT_EQ(other.counted->volumes.pixels, frame.counted->volumes.pixels) << technique;
+        EXPECT_EQ(other.counted->volume_fragments, frame.counted->volume_fragments) << technique;
     }
-    EXPECT_GT(draw(gpu, scene, "zfail_per_triangle").volume_fragments, frame.volume_fragments);
-    EXPECT_LT(draw(gpu, scene, "zfail_no_light_cap").volume_fragments, frame.volume_fragments);
+    EXPECT_GT(draw(gpu, scene, "zfail_per_triangle").counted->volume_fragments,
+              frame.counted->volume_fragments);
+    EXPECT_LT(draw(gpu, scene, "zfail_no_light_cap").counted->volume_fragments,
+              frame.counted->volume_fragments);
 }
 
 TEST(Counter, a_floating_point_sum_counts_past_what_eight_bits_hold) {
@@ -179,9 +186,9 @@ TEST(Counter, a_floating_point_sum_counts_past_what_eight_bits_hold) {
     Gpu gpu(GlPlatform::osmesa);
     const Frame sum = draw(gpu, scene, "zfail_float");
     const Frame stencil = draw(gpu, scene, "zfail_reversed");
-    EXPECT_GT(*std::ranges::max_element(sum.counter.pixels), 256U);
-    for (std::size_t i = 0; i < sum.counter.pixels.size(); ++i)
-        ASSERT_EQ(sum.counter.pixels[i] & 0xffU, stencil.counter.pixels[i]);
+    EXPECT_GT(*std::ranges::max_element(sum.counted->counter.pixels), 256U);
+    for (std::size_t i = 0; i < sum.counted->counter.pixels.size(); ++i)
+        ASSERT_EQ(sum.counted->counter.pixels[i] & 0xffU, stencil.counted->counter.pixels[i]);
 }
 
 } // namespace

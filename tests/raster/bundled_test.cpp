@@ -1,6 +1,6 @@
 // The techniques against each other on the scenes that come with the program.
 #include "raster/render.h"
-#include "scenes/catalog.h"
+#include "scenes/load/catalog.h"
 #include "tests/raster/faulty_techniques.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST_P(Bundled, what_the_plan_leaves_out_changes_no_pixel) {
     for (const char* technique : robust) {
         const Frame with = render(*find_technique(technique), scene, everything, gpu);
         const Frame without = render(*find_technique(technique), scene, plan, gpu);
-        EXPECT_EQ(with.counter.pixels, without.counter.pixels) << technique;
+        EXPECT_EQ(with.counted->counter.pixels, without.counted->counter.pixels) << technique;
         EXPECT_EQ(with.claim.pixels, without.claim.pixels) << technique;
     }
 }
@@ -67,7 +67,7 @@ TEST_P(Bundled, what_the_plan_leaves_out_changes_no_pixel) {
 TEST_P(Bundled, a_missing_dark_cap_shows_where_the_plan_keeps_it_and_only_there) {
     const Frame right = render(*find_technique("zfail_reversed"), scene, plan, gpu);
     const Frame wrong = without_dark_cap(gpu, scene, plan);
-    const bool shows = differing(wrong.counter, right.counter) > 0;
+    const bool shows = differing(wrong.counted->counter, right.counted->counter) > 0;
     EXPECT_TRUE(plan.dark_cap || !shows);
     // The plan does not ask which way a triangle faces: no triangle of the glass around the light
     // has a volume, yet all of them are seen to infinity.

@@ -1,6 +1,6 @@
 #include "tests/raster/drawn_pixels.h"
 
-#include "raster/shader.h"
+#include "raster/gl/shader.h"
 
 #include <array>
 

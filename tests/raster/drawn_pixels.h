@@ -2,7 +2,7 @@
 // a driver pixel by pixel.
 #pragma once
 
-#include "raster/gl.h"
+#include "raster/gl/gl.h"
 
 #include <string>
 

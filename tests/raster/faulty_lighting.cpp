@@ -1,7 +1,7 @@
 #include "tests/raster/faulty_lighting.h"
 
-#include "raster/shader.h"
-#include "raster/stencil.h"
+#include "raster/gl/shader.h"
+#include "raster/volumes/stencil.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,9 +80,9 @@ constexpr LightingFault faults[]{
     {.name = "reflection_in_tangent_space",
      .scene = "hammered_silver",
      .technique = "bump_reflective",
-     .right = "vec3 r = mirrored_at(small_normal(frame()), unit(-surface.from_eye));",
+     .right = "vec3 r = mirrored_at(perturbed_normal(frame()), unit(-surface.from_eye));",
      .wrong = "mat3 frame = frame();\n"
-              "vec3 r = mirrored_at(small_normal(frame), unit(-surface.from_eye)) * frame;"},
+              "vec3 r = mirrored_at(perturbed_normal(frame), unit(-surface.from_eye)) * frame;"},
     {.name = "reflection_on_the_wrong_face",
      .scene = "hammered_silver",
      .technique = "bump_reflective",

@@ -3,7 +3,7 @@
 // is what the right ones say.
 #pragma once
 
-#include "raster/context.h"
+#include "raster/gl/context.h"
 #include "raster/technique.h"
 
 #include <ostream>

@@ -1,6 +1,6 @@
 #include "tests/raster/faulty_techniques.h"
 
-#include "raster/stencil.h"
+#include "raster/volumes/stencil.h"
 
 #include <algorithm>
 #include <array>
@@ -24,8 +24,11 @@ std::function<Extruder(const Scene&)> tampered(const Tamper& tamper) {
 }
 
 StencilRecipe clamp_recipe(const Scene& scene) {
-    return {.counting = {.test = Counting::Test::depth_fail, .depth_clamp = true},
-            .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}};
+    return {.counting =
+                {
+                    .test = Counting::Test::depth_fail,
+                },
+            .depth_model = {.near = scene.camera.near, .far = finite_far(scene), .clamp = true}};
 }
 
 /// Index of the first of the two triangles (b, a, a'), (b, a', b') beside the longest edge.
@@ -56,9 +59,9 @@ Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = clamp_recipe(scene);
     // What is turned is counted with exchanged steps.
     recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) {
-        std::swap(volume.sides, volume.turned_sides);
+        std::swap(volume.sides, volume.flipped_sides);
         for (auto* caps : {&volume.light_cap, &volume.dark_cap}) {
-            volume.turned_sides.insert(volume.turned_sides.end(), caps->begin(), caps->end());
+            volume.flipped_sides.insert(volume.flipped_sides.end(), caps->begin(), caps->end());
             caps->clear();
         }
     });

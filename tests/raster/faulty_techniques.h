@@ -2,7 +2,7 @@
 // themselves (counting, depth model) is what the right ones say, so a ledger must catch them.
 #pragma once
 
-#include "raster/context.h"
+#include "raster/gl/context.h"
 #include "raster/technique.h"
 
 #include <span>

@@ -34,17 +34,26 @@ TEST(FaultyTechniques, each_changes_the_counters_of_its_right_twin) {
     const Frame zpass = right("zpass");
     const Frame clamp = right("zfail_clamp");
     const Frame reversed = right("zfail_reversed");
-    EXPECT_GT(differing(without_dark_cap(gpu, scene, {}).counter, reversed.counter), 100U);
-    EXPECT_GT(differing(with_swapped_steps(gpu, scene, {}).counter, clamp.counter), 100U);
-    EXPECT_GT(differing(without_one_side(gpu, scene, {}).counter, clamp.counter), 100U);
-    EXPECT_GT(differing(with_wrong_near_plane(gpu, scene, {}).counter, zpass.counter), 100U);
+    EXPECT_GT(
+        differing(without_dark_cap(gpu, scene, {}).counted->counter, reversed.counted->counter),
+        100U);
+    EXPECT_GT(
+        differing(with_swapped_steps(gpu, scene, {}).counted->counter, clamp.counted->counter),
+        100U);
+    EXPECT_GT(differing(without_one_side(gpu, scene, {}).counted->counter, clamp.counted->counter),
+              100U);
+    EXPECT_GT(
+        differing(with_wrong_near_plane(gpu, scene, {}).counted->counter, zpass.counted->counter),
+        100U);
     EXPECT_GT(differing(with_mirrored_light(gpu, scene, {}).claim, reversed.claim), 100U);
     Scene inside_out = scene;
     for (std::size_t i = 0; i < 12; ++i) // the box
         std::swap(inside_out.triangles[i].y, inside_out.triangles[i].z);
     look_at(inside_out.camera, {-5, 3, 0}, {3, 0.2, 0});
     const Frame culled = render(*find_technique("zpass"), inside_out, Plan{}, gpu);
-    EXPECT_GT(differing(with_all_caps_hidden(gpu, inside_out, {}).counter, culled.counter), 100U);
+    EXPECT_GT(differing(with_all_caps_hidden(gpu, inside_out, {}).counted->counter,
+                        culled.counted->counter),
+              100U);
 }
 
 TEST(FaultyTechniques, swapped_steps_negate_the_counter_and_keep_the_claim) {
@@ -52,8 +61,8 @@ TEST(FaultyTechniques, swapped_steps_negate_the_counter_and_keep_the_claim) {
     Gpu gpu(GlPlatform::osmesa);
     const Frame right = render(*find_technique("zfail_clamp"), scene, Plan{}, gpu);
     const Frame wrong = with_swapped_steps(gpu, scene, {});
-    for (std::size_t i = 0; i < right.counter.pixels.size(); ++i)
-        ASSERT_EQ(wrong.counter.pixels[i], -right.counter.pixels[i] & 0xffU);
+    for (std::size_t i = 0; i < right.counted->counter.pixels.size(); ++i)
+        ASSERT_EQ(wrong.counted->counter.pixels[i], -right.counted->counter.pixels[i] & 0xffU);
     EXPECT_EQ(differing(wrong.claim, right.claim), 0U);
 }
 

@@ -1,6 +1,6 @@
-#include "raster/near_cap.h"
-#include "raster/passes.h"
+#include "raster/passes/passes.h"
 #include "raster/render.h"
+#include "raster/volumes/near_cap.h"
 #include "scenes/error.h"
 #include "tests/raster/small_scenes.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 void expect_same(const Frame& a, const Frame& b) {
     EXPECT_EQ(a.claim.pixels, b.claim.pixels);
-    EXPECT_EQ(a.counter.pixels, b.counter.pixels);
+    EXPECT_EQ(a.counted->counter.pixels, b.counted->counter.pixels);
     EXPECT_EQ(a.depth.pixels, b.depth.pixels);
     EXPECT_EQ(a.triangle.pixels, b.triangle.pixels);
     EXPECT_EQ(a.color.pixels, b.color.pixels);
@@ -91,12 +91,12 @@ TEST(Render, says_how_it_counted_and_how_it_made_depth) {
         const bool reversed = frame.depth_model.reversed();
         const bool fail = technique.name.starts_with("zfail");
         if (technique.name != "auto") {
-            EXPECT_EQ(frame.counting.test,
+            EXPECT_EQ(frame.counted->counting.test,
                       fail ? Counting::Test::depth_fail : Counting::Test::depth_pass);
         }
-        EXPECT_EQ(frame.counting.bits, technique.name == "zfail_float" ? 24 : 8);
-        EXPECT_EQ(frame.counting.casters.empty(), technique.name != "auto");
-        EXPECT_EQ(frame.counting.depth_clamp, technique.name == "zfail_clamp");
+        EXPECT_EQ(frame.counted->counting.bits, technique.name == "zfail_float" ? 24 : 8);
+        EXPECT_EQ(frame.counted->counting.casters.empty(), technique.name != "auto");
+        EXPECT_EQ(frame.depth_model.clamp, technique.name == "zfail_clamp");
         EXPECT_EQ(frame.depth_model.floating, reversed);
         EXPECT_EQ(frame.depth_model.eye_relative, reversed);
         EXPECT_EQ(frame.depth_model.near, scene.camera.near);
@@ -174,7 +174,7 @@ TEST(Render, refuses_a_picture_larger_than_the_driver_can_draw) {
 Frame broken_frame(const Scene& scene) {
     Frame frame;
     frame.claim = {scene.camera.width, scene.camera.height};
-    frame.counter = {scene.camera.width, scene.camera.height};
+    frame.counted->counter = {scene.camera.width, scene.camera.height};
     frame.depth = {scene.camera.width, scene.camera.height};
     frame.triangle = {scene.camera.width, scene.camera.height, no_triangle};
     return frame;

@@ -37,6 +37,9 @@ TEST(Technique,
             << technique.name;
         EXPECT_EQ(fails_at(Cause::eye_inside), among(technique.name, {"zpass", "invert"}))
             << technique.name;
+        EXPECT_EQ(fails_at(Cause::light_inside),
+                  among(technique.name, {"zpass", "zfail", "zpass_eye_count", "zp_plus", "invert"}))
+            << technique.name;
         for (const Cause cause : technique.by_nature) EXPECT_TRUE(fails_at(cause));
         EXPECT_EQ(fails_at(Cause::far_plane), technique.name == "zfail") << technique.name;
         EXPECT_FALSE(fails_at(Cause::edge)) << technique.name;

@@ -1,9 +1,9 @@
 #include "tests/reference/ray_ledger.h"
 
-#include "reference/faces.h"
-#include "reference/ledger.h"
-#include "reference/norms.h"
-#include "reference/state.h"
+#include "reference/exact/norms.h"
+#include "reference/predict/ledger.h"
+#include "reference/trace/faces.h"
+#include "reference/trace/state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // for the regions' short one to be held against.
 #pragma once
 
-#include "reference/ledger.h"
+#include "reference/predict/ledger.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // Lighting by bump maps a second time, written out number by number from the definition in
-// reference/shading.h and sharing no code with it; with faults to choose from, as renderers have
-// them.
+// reference/shade/shading.h and sharing no code with it; with faults to choose from, as renderers
+// have them.
 #pragma once
 
 #include "scenes/scene.h"

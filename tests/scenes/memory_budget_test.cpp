@@ -11,7 +11,7 @@ namespace {
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
     std::filesystem::create_directories(file.parent_path());
-    write_bytes(file, Bytes(text.begin(), text.end()));
+    write_bytes(file, FileBytes(text.begin(), text.end()));
 }
 
 TEST(memory_budget, one_byte_too_much_is_refused_with_what_is_needed_and_what_there_is) {

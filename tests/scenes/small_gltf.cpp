@@ -24,18 +24,18 @@ Folder::~Folder() {
     std::filesystem::remove_all(path_);
 }
 
-void write_bytes(const std::filesystem::path& file, const Bytes& bytes) {
+void write_bytes(const std::filesystem::path& file, const FileBytes& bytes) {
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
 }
 
-Bytes bytes_of(const std::filesystem::path& file) {
+FileBytes bytes_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::string base64(const Bytes& bytes) {
+std::string base64(const FileBytes& bytes) {
     const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     unsigned held = 0;
@@ -50,7 +50,7 @@ std::string base64(const Bytes& bytes) {
     return text;
 }
 
-std::size_t add_accessor(json& gltf, const Bytes& bytes, int component_type, std::size_t count,
+std::size_t add_accessor(json& gltf, const FileBytes& bytes, int component_type, std::size_t count,
                          const std::string& type) {
     gltf["buffers"].push_back({{"byteLength", bytes.size()},
                                {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
@@ -64,7 +64,7 @@ std::size_t add_accessor(json& gltf, const Bytes& bytes, int component_type, std
 }
 
 std::size_t add_positions(json& gltf, const std::vector<glm::vec3>& positions) {
-    Bytes bytes;
+    FileBytes bytes;
     for (const glm::vec3& position : positions)
         for (int k = 0; k < 3; ++k) put(bytes, position[k]);
     return add_accessor(gltf, bytes, 5126, positions.size(), "VEC3");
@@ -76,7 +76,7 @@ json triangle_gltf() {
                  {"buffers", json::array()},      {"bufferViews", json::array()},
                  {"accessors", json::array()}};
     add_positions(gltf, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-    Bytes indices;
+    FileBytes indices;
     for (std::uint16_t index = 0; index < 3; ++index) put(indices, index);
     add_accessor(gltf, indices, 5123, 3, "SCALAR");
     const json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
@@ -86,7 +86,7 @@ json triangle_gltf() {
 
 json textured_gltf() {
     json gltf = triangle_gltf();
-    Bytes coordinates;
+    FileBytes coordinates;
     for (const float value : {0.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F}) put(coordinates, value);
     gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
         add_accessor(gltf, coordinates, 5126, 3, "VEC2");
@@ -101,12 +101,12 @@ json textured_gltf() {
     return gltf;
 }
 
-Bytes glb_of(const json& gltf, const Bytes& binary) {
+FileBytes glb_of(const json& gltf, const FileBytes& binary) {
     std::string text = gltf.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    Bytes padded = binary;
+    FileBytes padded = binary;
     padded.resize((padded.size() + 3) / 4 * 4, 0);
-    Bytes glb;
+    FileBytes glb;
     put(glb, 0x46546C67U);
     put(glb, 2U);
     put(glb, static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + padded.size()));
@@ -123,7 +123,7 @@ namespace {
 
 Scene load_from(const Folder& folder, const json& gltf, const SceneRequest& request) {
     const std::string text = gltf.dump();
-    write_bytes(folder.path() / "small.gltf", Bytes(text.begin(), text.end()));
+    write_bytes(folder.path() / "small.gltf", FileBytes(text.begin(), text.end()));
     return load_gltf(folder.path() / "small.gltf", request);
 }
 

@@ -1,7 +1,7 @@
 // Small glTF assets made in the test itself, and the folder they are written to.
 #pragma once
 
-#include "scenes/gltf.h"
+#include "scenes/load/gltf/gltf.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -24,26 +24,26 @@ private:
     std::filesystem::path path_;
 };
 
-using Bytes = std::vector<std::uint8_t>;
+using FileBytes = std::vector<std::uint8_t>;
 
-void write_bytes(const std::filesystem::path& file, const Bytes& bytes);
-Bytes bytes_of(const std::filesystem::path& file);
+void write_bytes(const std::filesystem::path& file, const FileBytes& bytes);
+FileBytes bytes_of(const std::filesystem::path& file);
 
 /// Appends a value's bytes as they lie in memory.
 template <class T>
-void put(Bytes& bytes, T value) {
+void put(FileBytes& bytes, T value) {
     const auto* first = reinterpret_cast<const std::uint8_t*>(&value);
     bytes.insert(bytes.end(), first, first + sizeof value);
 }
 
-std::string base64(const Bytes& bytes);
+std::string base64(const FileBytes& bytes);
 
 /// One triangle (0,0,0) (1,0,0) (0,1,0) in one node; accessor 0 its positions, 1 its indices
 /// (unsigned short), buffer views likewise, buffer 0 embedded. No camera and no light.
 nlohmann::json triangle_gltf();
 
 /// Appends a buffer, a view and an accessor over `bytes`. The accessor's index.
-std::size_t add_accessor(nlohmann::json& gltf, const Bytes& bytes, int component_type,
+std::size_t add_accessor(nlohmann::json& gltf, const FileBytes& bytes, int component_type,
                          std::size_t count, const std::string& type);
 std::size_t add_positions(nlohmann::json& gltf, const std::vector<glm::vec3>& positions);
 
@@ -52,7 +52,7 @@ std::size_t add_positions(nlohmann::json& gltf, const std::vector<glm::vec3>& po
 nlohmann::json textured_gltf();
 
 /// A GLB of `gltf` whose buffer 0 is `binary`.
-Bytes glb_of(const nlohmann::json& gltf, const Bytes& binary);
+FileBytes glb_of(const nlohmann::json& gltf, const FileBytes& binary);
 
 Scene load(const nlohmann::json& gltf, const SceneRequest& request = {});
 /// The message of the Error that loading throws; empty where it does not.

@@ -4,12 +4,12 @@ namespace shadowproof::test {
 
 namespace {
 
-void put_text(Bytes& bytes, const std::string& text, std::size_t length) {
+void put_text(FileBytes& bytes, const std::string& text, std::size_t length) {
     for (std::size_t i = 0; i < length; ++i)
         bytes.push_back(i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0);
 }
 
-void put_frame(Bytes& bytes, const Md2Frame& frame) {
+void put_frame(FileBytes& bytes, const Md2Frame& frame) {
     for (int k = 0; k < 3; ++k) put(bytes, frame.scale[k]);
     for (int k = 0; k < 3; ++k) put(bytes, frame.translation[k]);
     put_text(bytes, frame.name, 16);
@@ -21,7 +21,7 @@ void put_frame(Bytes& bytes, const Md2Frame& frame) {
 
 } // namespace
 
-Bytes bytes_of(const Md2& model) {
+FileBytes bytes_of(const Md2& model) {
     constexpr std::size_t header_bytes = 68;
     const std::size_t vertices = model.frames.empty() ? 0 : model.frames[0].vertices.size();
     const std::size_t skins = model.skin.empty() ? 0 : 1;
@@ -30,7 +30,7 @@ Bytes bytes_of(const Md2& model) {
     const std::size_t frames_at = triangles_at + 12 * model.triangles.size();
     const std::size_t frame_bytes = 40 + 4 * vertices;
     const std::size_t end = frames_at + frame_bytes * model.frames.size();
-    Bytes bytes;
+    FileBytes bytes;
     put_text(bytes, "IDP2", 4);
     for (const std::size_t number :
          {std::size_t{8}, static_cast<std::size_t>(model.size.x),

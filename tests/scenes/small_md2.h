@@ -26,7 +26,7 @@ struct Md2 {
 };
 
 /// The file, its tables in the order in which the game's tools write them.
-Bytes bytes_of(const Md2& model);
+FileBytes bytes_of(const Md2& model);
 
 /// A tetrahedron with corners at 0 and at 10 along x, y and z, in two frames, "run1" and "run2": in
 /// the second the corner along z is at 20, that along x at 30.

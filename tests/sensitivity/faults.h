@@ -31,6 +31,7 @@ struct Fault {
     std::string_view wrong;
     std::string_view why; ///< why it changes nothing, or is not caught
     Scope scope = Scope::claim;
+    std::string_view scenes; ///< those that it is tried on, by commas; empty: all
 };
 
 /// In the order of the catalogue.

@@ -22,7 +22,7 @@ for (const fault of faults)
 
 const isShader = (file) => file.startsWith('raster/glsl/');
 // Through which shaders get their faults.
-const hook = { file: 'raster/shader.cpp', right: 'return {name, glsl_source(name)};',
+const hook = { file: 'raster/gl/shader.cpp', right: 'return {name, glsl_source(name)};',
                always: 'return {name, faults::shader(glsl_source(name))};' };
 const files = [...new Set([hook, ...faults].map(({ file }) => file))].filter((file) => !isShader(file));
 
@@ -77,7 +77,7 @@ if (what === 'files') {
     writeFileSync(to, patched(file));
   }
   const rows = faults.map((f) => `    {${[f.name, f.kind, f.techniques, f.file, f.right, f.wrong, f.why].map(quoted).join(', ')}, ` +
-    `Scope::${f.scope ?? 'claim'}},\n`);
+    `Scope::${f.scope ?? 'claim'}, ${quoted(f.scenes)}},\n`);
   writeFileSync(join(out, 'catalogue.cpp'),
     '#include "tests/sensitivity/faults.h"\n\nnamespace shadowproof::faults {\n\nnamespace {\n' +
     `const Fault catalogue[] = {\n${rows.join('')}};\n} // namespace\n\n` +

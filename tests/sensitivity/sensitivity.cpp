@@ -4,7 +4,7 @@
 // or without effect. Exit code 1: a fault escaped, or one had no effect and is not said to be
 // equal.
 #include "compare/verdict.h"
-#include "raster/context.h"
+#include "raster/gl/context.h"
 #include "raster/technique.h"
 #include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
@@ -59,7 +59,7 @@ std::uint64_t differing(const Image<Value>& a, const Image<Value>& b) {
 Effect effect_of(const Frame& right, const Frame& faulty) {
     Effect effect;
     effect.claims = differing(right.claim, faulty.claim);
-    effect.counters = differing(right.counter, faulty.counter);
+    effect.counters = differing(right.counted->counter, faulty.counted->counter);
     effect.surfaces =
         std::max(differing(right.triangle, faulty.triangle), differing(right.depth, faulty.depth));
     effect.colors = differing(right.color, faulty.color);
@@ -68,8 +68,12 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
             effect.largest_color =
                 std::max(effect.largest_color, 255.0 * std::abs(double{right.color.pixels[i][k]} -
                                                                 faulty.color.pixels[i][k]));
-    effect.figures = right.volume_fragments != faulty.volume_fragments ||
-                     differing(right.volumes, faulty.volumes) > 0;
+    const auto saved = [](const Frame& frame) {
+        return frame.counted->saved ? frame.counted->saved->volume_fragments : 0;
+    };
+    effect.figures = saved(right) != saved(faulty) ||
+                     right.counted->volume_fragments != faulty.counted->volume_fragments ||
+                     differing(right.counted->volumes, faulty.counted->volumes) > 0;
     return effect;
 }
 
@@ -181,10 +185,10 @@ private:
     }
 };
 
-bool tried_with(const Fault& fault, std::string_view technique) {
-    if (fault.techniques.empty()) return true;
-    const std::string list = "," + std::string(fault.techniques) + ",";
-    return list.find("," + std::string(technique) + ",") != std::string::npos;
+/// Whether a name is in a list by commas; an empty list holds all.
+bool holds_name(std::string_view list, std::string_view name) {
+    if (list.empty()) return true;
+    return ("," + std::string(list) + ",").find("," + std::string(name) + ",") != std::string::npos;
 }
 
 /// Tries faults until they are caught. `open`: one of each fault, 1 where it is to be tried.
@@ -197,8 +201,9 @@ std::vector<Outcome> explore(const std::vector<std::string>& scenes, std::vector
         Trial trial(load(name), gpu);
         for (std::size_t i = 0; i < catalogue.size(); ++i)
             for (const Technique& technique : all_techniques()) {
-                if (open[i] == 0) break;
-                if (!suits(technique, trial.scene()) || !tried_with(catalogue[i], technique.name))
+                if (open[i] == 0 || !holds_name(catalogue[i].scenes, name)) break;
+                if (!suits(technique, trial.scene()) ||
+                    !holds_name(catalogue[i].techniques, technique.name))
                     continue;
                 trial.run(static_cast<int>(i), technique, outcomes[i]);
                 if (outcomes[i].caught) open[i] = 0;

@@ -11,7 +11,7 @@ const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 let folder;
 let failing;
 let colors;
-let unforeseen;
+let unpredicted;
 before(() => {
   folder = writeReport('report', ['near_plane', 'far_plane']);
   failing = copyOfReport(folder, 'failing');
@@ -25,12 +25,12 @@ before(() => {
   results.scenes.push({ name: 'torn', file: 'torn.gltf', error: 'torn.gltf: ends early' });
   writeFileSync(join(failing, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
   colors = writeReport('colors', ['bumpy_torus'], undefined, ['bump_three_pass']);
-  unforeseen = copyOfReport(colors, 'unforeseen');
-  const strange = resultsOf(unforeseen);
+  unpredicted = copyOfReport(colors, 'unpredicted');
+  const strange = resultsOf(unpredicted);
   const [cell] = strange.scenes[0].techniques;
   Object.assign(cell, { verdict: 'unexplained', fails: true });
-  cell.color.unforeseen = 7;
-  writeFileSync(join(unforeseen, 'results.js'), `shadowproof.results(${JSON.stringify(strange)});`);
+  cell.color.unpredicted = 7;
+  writeFileSync(join(unpredicted, 'results.js'), `shadowproof.results(${JSON.stringify(strange)});`);
 });
 
 /** In words: the rule, and the elements that break it. */
@@ -55,7 +55,7 @@ const states = [
   ['overview of colours', () => colors, ''],
   ['colours', () => colors, '#bumpy_torus/bump_three_pass'],
   ['compared colours', () => colors, '#bumpy_torus/bump_three_pass?view=blend'],
-  ['unforeseen colours', () => unforeseen, '#bumpy_torus/bump_three_pass?pixel=80,120'],
+  ['unpredicted colours', () => unpredicted, '#bumpy_torus/bump_three_pass?pixel=80,120'],
 ];
 
 for (const theme of ['light', 'dark'])

@@ -177,26 +177,26 @@ test('the difference marks nothing where colours alone differ; the cause does', 
   assert.ok(shading.every((i) => dimmed.includes(difference[i].join())));
 });
 
-test('a colour that nothing foresees is an alarm, and its pixel does not simply agree', async () => {
+test('a colour that nothing predicts is an alarm, and its pixel does not simply agree', async () => {
   const changed = (path) => {
     changeBlock(path('bumpy_torus/bump_tangent_space/cell.js'), 'color_verdict',
                 (verdicts) => { verdicts[120 * 160 + 80] = 3; });
     changeResults(path, (first, results) => {
       const cell = results.scenes[0].techniques.find(({ name }) => name === 'bump_tangent_space');
       Object.assign(cell, { verdict: 'unexplained', fails: true });
-      cell.color.unforeseen = 1;
+      cell.color.unpredicted = 1;
     });
   };
   const { page, open } = await opened(changed, '');
-  const words = /The colour is not what the technique’s arithmetic foresees at 1 pixel/;
+  const words = /The colour is not what the technique’s arithmetic predicts at 1 pixel/;
   assert.match(await text(page, '.failures'), words);
   await open('#bumpy_torus/bump_tangent_space?pixel=80,120');
   assert.match(await alerts(page), new RegExp(`${words.source}; the first is \\(80, 120\\)\\.`));
   assert.doesNotMatch(await alerts(page), /does not belong/);
   const inspector = await text(page, '.inspector');
   assert.match(inspector, /agree here on visibility\./);
-  assert.match(inspector, /not what the technique’s arithmetic foresees\./);
-  assert.match(await text(page, '.legends'), /unforeseen\s+1\s/);
+  assert.match(inspector, /not what the technique’s arithmetic predicts\./);
+  assert.match(await text(page, '.legends'), /unpredicted\s+1\s/);
 });
 
 for (const path of ['bumpy_torus/color.png', 'bumpy_torus/bump_three_pass/color.png',

@@ -21,7 +21,7 @@ test('three clicks lead from the overview to a wrong pixel with its cause and it
   const first = resultsOf(folder).scenes.find(({ name }) => name === 'near_plane').techniques
     .find(({ name }) => name === 'zpass').first;
   assert.equal(await text(page, '.inspector h2'), `Pixel (${first.x}, ${first.y})`);
-  assert.match(await text(page, '.why'), /^near_plane: the near plane lies inside a shadow volume/);
+  assert.match(await text(page, '.why'), /^near_plane: crossings were lost before the near plane/);
   assert.ok(await page.locator('#cutaway svg circle').count() > 4);
   assert.ok(await page.locator('.ledger tbody tr').count() > 1);
   assert.deepEqual(said, []);
@@ -58,7 +58,7 @@ test('failures stand first, with the reason; nothing fails without being named',
   const { page, said } = await openReport(copy);
   assert.match(await text(page, 'h1'), /Failed: 2 of 24 cells/);
   const failures = await text(page, '.failures');
-  for (const words of [/far_plane \/ zfail/, /defect/, /the far plane cuts a shadow volume/,
+  for (const words of [/far_plane \/ zfail/, /defect/, /crossings were lost past the far plane/,
                        /no glClipControl/, /torn\.gltf: ends early/, /12 new, 3 gone, first at \(3, 4\): far_plane, was no difference/])
     assert.match(failures, words);
   assert.match(await text(page, '.matrix'), /could not be read/);

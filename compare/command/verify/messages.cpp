@@ -16,9 +16,9 @@
 #include <cstring>
 #include <sstream>
 
-// Each structure is taken apart into all its members, so that one with a new member does not
-// compile until the member is sent as well. Names in capitals are not: pictures, and what is large
-// and done with.
+// Each structure is unpacked into all its members, so that a new member does not compile until it
+// is sent, too. Members named in capitals are not sent: pictures, and large data that is not needed
+// any more.
 
 namespace glm {
 
@@ -77,7 +77,7 @@ void serialize(Archive& archive, FirstDifference& first) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, LedgerCheck& check) {
+void serialize(Archive& archive, EvidenceCheck& check) {
     auto& [equal, in_band, unexplained, first_x, first_y] = check;
     archive(equal, in_band, unexplained, first_x, first_y);
 }
@@ -89,17 +89,31 @@ void serialize(Archive& archive, ColorModel& model) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, BoundWidth& bound_width) {
+    auto& [median, percentile999, widest] = bound_width;
+    archive(median, percentile999, widest);
+}
+
+template <class Archive>
 void serialize(Archive& archive, ColorCheck& check) {
     auto& [model, ERROR, VERDICT, judged, largest, largest_x, largest_y, rmse, percentile999,
-           beyond, unforeseen, moved, first_unforeseen_x, first_unforeseen_y] = check;
-    archive(model, judged, largest, largest_x, largest_y, rmse, percentile999, beyond, unforeseen,
-            moved, first_unforeseen_x, first_unforeseen_y);
+           beyond, unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x,
+           first_unpredicted_y] = check;
+    archive(model, judged, largest, largest_x, largest_y, rmse, percentile999, beyond, unpredicted,
+            moved, interpolated, bound_width, beyond_by, first_unpredicted_x, first_unpredicted_y);
+}
+
+template <class Archive>
+void serialize(Archive& archive, EvidenceSummary& summary) {
+    auto& [unexplained, results, words, pictures] = summary;
+    archive(unexplained, results, words, pictures);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Comparison& comparison) {
-    auto& [CAUSE, LEDGER_MISS, PREDICTED, causes, differing, first, ledger, colors] = comparison;
-    archive(causes, differing, first, ledger, colors);
+    auto& [CAUSE, ALSO, several, EVIDENCE_MISS, causes, differing, first, evidence_name, evidence,
+           summary, colors] = comparison;
+    archive(several, causes, differing, first, evidence_name, evidence, summary, colors);
 }
 
 template <class Archive>
@@ -115,17 +129,11 @@ void serialize(Archive& archive, Since& since) {
 }
 
 template <class Archive>
-void serialize(Archive& archive, Savings& saved) {
-    auto& [against, milliseconds, volume_fragments, plan_milliseconds] = saved;
-    archive(against, milliseconds, volume_fragments, plan_milliseconds);
-}
-
-template <class Archive>
 void serialize(Archive& archive, Cell& cell) {
-    auto& [technique, summary, error, verdict, milliseconds, volume_fragments, left_out, saved,
-           excused, since, first_failing, comparison, cause_map, FRAME, LEDGERS] = cell;
-    archive(technique, summary, error, verdict, milliseconds, volume_fragments, left_out, saved,
-            excused, since, first_failing, comparison, cause_map);
+    auto& [technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
+           since, first_failing, comparison, cause_map, FRAME, EVIDENCE] = cell;
+    archive(technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
+            since, first_failing, comparison, cause_map);
 }
 
 template <class Archive>

@@ -1,8 +1,8 @@
-// What the process that tries scenes tells the one that watches over it: results as they come, so
-// that a crash loses no more than the cell that crashed.
+// Messages from a worker, the process that verifies scenes, to its supervisor: results as they
+// come, so that a crash loses only the cell that crashed.
 #pragma once
 
-#include "compare/report.h"
+#include "compare/report/report.h"
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@ namespace shadowproof {
 
 namespace messages {
 
-/// OpenGL is there.
+/// OpenGL has started.
 struct Begun {
     DriverInfo gl;
     std::string embree;
@@ -25,7 +25,7 @@ struct SceneBegun {
 /// The scene is read.
 struct SceneRead {
     std::size_t lights = 1;  ///< under which it is tried
-    bool none_suits = false; ///< it is not for any of the techniques: no result
+    bool none_suits = false; ///< none of the techniques is for it: it has no result
 };
 /// The scene is traced; all is known but its cells.
 struct SceneTraced {
@@ -62,8 +62,8 @@ using Message =
                  messages::SceneFailed, messages::CellBegun, messages::CellDone,
                  messages::SceneDone, messages::RunFailed, messages::Done>;
 
-/// All of a message but pictures and ledgers, which are on the disk by now. Throws Error where
-/// nobody reads the pipe any more.
+/// Sends a message, without pictures and ledgers, which are on disk already. Throws Error if the
+/// pipe has no reader any more.
 void send(int pipe, const Message& message);
 
 /// Reads messages from a pipe as their bytes come.
@@ -71,8 +71,8 @@ class MessageReader {
 public:
     explicit MessageReader(int pipe) : pipe_(pipe) {}
 
-    /// The next whole message; none before the bytes of one are there. Waits at most so long for
-    /// some, for ever where negative.
+    /// The next complete message; none if not all of its bytes have arrived. Waits for bytes at
+    /// most this long, or for ever if negative.
     std::optional<Message> next(int milliseconds);
     /// The writing end is closed and all messages were read.
     bool at_end() const { return ended_ && !holds_message(); }

@@ -20,11 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A person who waits without a terminal hears of what takes so long, and again when it has taken
-/// twice as long.
+/// Without a terminal, what takes this long is reported in a line, and again after twice as long.
 constexpr std::chrono::seconds silence{60};
 
-/// For OpenGL to start, which is no cell: at least so long.
+/// The least time limit for OpenGL to start, which is not a cell.
 constexpr double starting_seconds = 60;
 
 class Supervisor {
@@ -65,7 +64,7 @@ public:
     }
 
 private:
-    /// What the worker is at.
+    /// What the worker is doing.
     enum class Step : std::uint8_t {
         starting, ///< before OpenGL is there
         between,  ///< scenes
@@ -198,7 +197,7 @@ private:
         ++scene_;
         light_ = 0;
         lights_ = 1;
-        // A worker that crashes behind the last scene has tried all.
+        // A worker that crashes after the last scene has tried all.
         done_ = scene_ == scenes_.size();
     }
 
@@ -208,7 +207,8 @@ private:
         end_light();
     }
 
-    /// What the worker was at is lost: it becomes an error, and the next worker goes on behind it.
+    /// What the worker was doing is lost: it becomes an error, and the next worker goes on after
+    /// it.
     void give_up(const std::string& why, bool timed_out) {
         console_.progress(""); // what the worker last showed is replaced
         switch (step_) {

@@ -13,7 +13,7 @@ namespace shadowproof {
 
 namespace {
 
-/// What stands in results.json before the first scene is tried.
+/// The content of results.json before the first scene is tried.
 Report begin_report(const VerifyOptions& options) {
     Report report;
     report.version = SHADOWPROOF_VERSION;
@@ -33,7 +33,7 @@ int verify(const VerifyOptions& options, double waited) {
     const Stopwatch stopwatch;
     const std::string started = timestamp_now();
     Console console(options.output.quiet);
-    // What cannot be read or written is refused before the work is done, not after.
+    // What cannot be read or written is refused before the work.
     std::optional<ResultsFile> baseline;
     MemoryAccount memory(options.scene.memory);
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
@@ -46,13 +46,8 @@ int verify(const VerifyOptions& options, double waited) {
     ReportFolder folder(options.output.out);
     Report report = begin_report(options);
     try_scenes_guarded(options, baseline, console, folder, report);
-    if (baseline)
-        report.baseline = Baseline{options.gate.baseline, baseline->json["passed"].get<bool>(),
-                                   notes_on(*baseline, report)};
-    report.passed = passes(report);
     report.milliseconds = waited + stopwatch.milliseconds();
-    finish(folder, console, report, options.output, started);
-    return conclude(console, report, options.output, started);
+    return end_run(folder, console, report, options.gate, baseline, options.output, started);
 }
 
 } // namespace
@@ -69,17 +64,9 @@ Work add_verify(CLI::App& app) {
     add_scene_flags(*command, options->scene);
     add_gate_flags(*command, options->gate);
     add_output_flags(*command, options->output);
-    command
-        ->add_option("--timeout", options->timeout,
+    add_timeout_flag(*command, options->timeout,
                      "Seconds for a cell, and for reading or tracing a scene, above which it is "
-                     "given up (600; 0: any number)")
-        ->type_name("SECONDS")
-        ->check([](const std::string& text) {
-            // A range lets through what is no number: it compares with nothing.
-            return text.find_first_of("nN") == std::string::npos ? std::string()
-                                                                 : text + " is not a number";
-        })
-        ->check(CLI::Range(0.0, 1e9).description(""));
+                     "given up (600; 0: any number)");
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
         return guarded([&] { return verify(*options, waited); }, options->output.out);

@@ -1,14 +1,15 @@
 #include "compare/command/verify/worker.h"
 
 #include "compare/blank.h"
+#include "compare/command/scene_result.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
 #include "compare/command/verify/messages.h"
+#include "compare/families.h"
 #include "compare/memory.h"
 #include "raster/render.h"
-#include "scenes/catalog.h"
-#include "scenes/digest.h"
 #include "scenes/error.h"
+#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
@@ -20,13 +21,6 @@ namespace shadowproof {
 
 namespace {
 
-template <class Names>
-std::vector<std::string> cause_names(const Names& causes) {
-    std::vector<std::string> names;
-    for (const Cause cause : causes) names.emplace_back(name_of(cause));
-    return names;
-}
-
 /// A technique that is not for such scenes is left out, unless both are named: then it says so.
 std::vector<const Technique*> techniques_for(const VerifyOptions& options, const Scene& scene) {
     std::vector<const Technique*> chosen = options.technique.chosen();
@@ -35,7 +29,7 @@ std::vector<const Technique*> techniques_for(const VerifyOptions& options, const
     return chosen;
 }
 
-/// What all scenes of a worker share.
+/// State that all scenes of a worker share.
 struct Run {
     const WorkerSetup& setup;
     Gpu& gpu;
@@ -48,11 +42,17 @@ struct Trial {
     const GroundTruth& truth;
     Plan plan;
     Tracer tracer;
-    ShadowDepths depths;
-    Silhouette silhouette;
+    TracedScene traced;
+
+    Trial(const Scene& scene_given, const GroundTruth& truth_given, Plan plan_given,
+          Tracer tracer_given)
+        : scene(scene_given), truth(truth_given), plan(std::move(plan_given)),
+          tracer(std::move(tracer_given)), traced(tracer, truth) {}
+    Trial(const Trial&) = delete; // what is traced refers to the tracer
+    Trial& operator=(const Trial&) = delete;
 };
 
-/// Adds the milliseconds spent on ledgers to `report_milliseconds`.
+/// Adds the milliseconds spent on the report of its evidence to `report_milliseconds`.
 Cell try_technique(const Run& run, const Trial& trial, const Technique& technique,
                    double& report_milliseconds) {
     Cell cell;
@@ -60,21 +60,18 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     cell.summary = technique.summary;
     try {
         cell.frame = render(technique, trial.scene, trial.plan, run.gpu);
+        cell.family = cell.frame.family;
         cell.milliseconds = cell.frame.milliseconds;
-        cell.volume_fragments = cell.frame.volume_fragments;
         cell.left_out = cell.frame.left_out;
-        cell.saved = cell.frame.saved;
-        const Prediction prediction(trial.tracer, trial.silhouette, trial.truth, trial.depths,
-                                    cell.frame.counting, cell.frame.depth_model);
-        cell.comparison = classify(trial.tracer, trial.silhouette, trial.truth, trial.depths,
-                                   cell.frame, prediction);
-        refuse_blank(technique.name, trial.truth, cell.frame, cell.comparison);
+        const std::unique_ptr<Judge> family = judge_of(trial.traced, cell.frame);
+        cell.comparison = classify(trial.traced, cell.frame, *family);
+        refuse_blank(technique.name, trial.truth, cell.frame,
+                     pixels_of(cell.comparison, Cause::unexplained) > 0);
         cell.verdict = judge(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
         cell.excused =
             excused_causes(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
         const Stopwatch stopwatch;
-        cell.ledgers =
-            list_ledgers(trial.tracer, trial.truth, cell.frame, prediction, cell.comparison.cause);
+        cell.evidence = family->report(cell.comparison.cause);
         report_milliseconds += stopwatch.milliseconds();
     } catch (const std::bad_alloc&) {
         cell.frame = {};
@@ -86,7 +83,7 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     return cell;
 }
 
-void describe(Console& console, const SceneResult& result) {
+void announce(Console& console, const SceneResult& result) {
     // Beside a name that is not the file's own: which of several files this is.
     const bool renamed = std::filesystem::path(result.file).stem() != result.name;
     console.heading(renamed ? fmt::format("{} ({})", result.name, result.file) : result.name);
@@ -106,7 +103,7 @@ std::string unique_name(const std::vector<std::string>& folders, const std::stri
     return named.name;
 }
 
-/// Judges the cell by the gate, and says how it went.
+/// Judges the cell by the gate, and prints the result.
 void conclude_cell(const WorkerSetup& setup, const SceneResult& scene, Cell& cell,
                    const ColumnWidths& widths) {
     const Gate& gate = setup.options.gate.gate;
@@ -119,7 +116,8 @@ void conclude_cell(const WorkerSetup& setup, const SceneResult& scene, Cell& cel
 }
 
 /// Plans and traces the chosen light of a scene; the truth lies in the result.
-Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool begun) {
+void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool begun,
+                 std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     require_scene(options.scene.memory, scene, Workload::comparison);
     result.light = chosen_light(scene);
@@ -128,22 +126,12 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool 
         if (result.one_of_many) result.name += "-" + result.light.choice;
         result.name = unique_name(run.folders, result.name);
     }
-    // A bundled scene is the same wherever it is installed, and so is its report.
-    result.file = (is_bundled(result.argument) ? scene.file.filename() : scene.file).string();
-    result.width = scene.camera.width;
-    result.height = scene.camera.height;
-    result.triangles = scene.triangles.size();
-    result.digest = digest_of(scene);
-    result.camera = scene.camera;
-    result.far = finite_far(scene);
-    result.meshes = scene.meshes;
-    result.provokes = cause_names(scene.provokes);
-    result.notes = scene.notes;
+    describe(result, scene);
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
-    if (!begun) describe(run.setup.console, result);
+    if (!begun) announce(run.setup.console, result);
 
     run.setup.console.progress(fmt::format("{}: tracing", result.name));
     Tracer tracer(scene, options.scene.threads);
@@ -154,18 +142,11 @@ Trial begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool 
     }
     result.bump_lit = is_bump_lit(scene);
     if (result.bump_lit) result.color = shade(tracer, result.truth);
-    ShadowDepths depths = count_shadow_depths(tracer, result.truth, result.far);
-    Silhouette silhouette(tracer);
-    return {scene,
-            result.truth,
-            std::move(plan),
-            std::move(tracer),
-            std::move(depths),
-            std::move(silhouette)};
+    trial.emplace(scene, result.truth, std::move(plan), std::move(tracer));
 }
 
-/// Judges the chosen techniques in turn, and tells of each as soon as it is judged. Those in
-/// `tried` were judged before.
+/// Judges the chosen techniques in turn, and reports each as soon as it is judged. Those in `tried`
+/// were judged before.
 void judge_techniques(const Run& run, const Trial& trial, SceneResult& result,
                       const std::vector<Cell>& tried) {
     const VerifyOptions& options = run.setup.options;
@@ -194,9 +175,8 @@ void judge_techniques(const Run& run, const Trial& trial, SceneResult& result,
     send(run.setup.pipe, messages::SceneDone{});
 }
 
-/// What goes wrong in `work` is the scene's own, becomes its result, and ends no run. Around what
-/// reads and traces it alone: a report that cannot be written ends the run. Returns whether it went
-/// well.
+/// An Error in `work` becomes the scene's result and does not end the run. Only for reading and
+/// tracing: a report that cannot be written ends the run. Returns whether `work` succeeded.
 template <class Work>
 bool attempt(const Run& run, SceneResult& result, const Work& work) {
     try {
@@ -214,7 +194,8 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
     return false;
 }
 
-/// A scene of several lights is judged under each of them, unless one was chosen: a result each.
+/// A scene with several lights is judged under each of them, with one result for each, unless one
+/// was chosen.
 void try_scene(const Run& run, const std::string& argument, std::size_t light,
                const std::optional<SceneResult>& begun) {
     const WorkerSetup& setup = run.setup;
@@ -242,9 +223,9 @@ void try_scene(const Run& run, const std::string& argument, std::size_t light,
             }
             result.one_of_many = lights > 1;
             if (result.one_of_many) scene->light = i;
-            trial.emplace(begin_trial(run, *scene, result, goes_on));
+            begin_trial(run, *scene, result, goes_on, trial);
         });
-        // Of all bundled scenes, one that none of the techniques named is for is none of this run.
+        // When all bundled scenes run, one that none of the named techniques is for is skipped.
         if (none_suits) return;
         if (!traced) continue;
         if (!goes_on) run.folders.push_back(folder_of(result));

@@ -1,12 +1,12 @@
-// The process that tries scenes: reads, traces, draws and judges, writes the pictures, and tells by
-// messages what came of it.
+// The worker process: reads, traces, draws and judges scenes, writes the pictures, and reports the
+// results by messages.
 #pragma once
 
-#include "compare/baseline.h"
 #include "compare/command/console.h"
 #include "compare/command/gate_options.h"
 #include "compare/command/options.h"
-#include "compare/report.h"
+#include "compare/report/report.h"
+#include "compare/results/baseline.h"
 
 #include <optional>
 #include <string>
@@ -20,22 +20,22 @@ struct VerifyOptions {
     TechniqueOptions technique;
     GateOptions gate;
     OutputOptions output;
-    double timeout = 600; ///< seconds for a cell, or for reading or tracing a scene; 0: any
+    double timeout = 600; ///< seconds for a cell, or for reading or tracing a scene; 0: no limit
 };
 
 /// The scenes asked for, by name or path.
 std::vector<std::string> scenes_to_verify(const VerifyOptions& options);
 
-/// Columns of the cells' lines of one scene.
+/// Column widths of one scene's cell lines.
 ColumnWidths widths_of(const TechniqueOptions& techniques, const std::string& scene);
 
-/// Where a worker begins: behind what others did before it.
+/// Where a worker begins: after what earlier workers did.
 struct StartingPoint {
     std::size_t scene = 0; ///< into scenes_to_verify
     std::size_t light = 0; ///< of that scene
-    /// The light's result so far, where techniques were tried under it: they are passed over.
+    /// The light's result so far; techniques already tried under it are skipped.
     std::optional<SceneResult> begun;
-    std::vector<std::string> folders; ///< of the report that other results have taken
+    std::vector<std::string> folders; ///< folders of the report that other results have taken
 };
 
 /// What a worker is given.
@@ -48,7 +48,7 @@ struct WorkerSetup {
 };
 
 /// Tries all scenes from a starting point on. Returns when all are tried or the run cannot go on,
-/// which the last message says. Throws where nobody reads the messages any more.
+/// which the last message says. Throws if the messages have no reader any more.
 void try_scenes(const WorkerSetup& setup, StartingPoint from);
 
 } // namespace shadowproof

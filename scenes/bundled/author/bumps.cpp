@@ -43,8 +43,8 @@ Stage bumpy_torus() {
     return stage;
 }
 
-/// Half a picture for a whole face, as skins of characters save texels: its mirror image is the
-/// other half, and tangents part where the halves meet.
+/// Half a picture for a whole face, as skins of characters save texels: the other half is its
+/// mirror image, and tangents differ where the halves meet.
 Stage mirrored_skin() {
     Stage stage = lit_from_the_left(
         "mirrored_skin", "Both halves of a head wear one picture, the other half mirrored.");
@@ -75,7 +75,7 @@ Stage height_field() {
     return stage;
 }
 
-/// A ball through a ring, both hammered: silver, and stripes of gold that are dull in the dents.
+/// A ball through a ring, both hammered: silver, with stripes of gold that are dull in the dents.
 Stage hammered_silver() {
     Stage stage = lit_from_the_left(
         "hammered_silver", "A hammered ball and a ring around it reflect sky, plain and windows.");

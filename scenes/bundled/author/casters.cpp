@@ -94,7 +94,7 @@ Stage idle_casters() {
     return stage;
 }
 
-/// What of a shape is not in its highest plane.
+/// A shape without its highest plane.
 Shape without_top(Shape shape) {
     double top = shape.vertices.front().y;
     for (const glm::dvec3& vertex : shape.vertices) top = std::max(top, vertex.y);
@@ -194,8 +194,8 @@ Stage non_manifold() {
     return stage;
 }
 
-/// By the matrix of rows (3, 0, 1) / 4 and (-1, 0, 3) / 4 in x and z: a turn and a scale, and still
-/// on a grid of 1/256 where the shape is on one of 1/64.
+/// The shape under the matrix of rows (3, 0, 1) / 4 and (-1, 0, 3) / 4 in x and z: a rotation and a
+/// scale, which keeps it on a grid of 1/256 where it is on one of 1/64.
 Shape turned_on_grid(Shape shape) {
     for (glm::dvec3& v : shape.vertices) v = {(3 * v.x + v.z) / 4, v.y, (3 * v.z - v.x) / 4};
     return shape;

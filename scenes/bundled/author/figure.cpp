@@ -22,7 +22,7 @@ constexpr double shin = 0.771;  // knee to ankle
 constexpr glm::dvec3 foot_radii{0.137, 0.113, 0.283};
 constexpr double foot_ahead = 0.113; // of the ankle
 
-/// Turned about x, so that what hangs swings ahead.
+/// Rotated about x, so that what hangs swings ahead.
 glm::dvec3 swung(const glm::dvec3& point, const glm::dvec3& about, double angle) {
     const glm::dvec3 arm = point - about;
     const double c = std::cos(angle);
@@ -43,8 +43,8 @@ double smooth(double low, double high, double x) {
 
 using Deformation = std::function<glm::dvec3(const glm::dvec3&)>;
 
-/// The pose that a shape has when every point goes where `deform` says: its normals and tangents
-/// turn by the derivative of it.
+/// The morph target of a shape whose every point moves as `deform` says: its normals and tangents
+/// are transformed by the derivative.
 Morph posed(const Shape& shape, const Deformation& deform) {
     constexpr double step = 0x1p-12; // each way; errors are of its square
     Morph morph;
@@ -85,7 +85,7 @@ Shape trunk() {
                           0.813, 16, Wearing::mirrored, {3, 5});
 }
 
-/// Shoulders turn against the hips; the head looks ahead all the same.
+/// Shoulders rotate against the hips; the head keeps looking ahead.
 double twist_at(double height, double most) {
     return most * (smooth(0, 0.871, height) - smooth(1.171, 1.513, height));
 }
@@ -99,7 +99,8 @@ Shape left_arm() {
     return moved(textured_lathe(rings, 1, 9, Wearing::around, {1, 3}), shoulder);
 }
 
-/// An arm swung from the shoulder, the elbow bent on the way ahead, and turned with the shoulders.
+/// An arm swung from the shoulder, the elbow bent as it swings ahead, and rotated with the
+/// shoulders.
 Deformation arm_swing(double angle, double bend, double twist) {
     constexpr glm::dvec3 elbow = shoulder + glm::dvec3(0, -0.571, 0);
     return [=](const glm::dvec3& point) {
@@ -110,7 +111,7 @@ Deformation arm_swing(double angle, double bend, double twist) {
     };
 }
 
-/// Both arms, the left one swung by `ahead` and the right one by as much the other way.
+/// Both arms, the left one swung by `ahead` and the right one by the same the other way.
 Morph arms_posed(const Shape& left, double ahead, double twist) {
     const auto swing = [&](double angle, double turn) {
         return posed(left, arm_swing(angle, angle > 0 ? 0.713 : 0.213, turn));
@@ -152,7 +153,7 @@ Shape left_foot() {
     return moved(foot, {hip_apart, hip_height - thigh - shin, foot_ahead});
 }
 
-/// Around the knee the thigh's share gives way to the shin's.
+/// Around the knee the weights pass from the thigh to the shin.
 std::vector<Influence> leg_influences(const Shape& legs) {
     constexpr double knee = hip_height - thigh;
     std::vector<Influence> influences;
@@ -168,7 +169,7 @@ std::vector<Influence> leg_influences(const Shape& legs) {
     return influences;
 }
 
-/// Of one leg, in radians, ahead.
+/// Angles of one leg, in radians, positive ahead.
 struct LegPose {
     double thigh = 0;
     double knee = 0;
@@ -187,12 +188,12 @@ double reach(const LegPose& pose) {
            std::hypot(foot_radii.y * std::cos(ahead), foot_radii.z * std::sin(ahead));
 }
 
-/// What hangs from a joint swings ahead where the joint turns back about x.
+/// What hangs from a joint swings ahead where the joint rotates back about x.
 void add_swing(Track& track, double ahead) {
     track.values.insert(track.values.end(), {-std::sin(ahead / 2), 0, 0, std::cos(ahead / 2)});
 }
 
-/// Legs and hips, 16 key frames a stride.
+/// Tracks of legs and hips, 16 key frames per stride.
 std::vector<Track> walk(const glm::dvec3& from, const glm::dvec3& to) {
     constexpr int keys = 16;
     constexpr double above_floor = 0.037; // the lower foot at key frames
@@ -222,13 +223,13 @@ std::vector<Track> walk(const glm::dvec3& from, const glm::dvec3& to) {
     return tracks;
 }
 
-/// Each arm with the leg across: the right one is ahead when the left leg is.
+/// Each arm moves with the opposite leg: the right one is ahead when the left leg is.
 std::vector<double> weights_of_poses() {
     return {0, 0, 0, 1, 0, 0, 1, 0, 0, 0}; // of two poses, at quarters of the stride
 }
 
 /// Arms and trunk are key-framed by morph targets, legs by a skin; left and right are each other's
-/// mirror images and wear the same half of the picture.
+/// mirror images and share the same half of the picture.
 Stage walking_figure() {
     Stage stage = lit_from_the_left("walking_figure",
                                     "A figure walks within two seconds: legs by a skin, arms and "

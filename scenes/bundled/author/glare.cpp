@@ -8,7 +8,7 @@ namespace shadowproof::author {
 
 namespace {
 
-/// Normals turn by a sixth of a circle within a triangle: interpolated and left short, or
+/// Normals rotate by a sixth of a circle within a triangle: interpolated without renormalising, or
 /// normalised at the vertices alone, they light it wrongly. The rim of the cone runs across it.
 Stage coarse_curve() {
     Stage stage = lit_from_the_left(
@@ -29,9 +29,9 @@ Stage coarse_curve() {
     return stage;
 }
 
-/// Gentle swells, so steep at most that the sun sets on the far side of each.
+/// Gentle waves, at most so steep that the sun sets on the far side of each.
 glm::dvec3 swells(double x, double z) {
-    constexpr glm::dvec2 long_wave(1.13, 0.37); // radians a unit
+    constexpr glm::dvec2 long_wave(1.13, 0.37); // radians per unit
     constexpr glm::dvec2 short_wave(0.71, -1.67);
     constexpr double high = 0.051;
     constexpr double low = 0.029;
@@ -42,7 +42,7 @@ glm::dvec3 swells(double x, double z) {
 }
 
 /// The sun stands so low that selfShadow(L) = 8 L . N is below 1 nearly everywhere. The bumps end
-/// at the border of their picture, whose last texels go on beyond it.
+/// at the border of their picture, whose outermost texels continue beyond it.
 Stage grazing_light() {
     Stage stage = lit_from_the_left("grazing_light",
                                     "The sun grazes a bumpy ground with gentle swells, and stones "
@@ -81,9 +81,9 @@ Stage grazing_light() {
     return stage;
 }
 
-/// Light from beyond, as low as the eye: half way between them stands upright, so H . N' is near 1
-/// where L . N is hardly above 0. selfShadow(L) has no part in the specular term; who multiplies
-/// by it dims these highlights.
+/// Light from the opposite side, as low as the eye: the half-angle vector stands upright, so H . N'
+/// is near 1 where L . N is hardly above 0. selfShadow(L) has no part in the specular term; a
+/// technique that multiplies by it dims these highlights.
 Stage terminator_highlight() {
     Stage stage = lit_from_the_left("terminator_highlight",
                                     "Highlights where the light hardly reaches: it stands low "
@@ -119,8 +119,8 @@ Stage terminator_highlight() {
     return stage;
 }
 
-/// About a texel a pixel, and every other one at another height: what lies between two samples is
-/// another normal.
+/// About one texel per pixel, with every other one at another height: between two samples the
+/// normal is a different one.
 Stage fine_relief() {
     Stage stage = lit_from_the_left(
         "fine_relief", "A height field as fine as pixels, under a light that fades with distance.");
@@ -141,7 +141,7 @@ Stage fine_relief() {
     return stage;
 }
 
-/// Ambient and diffuse together are above 1 before the decal takes them down again.
+/// Ambient and diffuse together exceed 1 before the decal reduces them again.
 Stage bright_light() {
     Stage stage = lit_from_the_left("bright_light",
                                     "Ambient and diffuse light add up to more than 1, on decals "

@@ -55,7 +55,7 @@ struct Buffer {
             bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
     }
 
-    /// A view from `offset` to the end, the buffer then padded to whole words. Its index. Key
+    /// Index of a new view from `offset` to the end, the buffer then padded to whole words. Key
     /// frames have no target.
     std::size_t close_view(std::size_t offset, std::optional<int> target) {
         Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size() - offset}};
@@ -215,7 +215,7 @@ Json mesh_of(Buffer& buffer, const Placed& thing, std::size_t material) {
     return mesh;
 }
 
-/// The nodes of the joints, which are to stand behind those of all things.
+/// The nodes of the joints, which must follow those of all things.
 Json joint_nodes(const Stage& stage) {
     const std::size_t first = stage.things.size();
     Json nodes = Json::array();
@@ -264,7 +264,7 @@ Json skins_of(Buffer& buffer, const Stage& stage) {
     return {{{"inverseBindMatrices", buffer.accessors.size() - 1}, {"joints", joints}}};
 }
 
-/// Of a node that looks or shines down its own -z, y up.
+/// The rotation of a node that looks or shines down its own -z, y up.
 glm::dquat looking(const glm::dvec3& from, const glm::dvec3& to) {
     const glm::dvec3 back = glm::normalize(from - to);
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back));
@@ -291,7 +291,7 @@ Json light_node(const Lamp& lamp, std::size_t index) {
     return node;
 }
 
-/// The lamp's way as the one animation of the file.
+/// The lamp's path as the only animation of the file.
 Json animations_of(Buffer& buffer, const Lamp& lamp, std::size_t node) {
     constexpr float seconds = 4;
     const std::size_t times = add_times(buffer, {0, seconds});
@@ -316,7 +316,7 @@ std::size_t add_key_values(Buffer& buffer, const Track& track) {
     return buffer.accessors.size() - 1;
 }
 
-/// All tracks as the one animation of the file.
+/// All tracks as the only animation of the file.
 Json animations_of(Buffer& buffer, const std::vector<Track>& tracks, const Json& nodes) {
     Json channels = Json::array();
     Json samplers = Json::array();

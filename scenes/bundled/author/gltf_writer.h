@@ -1,4 +1,4 @@
-// A stage (placed shapes, one camera, lights) to the text of a .gltf with an embedded
+// Writes a stage (placed shapes, one camera, lights) as the text of a .gltf with an embedded
 // buffer. The same stage gives the same bytes.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace shadowproof::author {
 
-/// What a thing wears beside its colour; textures are indices into Stage::textures.
+/// The material of a thing beside its colour; textures are indices into Stage::textures.
 struct Look {
     std::optional<std::size_t> bump{};
     bool bump_is_height = false; ///< else it is a normal map
@@ -48,13 +48,13 @@ struct Placed {
     bool double_sided = false;
     Look look{};
     std::vector<Morph> morphs{};
-    std::vector<Influence> influences{}; ///< one a vertex: joints place the thing, and no other
-                                         ///< place or turn
-    std::optional<std::size_t> joint{};  ///< that carries it: place and turn are relative to it
+    std::vector<Influence> influences{}; ///< one per vertex: then only joints place the thing,
+                                         ///< not `position` and `turn`
+    std::optional<std::size_t> joint{};  ///< its parent: position and turn are relative to it
 };
 
-/// A node that skinned things follow and others hang on. Shapes are modelled in the space of the
-/// root joint, with all joints but that unturned.
+/// A node that moves skinned things and carries others. Shapes are modelled in the space of the
+/// root joint, with no other joint rotated.
 struct Joint {
     std::string name;
     std::optional<std::size_t> parent{}; ///< an earlier one; none: the root
@@ -62,12 +62,12 @@ struct Joint {
     double turn = 0;                     ///< radians about y, of the root
 };
 
-/// Key frames of one property of a node, linear between them.
+/// Key frames of one property of a node, with linear interpolation.
 struct Track {
     std::string node;
     std::string path;           ///< as glTF says it: "translation", "rotation", "weights"
     std::vector<float> times;   ///< seconds
-    std::vector<double> values; ///< as many a key as the property has
+    std::vector<double> values; ///< as many per key as the property has
 };
 
 // Wrap modes by their numbers in glTF.
@@ -89,7 +89,7 @@ struct Lamp {
     glm::dvec3 color{1, 1, 1};          ///< linear
     double intensity = 2000;            ///< candela, or lux of a directional light
     double outer_cone = 0.785;          ///< of a spot, radians
-    std::optional<glm::dvec3> moves_to; ///< where it is after four seconds, by a straight way
+    std::optional<glm::dvec3> moves_to; ///< where it is after four seconds, along a straight line
 };
 
 struct Stage {
@@ -102,7 +102,7 @@ struct Stage {
     std::vector<Track> tracks{};
     std::vector<Painting> textures{};
     glm::dvec3 ambient{0, 0, 0};
-    bool inverse_square = false;            ///< the light's intensity counts, and its distance
+    bool inverse_square = false;            ///< the light's intensity and distance count
     std::vector<std::size_t> environment{}; ///< +x -x +y -y +z -z, indices into textures; or none
     glm::dvec3 eye{0, 0, 5};
     glm::dvec3 target{0, 0, 0};

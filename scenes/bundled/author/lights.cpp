@@ -2,20 +2,21 @@
 #include "scenes/bundled/author/stages.h"
 
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 namespace shadowproof::author {
 
 namespace {
 
-/// Eye and light are inside a ball of glass, which is not seen from within and casts all the same:
-/// what lies outside is dark, what lies inside is lit. No triangle of the glass faces the light: as
-/// it is, it has no volume.
+/// Eye and light are inside a ball of glass, which is not seen from within and yet casts: what lies
+/// outside is dark, what lies inside is lit. No triangle of the glass faces the light: unflipped,
+/// it has no volume.
 Stage light_inside() {
     Stage stage = looking_along_floor("light_inside",
                                       "The light stands inside a closed ball that darkens all "
                                       "the world around it, and of which no triangle faces it.",
-                                      {"open_mesh"});
+                                      {"far_plane", "light_inside"});
     stage.light.position = {-1.471, 7.377, 1.513};
     add(stage, {{.name = "glass",
                  .shape = ball(7.713, 4),
@@ -83,7 +84,74 @@ Stage light_in_plane() {
     return stage;
 }
 
-/// A light as low as a street lamp throws the shadows of posts down a runway, further than the
+const glm::dvec3 board_size(1.213, 0.113, 0.913); ///< half of it
+
+/// A tilted board for a light to lie on.
+Placed board(const glm::dvec3& turn_axis) {
+    return {.name = "board",
+            .shape = box(board_size, 1),
+            .color = slate,
+            .position = {-1.013, 2.913, 0.213},
+            .turn_axis = glm::normalize(turn_axis),
+            .turn = 1.113};
+}
+
+std::vector<Placed> around_board() {
+    return {{.name = "ball",
+             .shape = ball(0.513, 3),
+             .color = coral,
+             .position = {0.871, 0.541, 1.171},
+             .turn_axis = {0.31, 0.83, 0.47},
+             .turn = 0.7331},
+            {.name = "torus",
+             .shape = torus(0.687, 0.213, 64, 24),
+             .color = teal,
+             .position = {1.713, 0.241, -0.871},
+             .turn_axis = {1, 0, 0},
+             .turn = 0.0213},
+            {.name = "pillar behind",
+             .shape = disc(0.363, 0.817, 48),
+             .color = amber,
+             .position = {-3.113, 0.841, 0.713},
+             .turn = 0.171}};
+}
+
+/// A point of a thing, given in its own axes.
+glm::dvec3 placed(const Placed& thing, const glm::dvec3& point) {
+    return thing.position + glm::angleAxis(thing.turn, thing.turn_axis) * point;
+}
+
+/// A lamp lies on one face of a tilted board: half of the world is behind that face, and dark. The
+/// board's corners are floats, so the plane of the face is off by some 1e-7; the light is 4e-7
+/// before it, less than float directions from the light can tell (scenes/mesh/touching_light.cpp).
+Stage light_on_face() {
+    Stage stage = looking_along_floor("light_on_face",
+                                      "The light lies on a face of a closed board, as near as "
+                                      "floats tell: all that is behind the face is dark.",
+                                      {"far_plane", "extrusion"});
+    const Placed thing = board({-0.13, 0.17, 0.97});
+    stage.light.position = placed(thing, {0.313, -board_size.y - 4e-7, 0.271});
+    add(stage, {thing});
+    add(stage, around_board());
+    return stage;
+}
+
+/// The same on an edge of the board, before one of its faces and behind the other: only the former
+/// has a volume, which is bounded by a side over the edge that the light lies on. The eye is behind
+/// it, in the dark.
+Stage light_on_edge() {
+    Stage stage = looking_along_floor("light_on_edge",
+                                      "The light lies on an edge of a closed board, as near as "
+                                      "floats tell, and the eye is in the dark behind it.",
+                                      {"eye_inside", "extrusion"});
+    const Placed thing = board({0.05, 0.17, 0.97});
+    stage.light.position = placed(thing, {0.313, -board_size.y - 4e-7, -board_size.z + 3e-7});
+    add(stage, {thing});
+    add(stage, around_board());
+    return stage;
+}
+
+/// A light as low as a street lamp casts the shadows of posts down a runway, further than the
 /// scene's bounding sphere reaches.
 Stage long_shadow() {
     Stage stage = looking_along_floor("long_shadow",
@@ -192,8 +260,8 @@ Stage spot() {
 } // namespace
 
 std::vector<Stage> stages_of_lights() {
-    return {light_inside(), light_in_plane(), long_shadow(), sun(),
-            spot(),         moving_light(),   many_lights()};
+    return {light_inside(), light_in_plane(), light_on_face(), light_on_edge(), long_shadow(),
+            sun(),          spot(),           moving_light(),  many_lights()};
 }
 
 } // namespace shadowproof::author

@@ -1,4 +1,4 @@
-// What the stages are put together from: colours, a floor, a camera that looks along it.
+// Building blocks of the stages: colours, a floor, a camera that looks along it.
 #pragma once
 
 #include "scenes/bundled/author/gltf_writer.h"
@@ -8,9 +8,9 @@
 
 namespace shadowproof::author {
 
-// Positions and angles are odd on purpose: no edge, ray or face lies on a grid line of another.
-// Where a stage needs a sign to be exactly zero, its numbers are multiples of 1/64 and nothing is
-// turned, so that float, double and exact arithmetic all see the zero.
+// Positions and angles are irregular on purpose: no edge, ray or face lies on a grid line of
+// another. Where a stage needs a sign to be exactly zero, its numbers are multiples of 1/64 and
+// nothing is rotated, so that float, double and exact arithmetic all give zero.
 
 inline constexpr glm::dvec3 sand{0.72, 0.66, 0.55};
 inline constexpr glm::dvec3 coral{0.85, 0.29, 0.20};
@@ -21,13 +21,13 @@ inline constexpr glm::dvec3 slate{0.28, 0.32, 0.40};
 /// A round slab whose top is at height 0.
 Placed floor(double radius);
 
-/// The eye looks along a small floor under a light that stands high: every ray leaves the cones of
-/// the shadows again before the far plane, and none points into one for ever.
+/// The eye looks along a small floor under a high light: every ray leaves the shadow volumes before
+/// the far plane, and none stays in one to infinity.
 Stage looking_along_floor(std::string name, std::string title,
                           std::vector<std::string> provokes = {});
 
-/// The same for bump-mapped things: the light from the left, so that the eye sees half of what it
-/// lights, and a floor without highlights.
+/// The same for bump-mapped things: the light comes from the left, so that the eye sees half of
+/// what it lights, and the floor has no highlights.
 Stage lit_from_the_left(std::string name, std::string title);
 
 void add(Stage& stage, std::vector<Placed> things);
@@ -36,15 +36,15 @@ void add(Stage& stage, std::vector<Placed> things);
 Placed rod(std::string name, const glm::dvec3& from, const glm::dvec3& to, double radius,
            const glm::dvec3& color);
 
-/// The point of the given height on the way from a light to a point of the floor.
+/// The point at the given height on the line from a light to a point of the floor.
 glm::dvec3 above(const glm::dvec3& floor_point, double height, const glm::dvec3& light);
 
 // Each in the order of the catalog.
 std::vector<Stage> stages_of_planes();  ///< the near plane, the far plane and the eye
 std::vector<Stage> stages_of_lights();  ///< where the light stands, and how many there are
-std::vector<Stage> stages_of_casters(); ///< how often, how closed and how wound
+std::vector<Stage> stages_of_casters(); ///< how many, how closed and how wound
 std::vector<Stage> stages_of_bumps();   ///< lighting by bump maps
-std::vector<Stage> stages_of_glare();   ///< light that lighting in few steps or bits fails under
+std::vector<Stage> stages_of_glare(); ///< lights under which lighting with few steps or bits fails
 std::vector<Stage> stages_of_figures(); ///< bump-mapped models that move
 
 } // namespace shadowproof::author

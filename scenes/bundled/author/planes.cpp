@@ -11,7 +11,7 @@ namespace {
 // projects onto the near plane. The centre of the near plane of looking_along_floor() lies at
 // (1.251, 4.909, 11.784), and its half height is 0.289.
 
-/// A still life for the near plane to spoil.
+/// A still life, on which errors at the near plane show.
 void add_still_life(Stage& stage) {
     add(stage, {{.name = "bowl",
                  .shape = torus(0.787, 0.341, 64, 24),
@@ -77,15 +77,15 @@ Stage near_cap_none() {
     return stage;
 }
 
-/// A tetrahedron, wound outwards whichever way its corners are given.
+/// A tetrahedron, wound outwards whatever the order of its corners.
 Shape tetrahedron(const glm::dvec3& a, const glm::dvec3& b, glm::dvec3 c, glm::dvec3 d) {
     if (glm::dot(glm::cross(b - a, c - a), d - a) > 0) std::swap(c, d);
     return {{a, b, c, d}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
 }
 
-/// The eye is light + 1/2 (a - light) + 3/4 (b - light), exactly, where a b is an outline of the
-/// shard as the light sees it. So it lies on the side that this edge throws, which is seen as a
-/// line through the middle of the picture. Whether the eye is inside is a tie: both causes are
+/// The eye is exactly light + 1/2 (a - light) + 3/4 (b - light), where a b is a silhouette edge of
+/// the shard as the light sees it. So it lies on the side extruded from this edge, which is seen as
+/// a line through the middle of the picture. Whether the eye is inside is a tie: both causes are
 /// right.
 Stage eye_on_side() {
     Stage stage = looking_along_floor("eye_on_side",
@@ -124,8 +124,8 @@ Stage seen_shadow() {
     return stage;
 }
 
-/// Nothing but bodies in space: a ray is in shadow at the far plane only where the plane lies
-/// inside a body, or in the shadow of one.
+/// Only bodies in space: a ray is in shadow at the far plane only where the plane lies inside a
+/// body, or in the shadow of one.
 Stage far_cut() {
     Stage stage = looking_along_floor("far_cut",
                                       "The far plane cuts a planet and its belt in two; where "

@@ -13,7 +13,7 @@ void put(Bytes& bytes, std::uint32_t value, unsigned size) { // big end first
     for (unsigned i = size; i-- > 0;) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
-/// CRC-32 as PNG's annex D has it, bit by bit.
+/// CRC-32 as in PNG's annex D, bit by bit.
 std::uint32_t crc_of(const Bytes& bytes) {
     std::uint32_t crc = 0xffffffffU;
     for (const std::uint8_t byte : bytes) {

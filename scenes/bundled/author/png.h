@@ -12,7 +12,7 @@ struct Raster {
     unsigned width = 0;
     unsigned height = 0;
     unsigned channels = 3; ///< 1 gray, 3 RGB, 4 RGBA
-    unsigned bits = 8;     ///< a channel: 8 or 16
+    unsigned bits = 8;     ///< per channel: 8 or 16
     std::vector<std::uint16_t> values;
 };
 

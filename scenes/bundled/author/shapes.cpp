@@ -12,7 +12,7 @@ namespace shadowproof::author {
 
 namespace {
 
-/// Gives equal points one vertex.
+/// Merges equal points to one vertex.
 class Welder {
 public:
     explicit Welder(Shape& shape) : shape_(shape) {}

@@ -1,5 +1,5 @@
-// Closed triangle meshes, counter-clockwise from outside. Each welds to a two-manifold, but for
-// boxes whose faces are not split alike.
+// Closed triangle meshes, counter-clockwise from outside. Each welds to a two-manifold, except
+// boxes whose faces are divided differently.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,16 @@ namespace shadowproof::author {
 struct Shape {
     std::vector<glm::dvec3> vertices;
     std::vector<glm::uvec3> triangles;
-    // One a vertex where the shape is textured, else none:
+    // One per vertex where the shape is textured, else none:
     std::vector<glm::dvec3> normals{};     ///< unit
     std::vector<glm::dvec2> coordinates{}; ///< of textures
-    std::vector<glm::dvec4> tangents{};    ///< as glTF has them; or none all the same
+    std::vector<glm::dvec4> tangents{};    ///< as in glTF; may be none even so
 };
 
 /// Axis-aligned, around the origin, each face `segments` by `segments` squares.
 Shape box(const glm::dvec3& half_size, unsigned segments);
 
-/// The same with `segments[axis]` on the two faces across that axis: where they are not all equal,
+/// The same with `segments[axis]` on the two faces across that axis: where these are not all equal,
 /// corners of one face lie within edges of another.
 Shape box(const glm::dvec3& half_size, const glm::uvec3& segments);
 
@@ -38,15 +38,15 @@ Shape disc(double radius, double half_height, unsigned sides);
 /// Two pyramids, base to base: points at +-half_height above a round girdle.
 Shape gem(double radius, double half_height, unsigned sides);
 
-/// How a texture goes round a ball: once, or half round and back, mirrored.
+/// How a texture is wrapped around a ball: once, or half way round and back, mirrored.
 enum class Wearing { around, mirrored };
 
-/// Half axes, meridians, and rows from pole to pole, the texture `repeats` so often across its
-/// width and from pole to pole; without tangents.
+/// An ellipsoid of half axes `radii`, with `around` meridians and `down` rows from pole to pole.
+/// The texture repeats `repeats` times around it and from pole to pole; without tangents.
 Shape textured_ball(const glm::dvec3& radii, unsigned around, unsigned down, Wearing wearing,
                     const glm::dvec2& repeats);
 
-/// As torus, with tangents; the texture `repeats` so often along the ring and around the tube.
+/// As torus, with tangents; the texture repeats `repeats` times along the ring and around the tube.
 Shape textured_torus(double ring_radius, double tube_radius, unsigned ring, unsigned tube,
                      const glm::dvec2& repeats);
 
@@ -59,34 +59,36 @@ struct Ring {
     double height = 0;
 };
 
-/// Rings from the top to the bottom, the first and the last of radius 0, around `depth` times as
-/// deep (z) as wide; the texture as on a ball, along the outline from end to end. Tangents where it
-/// goes around: worn mirrored, the halves' tangents part at vertices that they share.
+/// A lathe through rings from the top to the bottom, the first and the last of radius 0, each with
+/// `around` segments and `depth` times as deep (z) as wide. Textured as a ball, along the outline
+/// from end to end. Has tangents with Wearing::around; mirrored, the two halves differ in tangents
+/// at the vertices that they share.
 Shape textured_lathe(const std::vector<Ring>& rings, double depth, unsigned around, Wearing wearing,
                      const glm::dvec2& repeats);
 
-/// Half spheres of `cap_rings` rings each, and a length of cylinder between, for textured_lathe.
+/// Rings of a capsule for textured_lathe: half spheres of `cap_rings` rings each, and a cylinder
+/// between.
 std::vector<Ring> capsule(double radius, double half_length, unsigned cap_rings);
 
 /// Height and slopes along x and z at (x, z).
 using Ground = std::function<glm::dvec3(double x, double z)>;
 
 /// A block whose top, `segments` squares each way, lies `ground` above half_size.y, with smooth
-/// normals, without tangents; the texture from above, once over the top and `border` (a share of
-/// its width) past it on all sides.
+/// normals, without tangents. The texture is projected from above, once over the top, and continues
+/// by `border` (a share of its width) past it on all sides.
 Shape textured_ground(const glm::dvec3& half_size, unsigned segments, const Ground& ground,
                       double border);
 
-/// Mirrored at x = 0, still counter-clockwise from outside; the texture coordinates stay, so that
-/// the picture is mirrored too.
+/// The shape mirrored at x = 0, still counter-clockwise from outside; the texture coordinates stay,
+/// so the picture is mirrored too.
 Shape mirrored(const Shape& shape);
 
 Shape moved(const Shape& shape, const glm::dvec3& way);
 
-/// Several as one; all textured alike.
+/// Several shapes as one; either all of them have textures or none.
 Shape joined(const std::vector<Shape>& shapes);
 
-/// The same with equal points made one vertex.
+/// The shape with equal points merged to one vertex.
 Shape welded(const Shape& shape);
 
 } // namespace shadowproof::author

@@ -25,8 +25,8 @@ Stage ordinary() {
     return stage;
 }
 
-/// A ring hangs off the picture, between the light and the near plane. Its shadow crosses the near
-/// plane at a slant and passes the eye by.
+/// A ring hangs outside the picture, between the light and the near plane. Its shadow crosses the
+/// near plane at a slant and misses the eye.
 Stage near_plane() {
     Stage stage = looking_along_floor(
         "near_plane", "The shadow of a ring off the picture crosses a part of the near plane.",
@@ -73,7 +73,7 @@ Stage far_plane() {
     return stage;
 }
 
-/// A canopy shades the eye and the whole near plane, and nothing that is seen.
+/// A canopy shadows the eye and the whole near plane, and nothing that is seen.
 Stage eye_inside() {
     Stage stage = looking_along_floor(
         "eye_inside", "The eye stands in the shadow of a canopy and looks out into the light.",

@@ -1,5 +1,5 @@
-// The compositions that come with shadowproof. Each provokes exactly the causes it names; the
-// tests trace every claim made here.
+// The scenes that come with shadowproof. Each provokes exactly the causes it names; the tests check
+// every claim made here by tracing.
 #pragma once
 
 #include "scenes/bundled/author/gltf_writer.h"

@@ -87,7 +87,7 @@ Shape textured_box(const glm::dvec3& half_size, unsigned segments) {
         const int axis = size.x > size.y && size.x > size.z ? 0 : (size.y > size.z ? 1 : 2);
         glm::dvec3 normal(0);
         normal[axis] = across[axis] > 0 ? 1 : -1;
-        // The picture stands upright on the sides, and its right is to the right from outside.
+        // On the sides the picture is upright, and its right is to the right as seen from outside.
         const glm::dvec3 up = axis == 1 ? glm::dvec3(0, 0, -normal.y) : glm::dvec3(0, 1, 0);
         const glm::dvec3 right = glm::cross(up, normal);
         const auto first = static_cast<unsigned>(faces.vertices.size());
@@ -106,7 +106,7 @@ Shape textured_box(const glm::dvec3& half_size, unsigned segments) {
 
 namespace {
 
-/// Of the outline at a ring, from its neighbours: (outward, up), unit.
+/// The outline's normal at a ring, from its neighbours: (outward, up), unit.
 glm::dvec2 outline_normal(const std::vector<Ring>& rings, std::size_t j) {
     if (j == 0) return {0, 1};
     if (j + 1 == rings.size()) return {0, -1};

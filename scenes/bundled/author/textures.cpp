@@ -32,7 +32,7 @@ std::uint16_t stored(double value, unsigned bits) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, 1.0) * most));
 }
 
-/// Calls paint(u, v) for every texel's centre; what it returns is appended.
+/// Calls paint(u, v) for every texel's centre and appends the result.
 template <class Paint>
 Raster painted(unsigned width, unsigned height, unsigned channels, unsigned bits,
                const Paint& paint) {
@@ -64,7 +64,7 @@ struct Window {
     glm::dvec3 color;     ///< sRGB
 };
 
-/// 1 on its two by two panes, 0 beside them.
+/// 1 on the window's two by two panes, 0 elsewhere.
 double pane(const Window& window, const glm::dvec3& direction) {
     const glm::dvec3 ahead = glm::normalize(window.towards);
     const double distance = glm::dot(direction, ahead);
@@ -74,7 +74,7 @@ double pane(const Window& window, const glm::dvec3& direction) {
                                               glm::dot(direction, glm::cross(right, ahead)))) /
                           distance;
     constexpr double soft = 0.023;
-    constexpr double bar = 0.021; // half as wide as what parts the panes
+    constexpr double bar = 0.021; // half the width of the bars between panes
     const auto within = [&](int axis) {
         return rise(bar - soft, bar + soft, at[axis]) *
                (1 - rise(-soft, soft, at[axis] - window.half_size[axis]));
@@ -117,7 +117,7 @@ Relief gravel(unsigned columns) {
     return [=](double u, double v) {
         const auto x = static_cast<std::uint32_t>(u * columns) % columns;
         const auto y = static_cast<std::uint32_t>(v * columns) % columns;
-        // T. Wang's integer hash: neighbours have nothing in common.
+        // T. Wang's integer hash: neighbours are uncorrelated.
         std::uint32_t hash = y * columns + x;
         hash = (hash ^ 61U) ^ (hash >> 16U);
         hash *= 9U;

@@ -1,4 +1,4 @@
-// Textures that the bump-mapped stages wear, painted by formulas.
+// Textures of the bump-mapped stages, painted by formulas.
 #pragma once
 
 #include "scenes/bundled/author/png.h"
@@ -15,10 +15,10 @@ using Relief = std::function<double(double u, double v)>;
 /// Round bumps on a lattice, `columns` by `rows` of them; repeats.
 Relief bumps(unsigned columns, unsigned rows);
 
-/// A slanted hook and three dots: no mirror image of it is like it.
+/// A slanted hook and three dots: unlike any mirror image of itself.
 Relief hook();
 
-/// Ripples around the middle, and a step across them.
+/// Ripples around the centre, and a step across them.
 Relief ripples();
 
 /// Squares of random heights, `columns` each way; repeats.
@@ -31,7 +31,7 @@ Raster height_map(unsigned width, unsigned height, const Relief& relief);
 /// bits.
 Raster normal_map(unsigned width, unsigned height, const Relief& relief, double scale);
 
-/// RGBA of 8 bits: stripes of two colours (sRGB) across the relief, which shines where it is high.
+/// RGBA of 8 bits: stripes of two colours (sRGB) across the relief, with gloss where it is high.
 Raster glossy_stripes(unsigned width, unsigned height, const Relief& relief,
                       const glm::dvec3& color, const glm::dvec3& other);
 

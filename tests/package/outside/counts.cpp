@@ -1,9 +1,10 @@
 // The libraries as another project meets them: a bundled scene is traced, drawn and compared, and
 // the pixels are counted.
 #include "compare/classify.h"
+#include "compare/families.h"
 #include "raster/render.h"
-#include "reference/trace.h"
-#include "scenes/catalog.h"
+#include "reference/trace/trace.h"
+#include "scenes/load/catalog.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -38,14 +39,11 @@ void check() {
     expect(counts.shadowed > 0 && counts.shadowed == count(truth, Visibility::shadowed),
            "some are shadowed");
 
-    const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
-    const Silhouette silhouette(tracer);
+    const TracedScene traced(tracer, truth);
     Gpu gpu(GlPlatform::osmesa);
     const auto compare = [&](const char* technique) {
         const Frame frame = render(*find_technique(technique), scene, plan, gpu);
-        const Prediction prediction(tracer, silhouette, truth, depths, frame.counting,
-                                    frame.depth_model);
-        return classify(tracer, silhouette, truth, depths, frame, prediction);
+        return classify(traced, frame, *judge_of(traced, frame));
     };
     const auto pixels = [](const Comparison& comparison, Cause cause) {
         return comparison.causes[static_cast<std::size_t>(cause)];

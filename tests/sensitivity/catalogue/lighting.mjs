@@ -1,8 +1,8 @@
 // The terms and tables of bump lighting.
 const glsl = 'raster/glsl/lighting.glsl';
-const cpp = 'raster/lighting.cpp';
-const forms = 'scenes/bump_forms.cpp';
-const cubes = 'scenes/normalisation_cube.cpp';
+const cpp = 'raster/lighting/lighting.cpp';
+const forms = 'scenes/surface/bump_forms.cpp';
+const cubes = 'scenes/surface/normalisation_cube.cpp';
 const inBytes = 'static_cast<float>(std::round(255 * number) / 255)';
 const compressed = 'static_cast<std::uint8_t>(std::lround(255 * (0.5 + 0.5 * n[c])))';
 const cubeMade = 'upload_cube(gl, make_normalisation_cube())';
@@ -16,10 +16,10 @@ export const faults = [
   { name: 'self_shadow_step', file: glsl, right: selfShadow, wrong: 'return cosine > 0 ? 1 : 0;' },
   { name: 'exponent_4', file: glsl, right: 'return fourth * fourth;', wrong: 'return fourth;' },
   { name: 'exponent_9', file: glsl, right: 'return fourth * fourth;', wrong: 'return fourth * fourth * cosine;' },
-  { name: 'diffuse_unclamped', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_small);', wrong: 'return self_shadow(l_normal) * l_small;' },
-  { name: 'diffuse_absolute', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_small);', wrong: 'return self_shadow(l_normal) * abs(l_small);' },
-  { name: 'diffuse_1_percent_off', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_small);', wrong: 'return 0.99 * self_shadow(l_normal) * max(0, l_small);' },
-  { name: 'highlight_by_other_shadow', file: glsl, right: 'return self_shadow(h_normal) * specular_power(max(0, h_small));', wrong: 'return specular_power(max(0, h_small));' },
+  { name: 'diffuse_unclamped', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_perturbed);', wrong: 'return self_shadow(l_normal) * l_perturbed;' },
+  { name: 'diffuse_absolute', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_perturbed);', wrong: 'return self_shadow(l_normal) * abs(l_perturbed);' },
+  { name: 'diffuse_1_percent_off', file: glsl, right: 'return self_shadow(l_normal) * max(0, l_perturbed);', wrong: 'return 0.99 * self_shadow(l_normal) * max(0, l_perturbed);' },
+  { name: 'highlight_by_other_shadow', file: glsl, right: 'return self_shadow(h_normal) * specular_power(max(0, h_perturbed));', wrong: 'return specular_power(max(0, h_perturbed));' },
   { name: 'gloss_ignored', file: glsl, right: 'gloss_in_alpha ? decal.a : 1', wrong: '1' },
   { name: 'gloss_always', file: glsl, right: 'gloss_in_alpha ? decal.a : 1', wrong: 'decal.a', why: 'No bundled decal has an alpha that is not gloss.' },
   { name: 'material_color_ignored', file: glsl, right: 'vec4(material_color * decal.rgb, ', wrong: 'vec4(decal.rgb, ' },
@@ -56,7 +56,7 @@ export const faults = [
   { name: 'mirrored_off_by_one', file: 'raster/glsl/texels.glsl', right: 'return texel < n ? texel : 2 * n - 1 - texel;', wrong: 'return texel < n ? texel : max(0, 2 * n - 2 - texel);' },
   { name: 'slopes_one_sided', file: 'raster/glsl/texels.glsl', right: 'ivec2 low = ivec2(before(wrap_s, size.x, texel.x), before(wrap_t, size.y, texel.y));', wrong: 'ivec2 low = texel;' },
   { name: 'weights_of_4_bits', file: 'raster/glsl/texels.glsl', right: 'float fraction = x - floor(x);', wrong: 'float fraction = floor((x - floor(x)) * 16 + 0.5) / 16;' },
-  { name: 'weights_of_8_bits', file: 'raster/glsl/texels.glsl', right: 'float fraction = x - floor(x);', wrong: 'float fraction = floor((x - floor(x)) * 256 + 0.5) / 256;' },
+  { name: 'weights_of_8_bits', file: 'raster/glsl/texels.glsl', right: 'float fraction = x - floor(x);', wrong: 'float fraction = floor((x - floor(x)) * 256 + 0.5) / 256;', why: 'A colour changes by a quarter of a step of 255 at most, less than floats are held to.' },
   { name: 'cube_face_turned', file: 'raster/glsl/cube_map.glsl', right: 'vec2(v.x < 0 ? v.z : -v.z, -v.y)', wrong: 'vec2(v.x < 0 ? -v.z : v.z, -v.y)' },
   { name: 'cube_not_filtered', file: 'raster/glsl/cube_map.glsl', right: 'return mix(upper, lower, at.y - float(first.y));', wrong: 'return upper;' },
   { name: 'newton_left_out', file: 'raster/glsl/normalise.glsl', right: 'return y * (1.5 - 0.5 * x * y * y);', wrong: 'return y;', why: 'Only where --normalise newton-raphson asks for it.' },

@@ -1,5 +1,5 @@
 // Numbers that are a little off: camera, planes, light, places, formats.
-const passes = 'raster/passes.cpp';
+const passes = 'raster/passes/passes.cpp';
 const projection = 'clip_from_view(scene.camera, depth_model)';
 const camera = (change) => ({ file: passes, right: projection, wrong: `[&] { Camera c = scene.camera; ${change}; return clip_from_view(c, depth_model); }()` });
 const drawn = { file: 'raster/render.cpp', right: 'technique.run(gpu, scene, plan)' };
@@ -8,6 +8,9 @@ const other = (change) => ({ ...drawn, wrong: `[&] { Scene s = scene; ${extent} 
 const light = 's.lights[s.light]';
 const moved = (size) => other(`${light}.kind == Light::Kind::directional ? ${light}.direction = glm::normalize(${light}.direction + glm::dvec3(0, ${size}, 0)) : ${light}.position += glm::dvec3(${size} * size, 0, 0)`);
 const shift = (x, y) => ({ file: passes, right: 'transform.light = split(light);', wrong: `transform.light = split(light); for (int k = 0; k < 4; ++k) { transform.clip_from_relative[k][0] += static_cast<float>(2.0 * ${x} / scene.camera.width) * transform.clip_from_relative[k][3]; transform.clip_from_relative[k][1] += static_cast<float>(2.0 * ${y} / scene.camera.height) * transform.clip_from_relative[k][3]; }` });
+const measure = 'raster/volumes/volume_measure.cpp';
+const shownDepth = 'gl.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);';
+const fragments = (wrong) => ({ kind: 'figures', file: measure, right: 'frame.counted->volume_fragments = fragments;', wrong: `frame.counted->volume_fragments = ${wrong};` });
 export const faults = [
   { name: 'shift_a_pixel', ...shift(1, 0) },
   { name: 'shift_half_a_pixel_up', ...shift(0, 0.5) },
@@ -49,8 +52,15 @@ export const faults = [
   { name: 'light_low_dropped', file: 'raster/glsl/project.vert', right: '(light_w * position - light_high) - light_low', wrong: '(light_w * position - light_high)', why: 'The lights of the bundled scenes are floats.' },
   { name: 'finite_ends_for_infinite', file: 'raster/glsl/project.vert', right: 'vec4(away, 0)', wrong: 'vec4(relative + 10 * away, 1)' },
   { name: 'seen_triangle_not_asked', file: 'raster/glsl/light.frag', right: 'if (seen != triangle_drawn[first_side + gl_PrimitiveID]) discard;', wrong: '' },
-  { name: 'volume_fragments_doubled', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'frame.volume_fragments = fragments;', wrong: 'frame.volume_fragments = 2 * fragments;', why: 'Nobody checks this figure yet.' },
-  { name: 'volume_fragments_hidden_left_out', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'gl.DepthFunc(GL_ALWAYS);', wrong: 'gl.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);', why: 'Nobody checks this figure yet.' },
-  { name: 'volume_picture_empty', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'draw_volumes();\n    end_adding(gl);', wrong: 'end_adding(gl);', why: 'Nobody checks this picture yet.' },
-  { name: 'volume_picture_counts_hidden', kind: 'figures', file: 'raster/volume_measure.cpp', right: 'gl.DepthFunc(reversed ? GL_GEQUAL : GL_LEQUAL);', wrong: 'gl.DepthFunc(GL_ALWAYS);', why: 'Nobody checks this picture yet.' },
+  { name: 'volume_fragments_doubled', ...fragments('2 * fragments') },
+  { name: 'volume_fragments_halved', ...fragments('fragments / 2') },
+  { name: 'volume_fragments_10_percent_more', ...fragments('fragments + fragments / 10') },
+  { name: 'volume_fragments_hidden_left_out', kind: 'figures', file: measure, right: 'gl.DepthFunc(GL_ALWAYS);', wrong: shownDepth },
+  { name: 'volume_fragments_saved_doubled', kind: 'figures', techniques: 'auto', file: 'raster/techniques/auto.cpp', right: 'static_cast<std::int64_t>(spent.counted->volume_fragments)', wrong: '2 * static_cast<std::int64_t>(spent.counted->volume_fragments)' },
+  { name: 'volume_picture_empty', kind: 'figures', file: measure, right: 'draw_volumes();\n    end_adding(gl);', wrong: 'end_adding(gl);' },
+  { name: 'volume_picture_counts_hidden', kind: 'figures', file: measure, right: shownDepth, wrong: 'gl.DepthFunc(GL_ALWAYS);' },
+  { name: 'volume_picture_without_coincident', kind: 'figures', file: measure, right: shownDepth, wrong: 'gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);' },
+  { name: 'volume_picture_of_front_faces', kind: 'figures', file: measure, right: 'set_worth(gl, *pass, 1, 1);', wrong: 'set_worth(gl, *pass, 1, 0);' },
+  { name: 'volume_picture_of_counters', kind: 'figures', file: measure, right: 'read_sum(gl, target)', wrong: 'converted<float>(frame.counted->counter, [](std::uint32_t counted) { return static_cast<float>(counted); })' },
+  { name: 'volumes_measured_without_turned', kind: 'figures', file: 'raster/volumes/stencil.cpp', right: 'part->volumes.draw();\n                    part->volumes.draw_flipped();', wrong: 'part->volumes.draw();' },
 ].map((fault) => ({ kind: 'numbers', ...fault }));

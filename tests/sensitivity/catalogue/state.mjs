@@ -1,10 +1,10 @@
 // What a technique sets in OpenGL.
-const file = 'raster/stencil.cpp';
-const passes = 'raster/passes.cpp';
+const file = 'raster/volumes/stencil.cpp';
+const passes = 'raster/passes/passes.cpp';
 const steps = 'return test == Counting::Test::depth_pass ? Steps{+1, -1} : Steps{-1, +1};';
 const wrap = 'return step > 0 ? GL_INCR_WRAP : GL_DECR_WRAP;';
 const countedDepth = 'gl.DepthFunc(recipe.depth_model.reversed() ? GL_GREATER : GL_LESS);';
-const clamp = 'set_enabled(gl, GL_DEPTH_CLAMP, depth_clamp);';
+const clamp = 'set_enabled(gl, GL_DEPTH_CLAMP, depth_model.clamp);';
 const surfaceDepth = 'gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);';
 const cull = 'set_enabled(gl, GL_CULL_FACE, !run.double_sided);';
 const tested = 'gl.StencilFunc(stencil ? GL_EQUAL : GL_ALWAYS, 0, ~0U);';
@@ -68,13 +68,13 @@ export const faults = [
   { name: 'unreceiving_left_dark', file: passes, right: 'draw(geometry.receivers, geometry.lit_sides.count - geometry.receivers);', wrong: ';', why: 'Every bundled mesh receives.' },
   { name: 'all_receive', file: passes, right: 'geometry.receivers = static_cast<std::uint32_t>(sides.receivers);', wrong: 'geometry.receivers = static_cast<std::uint32_t>(sides.triangles.size());', why: 'Every bundled mesh receives.' },
   { name: 'none_receives', file: passes, right: 'geometry.receivers = static_cast<std::uint32_t>(sides.receivers);', wrong: 'geometry.receivers = 0;' },
-  { name: 'depth_of_24_bits', file: 'raster/target.cpp', right: 'floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8', wrong: 'GL_DEPTH24_STENCIL8' },
-  { name: 'depth_in_floats', file: 'raster/target.cpp', right: 'floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8', wrong: 'GL_DEPTH32F_STENCIL8' },
-  { name: 'upside_down', file: 'raster/target.cpp', right: '(height - 1 - y) * stride', wrong: 'y * stride' },
-  { name: 'depth_read_as_half', file: 'raster/target.cpp', right: 'frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);', wrong: 'frame.depth = Image<float>(target.width, target.height, 0.5F);' },
-  { name: 'counter_read_in_4_bits', file: 'raster/target.cpp', right: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0);\n    check(gl, "reading back");', wrong: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0); for (auto& c : frame.counter.pixels) c &= 0xf;' },
-  { name: 'occluders_unclamped', techniques: 'zp_plus', file: 'raster/near_plane.cpp', right: 'gl.Enable(GL_DEPTH_CLAMP);', wrong: ';', why: 'The shadows lie at depth zero.' },
-  { name: 'occluders_unclipped', techniques: 'zp_plus', file: 'raster/near_plane.cpp', right: 'gl.Enable(GL_CLIP_DISTANCE0);', wrong: ';' },
-  { name: 'occluders_depth_tested', techniques: 'zp_plus', file: 'raster/near_plane.cpp', right: 'gl.Disable(GL_DEPTH_TEST);', wrong: ';' },
-  { name: 'near_caps_behind_ledge', techniques: 'zpass_capped', file: 'raster/near_plane.cpp', right: 'gl.DepthRange(0, 0);', wrong: 'gl.DepthRange(1, 1);' },
+  { name: 'depth_of_24_bits', file: 'raster/gl/target.cpp', right: 'floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8', wrong: 'GL_DEPTH24_STENCIL8' },
+  { name: 'depth_in_floats', file: 'raster/gl/target.cpp', right: 'floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8', wrong: 'GL_DEPTH32F_STENCIL8' },
+  { name: 'upside_down', file: 'raster/gl/target.cpp', right: '(height - 1 - y) * stride', wrong: 'y * stride' },
+  { name: 'depth_read_as_half', file: 'raster/gl/target.cpp', right: 'frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);', wrong: 'frame.depth = Image<float>(target.width, target.height, 0.5F);' },
+  { name: 'counter_read_in_4_bits', file: 'raster/gl/target.cpp', right: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0);\n    check(gl, "reading back");', wrong: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0); for (auto& c : frame.counted->counter.pixels) c &= 0xf;' },
+  { name: 'occluders_unclamped', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Enable(GL_DEPTH_CLAMP);', wrong: ';', why: 'The shadows lie at depth zero.' },
+  { name: 'occluders_unclipped', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Enable(GL_CLIP_DISTANCE0);', wrong: ';' },
+  { name: 'occluders_depth_tested', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Disable(GL_DEPTH_TEST);', wrong: ';' },
+  { name: 'near_caps_behind_ledge', techniques: 'zpass_capped', file: 'raster/volumes/near_plane.cpp', right: 'gl.DepthRange(0, 0);', wrong: 'gl.DepthRange(1, 1);' },
 ].map((fault) => ({ kind: 'state', ...fault }));

@@ -1,0 +1,182 @@
+#include "compare/color/color_check.h"
+
+#include "compare/color/color_judge.h"
+#include "reference/parallel.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+/// In the widest channel, in steps of 1/255. NaN counts as the widest.
+double width_of(const Intervals& bound) {
+    constexpr double most = std::numeric_limits<float>::max();
+    double widest = 0;
+    for (const Interval& channel : bound) {
+        const double wide = 255 * width(channel);
+        widest = std::max(widest, std::isfinite(wide) ? std::min(wide, most) : most);
+    }
+    return widest;
+}
+
+ColorTerm heaviest(const ColorTerms& weights) {
+    return static_cast<ColorTerm>(std::max_element(weights.begin(), weights.end()) -
+                                  weights.begin());
+}
+
+/// Sums over a row, so that they come out the same for any number of threads.
+struct RowSums {
+    double squares = 0;
+    std::uint64_t interpolated = 0;
+    std::uint64_t unpredicted = 0;
+    std::array<std::uint64_t, all_color_terms.size()> beyond_by{};
+};
+
+/// Rows that are judged together. Once so many pixels of those above are unexplained, the verdict
+/// is certain: the others are compared at their centres only.
+constexpr int rows_at_once = 16;
+constexpr std::uint64_t hopeless = 2048;
+
+bool is_unpredicted(ColorVerdict verdict) {
+    return verdict == ColorVerdict::unpredicted || verdict == ColorVerdict::unexplained;
+}
+
+RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& shader,
+                  ColorCheck& check, Image<float>& widths) {
+    std::vector<int> columns;
+    std::vector<SeenPoint> points;
+    for (int x = 0; x < check.error.width; ++x)
+        if (judge.judges(x, y)) {
+            columns.push_back(x);
+            points.push_back(judge.point(x, y));
+        }
+    std::vector<Shading> shadings(points.size());
+    shader.shade(points, shadings);
+    RowSums sums;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const int x = columns[i];
+        const glm::dvec3 truth = showable(check.model, shadings[i].color());
+        const glm::dvec3 off = 255.0 * glm::abs(judge.claim(x, y) - truth);
+        check.error.at(x, y) = static_cast<float>(std::max({off.x, off.y, off.z}));
+        sums.squares += glm::dot(off, off);
+        const ColorJudgement found = judge.judged(x, y, shadings[i], scrutiny);
+        check.verdict.at(x, y) = found.verdict;
+        widths.at(x, y) = static_cast<float>(width_of(found.bound));
+        if (is_unpredicted(found.verdict)) ++sums.unpredicted;
+        if (found.verdict == ColorVerdict::within && (found.spread.aside || found.spread.share > 0))
+            ++sums.interpolated;
+        if (found.verdict == ColorVerdict::beyond) {
+            const ColorTerm term =
+                heaviest(judge.weights(shadings[i], points[i].triangle, found.spread));
+            ++sums.beyond_by[static_cast<std::size_t>(term)];
+        }
+    }
+    return sums;
+}
+
+/// The smallest of the numbers that at least `per_mille` of them do not exceed.
+double percentile(std::vector<float>& numbers, std::size_t per_mille) {
+    const std::size_t rank = (numbers.size() * per_mille + 999) / 1000 - 1;
+    std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(rank),
+                     numbers.end());
+    return numbers[rank];
+}
+
+/// Figures from the pictures, in rows from the top.
+void count(ColorCheck& check, const Image<float>& bound_widths) {
+    std::vector<float> errors;
+    std::vector<float> widths;
+    for (int y = 0; y < check.error.height; ++y)
+        for (int x = 0; x < check.error.width; ++x) {
+            const ColorVerdict verdict = check.verdict.at(x, y);
+            if (verdict == ColorVerdict::not_judged) continue;
+            const float error = check.error.at(x, y);
+            errors.push_back(error);
+            widths.push_back(bound_widths.at(x, y));
+            if (errors.size() == 1 || double{error} > check.largest) {
+                check.largest = error;
+                check.largest_x = x;
+                check.largest_y = y;
+            }
+            if (verdict == ColorVerdict::beyond) ++check.beyond;
+            if (verdict == ColorVerdict::moved) ++check.moved;
+            if (!is_unpredicted(verdict)) continue;
+            if (check.unpredicted++ > 0) continue;
+            check.first_unpredicted_x = x;
+            check.first_unpredicted_y = y;
+        }
+    check.judged = errors.size();
+    if (errors.empty()) return;
+    check.percentile999 = percentile(errors, 999);
+    check.bound_width = {.median = percentile(widths, 500),
+                         .percentile999 = percentile(widths, 999),
+                         .widest = percentile(widths, 1000)};
+}
+
+} // namespace
+
+ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame) {
+    assert(!frame.color.pixels.empty() && is_bump_lit(tracer.scene()));
+    const int width = frame.color.width;
+    const int height = frame.color.height;
+    const ColorJudge judge(tracer, truth, frame);
+    ColorCheck check;
+    check.model = frame.color_model;
+    check.error = Image<float>(width, height);
+    check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::not_judged);
+    Image<float> widths(width, height);
+    std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
+    std::vector<RowSums> rows(static_cast<std::size_t>(height));
+    std::uint64_t unpredicted = 0;
+    for (int first = 0; first < height; first += rows_at_once) {
+        const int count = std::min(rows_at_once, height - first);
+        const Scrutiny scrutiny = unpredicted < hopeless ? Scrutiny::band : Scrutiny::centre;
+        parallel_for(count, tracer.threads(), [&](int i, int thread) {
+            std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
+            if (!shader) shader = std::make_unique<RayShader>(tracer);
+            const int y = first + i;
+            rows[static_cast<std::size_t>(y)] =
+                check_row(judge, y, scrutiny, *shader, check, widths);
+        });
+        for (int i = 0; i < count; ++i)
+            unpredicted += rows[static_cast<std::size_t>(first + i)].unpredicted;
+    }
+    count(check, widths);
+    double squares = 0;
+    for (const RowSums& row : rows) {
+        squares += row.squares;
+        check.interpolated += row.interpolated;
+        for (std::size_t i = 0; i < row.beyond_by.size(); ++i)
+            check.beyond_by[i] += row.beyond_by[i];
+    }
+    if (check.judged > 0) check.rmse = std::sqrt(squares / (3 * static_cast<double>(check.judged)));
+    return check;
+}
+
+ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                               int x, int y) {
+    const ColorJudge judge(tracer, truth, frame);
+    const ColorModel& model = frame.color_model;
+    ColorAccount account;
+    account.claim = judge.claim(x, y);
+    if (truth.triangle.at(x, y) == no_triangle) return account;
+    RayShader shader(tracer);
+    const SeenPoint point = judge.point(x, y);
+    shader.shade({&point, 1}, {&account.truth, 1});
+    account.showable = showable(model, account.truth.color());
+    const ColorJudgement found = judge.judged(x, y, account.truth, Scrutiny::band);
+    account.bound = found.bound;
+    account.predicted = found.predicted;
+    if (judge.judges(x, y)) account.verdict = found.verdict;
+    account.weights = judge.weights(account.truth, point.triangle, found.spread);
+    for (double& weight : account.weights) weight *= 255;
+    return account;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,70 @@
+// Judges colours where truth and technique agree on surface and visibility: how far each is from
+// the truth, whether an error budget explains that distance, and whether the technique's own
+// arithmetic predicts the colour.
+#pragma once
+
+#include "compare/color/lighting_arithmetic.h"
+#include "reference/trace/trace.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+
+namespace shadowproof {
+
+/// The verdict on one pixel's colour.
+enum class ColorVerdict : std::uint8_t {
+    not_judged,  ///< background, or a wrong surface or visibility
+    within,      ///< within the bound
+    beyond,      ///< beyond the bound, but predicted by the technique's arithmetic
+    unpredicted, ///< not predicted by that arithmetic, though within the bound
+    unexplained, ///< beyond the bound, and not predicted
+    moved, ///< beyond 1/255 of the truth, which a technique that uses floats alone may not be; but
+           ///< predicted, and right for a place that the rasterizer may have drawn instead
+};
+
+/// Width of the intervals within which colours count as right: that of the widest channel, in steps
+/// of 1/255.
+struct BoundWidth {
+    double median = 0;
+    double percentile999 = 0; ///< 99.9 % of the judged pixels have no wider ones
+    double widest = 0;
+};
+
+struct ColorCheck {
+    ColorModel model;            ///< how the technique computes them
+    Image<float> error;          ///< largest of the channels' differences, in steps of 1/255
+    Image<ColorVerdict> verdict; ///< of every pixel
+    std::uint64_t judged = 0;
+    double largest = 0;             ///< a channel's largest difference, in 1/255; here and below
+    int largest_x = 0;              ///< its pixel, the first in rows from the top
+    int largest_y = 0;              ///< "
+    double rmse = 0;                ///< over the channels of all judged pixels
+    double percentile999 = 0;       ///< 99.9 % of the judged pixels' errors are no larger
+    std::uint64_t beyond = 0;       ///< pixels by verdict
+    std::uint64_t unpredicted = 0;  ///< includes the unexplained ones
+    std::uint64_t moved = 0;        ///< "
+    std::uint64_t interpolated = 0; ///< pixels within the bound only by snapping and rounding
+    BoundWidth bound_width;
+    /// Pixels beyond the bound, by the ColorTerm that moves each most (the index).
+    std::array<std::uint64_t, all_color_terms.size()> beyond_by{};
+    int first_unpredicted_x = 0;
+    int first_unpredicted_y = 0;
+};
+
+/// The frame must have colours, and the scene must be bump-lit.
+ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame);
+
+/// One pixel's colour in full, for `explain`.
+struct ColorAccount {
+    ColorVerdict verdict = ColorVerdict::not_judged;
+    Shading truth;
+    glm::dvec3 showable{0, 0, 0}; ///< the truth's colour, clamped as by the frame buffer
+    glm::dvec3 claim{0, 0, 0};
+    Intervals bound;
+    Intervals predicted;
+    ColorTerms weights{}; ///< in steps of 1/255
+};
+ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                               int x, int y);
+
+} // namespace shadowproof

@@ -1,0 +1,207 @@
+#include "compare/color/color_judge.h"
+
+#include "compare/color/error_budget.h"
+#include "compare/driver/error_bounds.h"
+#include "compare/driver/setup_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+bool contains(const Intervals& limits, const glm::dvec3& color) {
+    return limits[0].contains(color.x) && limits[1].contains(color.y) &&
+           limits[2].contains(color.z);
+}
+
+constexpr Interval any_number{-std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::infinity()};
+constexpr Intervals anything{any_number, any_number, any_number};
+
+constexpr std::array<glm::dvec2, 4> corners_of_square{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+
+/// Anywhere on a triangle.
+constexpr PixelSpread all_of_it{.middle = glm::dvec3(1.0 / 3),
+                                .corners = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}},
+                                .aside = true};
+
+/// How often the region that the rasterizer may draw is halved. Each part's interval holds all
+/// colours of the part. Its excess, from treating dependent values as independent, halves with the
+/// part. More halvings give narrower intervals and take longer; no interval is too narrow.
+constexpr int halvings_of_square = 3;
+
+/// A technique that uses floats alone is never right beyond a step of the truth.
+constexpr double one_step = 1 / 255.0;
+
+bool within_a_step(const glm::dvec3& claim, const glm::dvec3& truth) {
+    const glm::dvec3 off = glm::abs(claim - truth);
+    return std::max({off.x, off.y, off.z}) <= one_step;
+}
+
+Intervals cut_to_a_step(Intervals bound, const glm::dvec3& truth) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Interval step = around(truth[static_cast<int>(k)], one_step);
+        bound[k] = {std::max(bound[k].low, step.low), std::min(bound[k].high, step.high)};
+    }
+    return bound;
+}
+
+} // namespace
+
+ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame)
+    : tracer_(tracer), scene_(tracer.scene()), truth_(truth), frame_(frame),
+      tables_(make_lighting_tables(scene_, frame.color_model)) {}
+
+bool ColorJudge::judges(int x, int y) const {
+    const std::uint32_t triangle = truth_.triangle.at(x, y);
+    return triangle != no_triangle && frame_.triangle.at(x, y) == triangle &&
+           frame_.claim.at(x, y) == truth_.visibility.at(x, y);
+}
+
+SeenPoint ColorJudge::point(int x, int y, const glm::dvec2& beside) const {
+    return {ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y),
+            truth_.triangle.at(x, y), truth_.visibility.at(x, y) == Visibility::lit};
+}
+
+InputPoint ColorJudge::input_point(const PixelPlace& pixel, const PixelSpread& spread) const {
+    return {pixel.shading, pixel.triangle, interpolated_at(scene_, pixel.triangle, spread)};
+}
+
+Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
+    return color_bound(frame_.color_model, budgeted_inputs(tables_, input_point(pixel, spread)));
+}
+
+Intervals ColorJudge::predicted(const PixelPlace& pixel, const PixelSpread& spread) const {
+    return predicted_color(frame_.color_model, claimed_inputs(tables_, input_point(pixel, spread)));
+}
+
+double ColorJudge::lateral(int x, int y) const {
+    return lateral_error(scene_, frame_.depth_model,
+                         scene_.camera.eye + truth_.depth.at(x, y) * point(x, y).direction);
+}
+
+double ColorJudge::share(int x, int y) const {
+    const SeenPoint seen = point(x, y);
+    return attribute_error(
+        scene_, seen.triangle,
+        {seen.direction, lateral(x, y), drawing_of(scene_, frame_, scene_.camera.far)});
+}
+
+double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) const {
+    const glm::dvec3 a = corner(scene_, triangle, 0);
+    return glm::dot(direction,
+                    glm::cross(corner(scene_, triangle, 1) - a, corner(scene_, triangle, 2) - a));
+}
+
+/// Nothing of the triangle lies past the horizon of its plane.
+PixelSpread ColorJudge::over(const PixelPlace& pixel, const Square& square, double share) const {
+    const double towards = facing(pixel.triangle, point(pixel.x, pixel.y).direction);
+    PixelSpread spread{.aside = true, .share = share};
+    spread.middle =
+        weights_along(scene_, pixel.triangle, point(pixel.x, pixel.y, square.middle).direction);
+    for (std::size_t i = 0; i < corners_of_square.size(); ++i) {
+        const glm::dvec3 direction =
+            point(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]).direction;
+        if (!(towards * facing(pixel.triangle, direction) > 0)) {
+            spread = all_of_it;
+            spread.share = share;
+            return spread;
+        }
+        spread.corners[i] = weights_along(scene_, pixel.triangle, direction);
+    }
+    return spread;
+}
+
+/// Whether the claim is within the limit somewhere in the square, as far as halving it tells.
+template <class Limit>
+bool ColorJudge::somewhere(const PixelPlace& pixel, const Square& square, double share,
+                           int halvings, const Limit& limit) const {
+    if (!contains(limit(over(pixel, square, share)), claim(pixel.x, pixel.y))) return false;
+    if (halvings == 0) return true;
+    return std::ranges::any_of(corners_of_square, [&](const glm::dvec2& corner) {
+        const double half = square.half / 2;
+        return somewhere(pixel, {square.middle + half * corner, half}, share, halvings - 1, limit);
+    });
+}
+
+/// Because corners are snapped, a technique may draw at a pixel any place in a small square around
+/// its centre. `right`, `is_predicted`: what is settled without the square.
+ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, bool right,
+                                        bool is_predicted) const {
+    ColorJudgement found;
+    // If a triangle is seen edge-on, interpolated values may come out as anything. The right
+    // colours are still those of the triangle.
+    const bool edge_on = !std::isfinite(share);
+    const Square square{{0, 0}, lateral(pixel.x, pixel.y)};
+    found.spread = edge_on ? all_of_it : over(pixel, square, share);
+    const auto bound_of = [&](const PixelSpread& spread) { return bound(pixel, spread); };
+    const auto predicted_of = [&](const PixelSpread& spread) { return predicted(pixel, spread); };
+    found.bound = bound_of(found.spread);
+    found.predicted = edge_on ? anything : predicted_of(found.spread);
+    const glm::dvec3 claimed = claim(pixel.x, pixel.y);
+    if (edge_on) {
+        right = right || contains(found.bound, claimed);
+        is_predicted = true;
+    } else {
+        right = right || somewhere(pixel, square, share, halvings_of_square, bound_of);
+        is_predicted =
+            is_predicted || somewhere(pixel, square, share, halvings_of_square, predicted_of);
+    }
+    const glm::dvec3 truth = pixel.shading.color();
+    const bool exact = is_exact(frame_.color_model);
+    if (exact) found.bound = cut_to_a_step(found.bound, truth);
+    if (!right) {
+        found.verdict = is_predicted ? ColorVerdict::beyond : ColorVerdict::unexplained;
+    } else if (exact && !within_a_step(claimed, truth)) {
+        found.verdict = is_predicted ? ColorVerdict::moved : ColorVerdict::unexplained;
+    } else {
+        found.verdict = is_predicted ? ColorVerdict::within : ColorVerdict::unpredicted;
+    }
+    return found;
+}
+
+/// What holds at the centre, without rounding of interpolated values, also holds for the whole
+/// square with it.
+ColorJudgement ColorJudge::judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const {
+    const PixelPlace pixel{x, y, shading, truth_.triangle.at(x, y)};
+    const glm::dvec3 claimed = claim(x, y);
+    const auto look = [&](const PixelSpread& spread) {
+        ColorJudgement found{
+            .bound = bound(pixel, spread), .predicted = predicted(pixel, spread), .spread = spread};
+        const bool is_predicted = contains(found.predicted, claimed);
+        if (is_exact(frame_.color_model)) found.bound = cut_to_a_step(found.bound, shading.color());
+        if (contains(found.bound, claimed))
+            found.verdict = is_predicted ? ColorVerdict::within : ColorVerdict::unpredicted;
+        else
+            found.verdict = is_predicted ? ColorVerdict::beyond : ColorVerdict::unexplained;
+        return found;
+    };
+    PixelSpread spread{.middle = shading.weights};
+    const ColorJudgement exactly = look(spread);
+    if (exactly.verdict == ColorVerdict::within) return exactly;
+    spread.share = share(x, y);
+    const bool finite = std::isfinite(spread.share);
+    ColorJudgement rounded = exactly;
+    if (finite) rounded = look(spread);
+    if (rounded.verdict == ColorVerdict::within || scrutiny == Scrutiny::centre) return rounded;
+    const bool right = rounded.verdict == ColorVerdict::unpredicted;
+    const bool is_predicted = rounded.verdict == ColorVerdict::beyond;
+    return judged_aside(pixel, spread.share, right, is_predicted);
+}
+
+ColorTerms ColorJudge::weights(const Shading& shading, std::uint32_t triangle,
+                               PixelSpread spread) const {
+    const PixelPlace pixel{0, 0, shading, triangle};
+    const InputPoint centre = input_point(pixel, {.middle = shading.weights});
+    const InputPoint freed = input_point(pixel, spread);
+    return weights_of(frame_.color_model, true_inputs(tables_, centre),
+                      claimed_inputs(tables_, centre), claimed_inputs(tables_, freed));
+}
+
+} // namespace shadowproof

@@ -1,0 +1,78 @@
+// Judges one pixel's colour against the truth, over all places that the rasterizer may draw at the
+// pixel.
+#pragma once
+
+#include "compare/color/color_check.h"
+#include "compare/color/lighting_arithmetic.h"
+#include "compare/color/lighting_inputs.h"
+#include "compare/driver/interpolated.h"
+#include "reference/trace/trace.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+
+namespace shadowproof {
+
+/// What a pixel is compared with: all that the rasterizer may draw there, or its centre alone.
+enum class Scrutiny : std::uint8_t { band, centre };
+
+/// A verdict and the limits behind it. Each limit holds the colours of all places that the
+/// rasterizer may draw, and others between them; the verdict tests place by place.
+struct ColorJudgement {
+    ColorVerdict verdict = ColorVerdict::not_judged;
+    Intervals bound;     ///< colours that count as right
+    Intervals predicted; ///< colours that the technique's arithmetic may give
+    PixelSpread spread;
+};
+
+/// Judges the colours of one frame.
+class ColorJudge {
+public:
+    ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame);
+
+    /// Whether surface and visibility are the truth's.
+    bool judges(int x, int y) const;
+    glm::dvec3 claim(int x, int y) const { return frame_.color.at(x, y); }
+    /// What is truly seen through the pixel's centre, or `beside` it by so many pixels.
+    SeenPoint point(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+
+    /// `shading`: the truth's at the pixel's centre.
+    ColorJudgement judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const;
+
+    /// How far each ColorTerm moves the colour.
+    ColorTerms weights(const Shading& shading, std::uint32_t triangle, PixelSpread spread) const;
+
+private:
+    /// A square of the picture around a pixel's centre, in pixels.
+    struct Square {
+        glm::dvec2 middle{0, 0};
+        double half = 0;
+    };
+    struct PixelPlace {
+        int x = 0;
+        int y = 0;
+        const Shading& shading;
+        std::uint32_t triangle = 0;
+    };
+
+    const Tracer& tracer_;
+    const Scene& scene_;
+    const GroundTruth& truth_;
+    const Frame& frame_;
+    LightingTables tables_;
+
+    InputPoint input_point(const PixelPlace& pixel, const PixelSpread& spread) const;
+    Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
+    Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
+    double lateral(int x, int y) const;
+    double share(int x, int y) const;
+    double facing(std::uint32_t triangle, const glm::dvec3& direction) const;
+    PixelSpread over(const PixelPlace& pixel, const Square& square, double share) const;
+    template <class Limit>
+    bool somewhere(const PixelPlace& pixel, const Square& square, double share, int halvings,
+                   const Limit& limit) const;
+    ColorJudgement judged_aside(const PixelPlace& pixel, double share, bool right,
+                                bool is_predicted) const;
+};
+
+} // namespace shadowproof

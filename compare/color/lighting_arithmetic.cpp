@@ -1,0 +1,275 @@
+#include "compare/color/lighting_arithmetic.h"
+
+#include "scenes/byte_blending.h"
+#include "scenes/driver.h"
+
+#include <cassert>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+/// How values kept in 8 bits are rounded.
+enum class Steps : std::uint8_t {
+    none,        ///< not at all
+    nearest,     ///< to the nearest of 255 steps
+    within_half, ///< to anything that is no further away
+};
+
+/// Which of the technique's differences from the truth are applied.
+struct Ways {
+    Steps steps = Steps::none;
+    bool light_dims_highlight = false; ///< the highlight is multiplied by selfShadow(L)
+    bool clamps_early = false;         ///< colours and registers before the last are clamped
+};
+
+/// `error`: how many steps a kept value may be off; half a step for the nearest.
+Interval kept(const Interval& a, Steps steps, double error = 0.5) {
+    // All steps within `error` of some number of the interval.
+    switch (steps) {
+    case Steps::none:
+        return a;
+    case Steps::nearest:
+        return {std::ceil(255 * a.low - error) / 255, std::floor(255 * a.high + error) / 255};
+    case Steps::within_half:
+        break;
+    }
+    return widened(a, error / 255);
+}
+
+Interval cut(const Interval& a, const Ways& ways, double low, double high) {
+    return ways.clamps_early ? clamped(a, low, high) : a;
+}
+
+Interval self_shadow(const Interval& z) {
+    return clamped(8 * z, 0, 1);
+}
+
+/// Rounding of floats: a dozen products and sums on the way to a colour, of terms no larger than
+/// their sum.
+Interval rounded(const Interval& a) {
+    return widened(a, 12 * v * std::max(std::abs(a.low), std::abs(a.high)));
+}
+
+struct Terms {
+    Interval diffuse;
+    Interval specular;
+};
+
+/// A vector's component along N.
+Interval along_normal(const VectorRange& a) {
+    return dot(a, {around(glm::dvec3(0, 0, 1))});
+}
+
+Terms terms_of(const LightingInputs& in, const Ways& ways) {
+    const Interval light_shadow = self_shadow(along_normal(in.light));
+    const Interval diffuse = light_shadow * not_negative(dot(in.light, in.bump));
+    const Interval power = squared(squared(squared(not_negative(dot(in.half, in.bump)))));
+    Interval specular = self_shadow(along_normal(in.half)) * power;
+    if (ways.light_dims_highlight) specular = light_shadow * specular;
+    return {rounded(diffuse), rounded(specular)};
+}
+
+Intervals in_floats(const LightingInputs& in, const Ways& ways) {
+    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
+    Intervals color;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int c = static_cast<int>(k);
+        const Interval ambient = around(in.ambient[c]) * in.decal[k];
+        const Interval diffuse = in.radiance[k] * terms.diffuse * in.decal[k];
+        const Interval specular = in.specular[c] * in.radiance[k] * terms.specular * in.gloss;
+        color[k] = rounded(ambient + diffuse + specular + in.reflection[k]);
+    }
+    return color;
+}
+
+/// Three passes over a frame buffer of 8 bits (raster/techniques/bump_three_pass.cpp).
+Intervals in_passes(const LightingInputs& in, const Ways& ways) {
+    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
+    const auto stored = [&](const Interval& a, double error = overwriting_error) {
+        return kept(cut(a, ways, 0, 1), ways.steps, error);
+    };
+    Intervals color;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int c = static_cast<int>(k);
+        const Interval light = stored(around(in.ambient[c]) + in.radiance[k] * terms.diffuse);
+        Interval sum = stored(light * stored(in.decal[k]), multiplying_error);
+        // Sums of two bytes are bytes, but for a float's rounding.
+        if (in.lit)
+            sum = cut(widened(sum + stored(rounded(in.specular[c] * in.radiance[k] *
+                                                   terms.specular * in.gloss)),
+                              adding_error / 255),
+                      ways, 0, 1);
+        color[k] = clamped(sum, 0, 1);
+    }
+    return color;
+}
+
+/// A register of the combiners: 8 bits and a sign. Its inputs were computed in floats.
+Interval in_register(const Interval& a, const Ways& ways) {
+    return cut(kept(rounded(a), ways.steps), ways, -1, 1);
+}
+
+/// A vector from a texture of bytes. The nearest bytes are known for boxes only.
+VectorRange in_bytes(const VectorRange& vector, const Ways& ways) {
+    const bool nearest = ways.steps == Steps::nearest;
+    VectorRange bytes = vector;
+    if (nearest) bytes = {box_around(vector)};
+    for (Interval& component : bytes.box) {
+        const Interval byte = kept(rounded(0.5 * (component + around(1))), ways.steps);
+        component = 2 * cut(byte, ways, 0, 1) + around(-1);
+    }
+    return bytes;
+}
+
+/// Four general combiner stages and the final one (raster/glsl/combiners.glsl), after Kilgard 2001.
+Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
+    const auto q = [&](const Interval& a) { return in_register(a, ways); };
+    const auto byte = [&](const Interval& a) {
+        return kept(rounded(cut(a, ways, 0, 1)), ways.steps);
+    };
+    Intervals color;
+    const Interval gloss = byte(in.gloss);
+    const VectorRange bump = in_bytes(in.bump, ways);
+    const VectorRange light = in_bytes(in.light, ways);
+    const VectorRange half = in_bytes(in.half, ways);
+    // 0
+    const Interval l_bump = q(dot(light, bump));
+    const Interval h_bump = q(dot(half, bump));
+    const auto shadow = [&](const Interval& z) { return clamped(q(8 * z), 0, 1); };
+    const Interval light_shadow = shadow(along_normal(light));
+    // 1
+    const Interval diffuse = q(not_negative(l_bump) * light_shadow);
+    const Interval dimmed = q((ways.light_dims_highlight ? light_shadow : around(1)) * gloss);
+    const Interval power2 = q(squared(not_negative(h_bump)));
+    // 2 and 3
+    const Interval power4 = q(squared(not_negative(power2)));
+    const Interval power8 = q(squared(not_negative(power4)));
+    const Interval half_shadow = shadow(along_normal(half));
+    const Interval highlight = q(half_shadow * not_negative(power8));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int c = static_cast<int>(k);
+        const Interval decal = byte(in.decal[k]);
+        if (!in.lit) {
+            color[k] = clamped(
+                kept(around(in.ambient[c]) * in.decal[k], ways.steps, overwriting_error), 0, 1);
+            continue;
+        }
+        const Interval primary = q(decal * q(in.radiance[k]));
+        const Interval ambient = q(q(around(in.ambient[c])) * decal);
+        const Interval shine = q(q(in.specular[c] * in.radiance[k]) * not_negative(dimmed));
+        const Interval lit = q(q(diffuse) * primary);
+        const Interval sum = cut(lit + ambient, ways, 0, 1);
+        color[k] = clamped(q(shine * highlight + sum), 0, 1);
+    }
+    return color;
+}
+
+[[maybe_unused]] bool reflects(const LightingInputs& in) {
+    return std::ranges::any_of(in.reflection, [](const Interval& a) { return a.high > 0; });
+}
+
+Intervals color_of(ColorModel::Arithmetic arithmetic, const LightingInputs& in, const Ways& ways) {
+    assert(arithmetic == ColorModel::Arithmetic::floating || !reflects(in));
+    switch (arithmetic) {
+    case ColorModel::Arithmetic::floating:
+        break;
+    case ColorModel::Arithmetic::three_passes:
+        return in_passes(in, ways);
+    case ColorModel::Arithmetic::combiners:
+        return in_combiners(in, ways);
+    }
+    return in_floats(in, ways);
+}
+
+Ways ways_of(ColorModel::Arithmetic arithmetic) {
+    if (arithmetic == ColorModel::Arithmetic::floating) return {};
+    return {.steps = Steps::nearest,
+            .light_dims_highlight = arithmetic == ColorModel::Arithmetic::combiners,
+            .clamps_early = true};
+}
+
+} // namespace
+
+std::string_view name_of(ColorTerm term) {
+    switch (term) {
+    case ColorTerm::normalisation:
+        return "normalisation";
+    case ColorTerm::bump_form:
+        return "bump_form";
+    case ColorTerm::bump_length:
+        return "bump_length";
+    case ColorTerm::steps:
+        return "steps";
+    case ColorTerm::self_shadow:
+        return "self_shadow";
+    case ColorTerm::clamping:
+        return "clamping";
+    case ColorTerm::interpolation:
+        break;
+    }
+    return "interpolation";
+}
+
+Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed) {
+    Intervals color = color_of(model.arithmetic, claimed, ways_of(model.arithmetic));
+    for (Interval& channel : color) channel = widened(channel, v); // a claim is read as floats
+    return color;
+}
+
+Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
+    const bool floating = model.arithmetic == ColorModel::Arithmetic::floating;
+    return color_of(model.arithmetic, budgeted,
+                    {.steps = floating ? Steps::none : Steps::within_half});
+}
+
+bool is_exact(const ColorModel& model) {
+    return model.arithmetic == ColorModel::Arithmetic::floating &&
+           model.normalisation == Normalisation::exact && model.bump_form == BumpForm::as_given;
+}
+
+ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
+                      const LightingInputs& claimed, const LightingInputs& freed) {
+    const ColorModel::Arithmetic arithmetic = model.arithmetic;
+    const Ways own = ways_of(arithmetic);
+    const glm::dvec3 right = middle(color_of(arithmetic, truth, {}));
+    ColorTerms weights{};
+    const auto weigh = [&](ColorTerm term, const LightingInputs& inputs, const Ways& ways) {
+        const glm::dvec3 off = glm::abs(middle(color_of(arithmetic, inputs, ways)) - right);
+        weights[static_cast<std::size_t>(term)] = std::max({off.x, off.y, off.z});
+    };
+    LightingInputs inputs = truth;
+    inputs.light = claimed.light;
+    inputs.half = claimed.half;
+    weigh(ColorTerm::normalisation, inputs, {});
+    const glm::dvec3 bump = middle(claimed.bump.box);
+    const double length = glm::length(bump);
+    inputs = truth;
+    inputs.reflection = claimed.reflection;
+    if (length > 0) inputs.bump = {around(bump / length)};
+    weigh(ColorTerm::bump_form, inputs, {});
+    inputs = truth;
+    inputs.bump = {around(length * middle(truth.bump.box))};
+    weigh(ColorTerm::bump_length, inputs, {});
+    weigh(ColorTerm::steps, truth, {.steps = own.steps});
+    weigh(ColorTerm::self_shadow, truth, {.light_dims_highlight = own.light_dims_highlight});
+    weigh(ColorTerm::clamping, truth, {.clamps_early = own.clamps_early});
+    const Intervals centre = color_of(arithmetic, claimed, {});
+    const Intervals around_it = color_of(arithmetic, freed, {});
+    double& interpolation = weights[static_cast<std::size_t>(ColorTerm::interpolation)];
+    for (std::size_t k = 0; k < 3; ++k)
+        interpolation = std::max(
+            {interpolation, centre[k].low - around_it[k].low, around_it[k].high - centre[k].high});
+    return weights;
+}
+
+glm::dvec3 showable(const ColorModel& model, const glm::dvec3& color) {
+    if (model.arithmetic == ColorModel::Arithmetic::floating) return color;
+    return glm::clamp(color, 0.0, 1.0);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,191 @@
+#include "compare/color/lighting_inputs.h"
+
+#include "compare/color/lighting_ranges.h"
+#include "compare/color/lighting_tables.h"
+#include "scenes/driver.h"
+
+#include <bit>
+#include <cassert>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+/// Lomont's reciprocal square root (2003): a guess by halving the exponent, then one step of Newton
+/// and Raphson; its relative error is at most 0.0017523.
+double newton_raphson_root(double square) {
+    const auto x = static_cast<float>(square);
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    const double guess = std::bit_cast<float>(0x5f3759dfU - (bits >> 1U));
+    return guess * (1.5 - 0.5 * square * guess * guess);
+}
+
+/// A vector as the technique normalises it, in its own axes.
+// Roundings: of the square (3 v), its root (v), the quotient (v): 4 v of a length of 1.
+//
+// A Newton-Raphson step: a guess (1 + e) / sqrt(x), |e| at most 0.0344, becomes 1 - 1.5 e^2 -
+// 0.5 e^3 of a length of 1. The guess falls between a quarter as fast as x, in its share, and as
+// fast, so that e moves by at most half of what x does, which is twice what the length does: the
+// length comes out off by (3 e + 1.5 e^2) (1 + e) = 0.11 of its share at most. Its roundings are
+// twice as many.
+VectorRange normalised(const LightingTables& tables, const VectorRange& range) {
+    const glm::dvec3 vector = middle(range.box);
+    const double length = glm::length(vector);
+    if (!(length > 0)) return {around(glm::dvec3(0)), 1};
+    const double turn = turned_by(radius(range) / length);
+    switch (tables.model.normalisation) {
+    case Normalisation::exact:
+        break;
+    case Normalisation::newton_raphson:
+        return {around(newton_raphson_root(length * length) * vector), 0.11 * turn + 8 * v, turn};
+    case Normalisation::cube_map: {
+        constexpr Interval any_byte{0, 255};
+        Intervals looked_up =
+            cube_range(tables.cube.faces, box_around(range), {any_byte, any_byte, any_byte});
+        for (Interval& component : looked_up)
+            component = widened(2.0 / 255 * component + around(-1), cube_lookup_error);
+        return {looked_up};
+    }
+    }
+    return {around(vector / length), 4 * v, turn};
+}
+
+/// What a table's texels come to over a range of places, as `of` decodes them.
+template <class Of, class Range>
+Range texels_range(const TextureImage& map, const Image<glm::vec4>& texels, const PlaceRange& at,
+                   const Of& of, const Range& whole) {
+    return mixed_range(
+        turning_places(map.wrap_s, texels.width, at[0]),
+        turning_places(map.wrap_t, texels.height, at[1]),
+        [&](int x, int y) { return of(glm::dvec4(texels.at(x, y))); }, whole);
+}
+
+Intervals normal_of(const RangeOf<glm::dvec2>& slope) {
+    return {-1 * slope[0], slope[1], around(1)};
+}
+
+/// m of the technique: normalised if it is made from slopes or if lighting is in floats throughout;
+/// else as filtered.
+VectorRange bump_range(const LightingTables& tables, const Material& material,
+                       const PlaceRange& at) {
+    if (material.bump == Bump::none) return {around(glm::dvec3(0, 0, 1))};
+    constexpr Interval any_component{-1, 1};
+    const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
+    const BumpTexels& bumps = *tables.bumps[index];
+    const TextureImage& map = tables.scene->textures[material.bump_map];
+    const bool in_floats = tables.model.arithmetic == ColorModel::Arithmetic::floating;
+    switch (bumps.form) {
+    case BumpForm::height_field:
+        return unit({normal_of(slope_range(tables, material, at))});
+    case BumpForm::derivatives:
+        return unit({normal_of(texels_range(
+            map, bumps.texels, at,
+            [&](const glm::dvec4& texel) {
+                return bumps.slope_range * (2.0 * glm::dvec2(texel) - 1.0);
+            },
+            RangeOf<glm::dvec2>{bumps.slope_range * any_component,
+                                bumps.slope_range * any_component}))});
+    case BumpForm::indexed: {
+        const VectorRange mixed{texels_range(
+            map, bumps.texels, at,
+            [](const glm::dvec4& texel) {
+                return expected_normal(static_cast<std::uint16_t>(texel.r));
+            },
+            Intervals{any_component, any_component, any_component})};
+        return in_floats ? unit(mixed) : mixed;
+    }
+    case BumpForm::as_given:
+    case BumpForm::normal_map:
+        break;
+    }
+    Intervals mixed = texels_range(
+        map, bumps.texels, at,
+        [](const glm::dvec4& texel) { return 2.0 * glm::dvec3(texel) - 1.0; },
+        Intervals{any_component, any_component, any_component});
+    mixed[0] = bumps.scale * mixed[0];
+    mixed[1] = bumps.scale * mixed[1];
+    return in_floats ? unit({mixed}) : VectorRange{mixed};
+}
+
+} // namespace
+
+LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model) {
+    LightingTables tables;
+    tables.scene = &scene;
+    tables.model = model;
+    tables.bumps.resize(scene.materials.size());
+    tables.slopes.resize(scene.materials.size());
+    // Only of materials that are drawn: an unused one may have bumps that the form cannot hold.
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[mesh.material];
+        std::optional<BumpTexels>& bumps = tables.bumps[mesh.material];
+        if (material.bump == Bump::none || bumps) continue;
+        bumps = expected_bump_texels(scene, material, model.bump_form);
+        if (material.bump == Bump::height_field)
+            tables.slopes[mesh.material] =
+                expected_slopes(scene.textures[material.bump_map], material.bump_scale);
+    }
+    assert(model.reflects == scene.environment.has_value());
+    assert(!model.reflects || model.axes == ColorModel::Axes::world); // the environment's
+    if (model.normalisation == Normalisation::cube_map) tables.cube = expected_normalisation_cube();
+    return tables;
+}
+
+RangeOf<glm::dvec2> slope_range(const LightingTables& tables, const Material& material,
+                                const PlaceRange& at) {
+    const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
+    const Image<glm::dvec2>& slopes = tables.slopes[index];
+    const TextureImage& map = tables.scene->textures[material.bump_map];
+    // Half of what heights between 0 and 1 differ by.
+    const Interval any = material.bump_scale * Interval{-0.5, 0.5};
+    return mixed_range(
+        turning_places(map.wrap_s, slopes.width, at[0]),
+        turning_places(map.wrap_t, slopes.height, at[1]),
+        [&](int x, int y) { return slopes.at(x, y); }, RangeOf<glm::dvec2>{any, any});
+}
+
+LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point) {
+    const Scene& scene = *tables.scene;
+    const Shading& shading = point.shading;
+    const Material& material = material_of(scene, point.triangle);
+    const TangentFrame frame = centre_frame(shading);
+    LightingInputs inputs;
+    inputs.light = into(frame, {around(shading.to_light)});
+    inputs.half = into(frame, {around(shading.half)});
+    inputs.bump = into(frame, {around(shading.bumped)});
+    // The frame holds no tangents if there is no bump map to need them.
+    if (material.bump == Bump::none) inputs.bump = {around(glm::dvec3(0, 0, 1))};
+    inputs.radiance = around(shading.light);
+    inputs.decal = around(shading.decal);
+    inputs.gloss = around(shading.gloss);
+    inputs.reflection = around(shading.reflection_color);
+    inputs.specular = material.specular;
+    inputs.ambient = scene.ambient;
+    inputs.lit = shading.lit;
+    return inputs;
+}
+
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point) {
+    const Scene& scene = *tables.scene;
+    const Interpolated& at = point.interpolated;
+    const Material& material = material_of(scene, point.triangle);
+    const glm::dmat3 axes = lighting_axes(scene, tables.model);
+    const TangentFrame world = frame_range(point);
+    const TangentFrame frame = turned(axes, world);
+    const VectorRange light = normalised(tables, {around(axes * at.to_light), at.to_light_off});
+    const VectorRange to_eye = normalised(tables, {around(-(axes * at.from_eye)), at.from_eye_off});
+    LightingInputs inputs;
+    inputs.light = into(frame, light);
+    VectorRange between = light + to_eye;
+    between.box = widened(between.box, v);
+    inputs.half = into(frame, normalised(tables, between));
+    inputs.bump = bump_range(tables, material, at.bump_at);
+    inputs.bump.distance += 12 * v;
+    add_surroundings(inputs, scene, point, world, tables.model.reflects);
+    return inputs;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,64 @@
+// The inputs of lighting at a pixel, as ranges: those of the truth, and those of a technique, which
+// depend on how it normalises vectors, on the form of its bump map and on its float roundings.
+#pragma once
+
+#include "compare/color/texel_ranges.h"
+#include "compare/color/vector_range.h"
+#include "compare/driver/interpolated.h"
+#include "reference/shade/shading.h"
+#include "scenes/lighting_settings.h"
+#include "scenes/scene.h"
+#include "scenes/surface/bump_forms.h"
+#include "scenes/surface/normalisation_cube.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shadowproof {
+
+/// Vectors are in the tangent space of the seen side: T, B and N are its x, y and z axes.
+struct LightingInputs {
+    VectorRange light;    ///< L
+    VectorRange half;     ///< H
+    VectorRange bump;     ///< N'
+    Intervals radiance;   ///< incident light, without visibility
+    Intervals decal;      ///< linear
+    Interval gloss;       ///< 1 where the decal's alpha is not a gloss
+    Intervals reflection; ///< of the environment; 0 unless the model reflects it
+    glm::dvec3 specular;  ///< colour
+    glm::dvec3 ambient;
+    bool lit = false;
+};
+
+/// The tables of one scene and one colour model, made once. A model without reflections is not for
+/// a scene with an environment (suits in raster/technique.h).
+struct LightingTables {
+    const Scene* scene = nullptr;
+    ColorModel model;
+    /// One per material; none where it has no bump map or is not drawn.
+    std::vector<std::optional<BumpTexels>> bumps;
+    std::vector<Image<glm::dvec2>> slopes; ///< one per material; where the asset has heights
+    NormalisationCube cube;                ///< where the model uses one
+};
+LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model);
+
+/// The slopes of a material's heights, as the asset has them, over a range of places.
+RangeOf<glm::dvec2> slope_range(const LightingTables& tables, const Material& material,
+                                const PlaceRange& at);
+
+/// A point that is shaded, and what is interpolated there.
+struct InputPoint {
+    const Shading& shading; ///< with all terms
+    std::uint32_t triangle = 0;
+    Interpolated interpolated;
+};
+
+/// The inputs by the definition in shading.h, at the pixel's centre, without roundings.
+LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point);
+
+/// The technique's inputs: its own arithmetic replayed, with tables made from their definitions
+/// (lighting_tables.h).
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point);
+
+} // namespace shadowproof

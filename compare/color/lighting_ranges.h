@@ -1,0 +1,57 @@
+// Inputs of lighting that truth and technique compute in the same way, as ranges over the values
+// interpolated at a pixel: tangent frame, incident light, decal, gloss, reflection. Float roundings
+// are counted beside each formula.
+#pragma once
+
+#include "compare/color/lighting_inputs.h"
+#include "compare/color/vector_range.h"
+#include "compare/driver/interpolated.h"
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+
+namespace shadowproof {
+
+const Material& material_of(const Scene& scene, std::uint32_t triangle);
+
+/// T, B and N of the seen side, orthonormal, with an error bound for each.
+struct TangentFrame {
+    glm::dvec3 tangent, bitangent, normal;
+    double tangent_off = 0;
+    double bitangent_off = 0;
+    double normal_off = 0;
+};
+
+/// The frame at the pixel's centre, exact.
+TangentFrame centre_frame(const Shading& shading);
+/// The frame with the errors of floats and of interpolation.
+TangentFrame frame_range(const InputPoint& point);
+/// The frame rotated into the axes in which a technique lights.
+TangentFrame turned(const glm::dmat3& axes, TangentFrame frame);
+glm::dmat3 lighting_axes(const Scene& scene, const ColorModel& model);
+
+/// Transforms a vector into tangent space.
+VectorRange into(const TangentFrame& frame, const VectorRange& vector);
+/// Transforms a vector of tangent space into the axes in which T, B and N are given.
+Intervals out_of(const TangentFrame& frame, const VectorRange& vector);
+
+/// Incident light, without visibility.
+Intervals radiance_range(const Scene& scene, const Interpolated& interpolated);
+
+struct DecalRange {
+    Intervals color{};
+    Interval gloss{1, 1};
+};
+DecalRange decal_range(const Scene& scene, const Material& material, const PlaceRange& at);
+
+/// What a surface reflects of the scene's environment. `normal`: N' in world axes.
+Intervals reflection_range(const Scene& scene, const Material& material, const Intervals& normal,
+                           const Interpolated& interpolated, const Interval& gloss);
+
+/// Fills in what truth and technique read alike at the point: incident light, decal, gloss,
+/// material and ambient light and, where the technique `reflects`, the environment. inputs.bump
+/// must be set. `frame`: takes the perturbed normal into world axes.
+void add_surroundings(LightingInputs& inputs, const Scene& scene, const InputPoint& point,
+                      const TangentFrame& frame, bool reflects);
+
+} // namespace shadowproof

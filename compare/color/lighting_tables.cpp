@@ -1,0 +1,168 @@
+#include "compare/color/lighting_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+namespace shadowproof {
+
+namespace {
+
+/// The nearest of 0 to 255 to a number in [0, 1]; halves go up.
+int nearest_byte(double number) {
+    return static_cast<int>(std::floor(255 * number + 0.5));
+}
+float stored_in_byte(double number) {
+    return static_cast<float>(nearest_byte(number) / 255.0);
+}
+/// Of a component in [-1, 1].
+int byte_of_component(double component) {
+    return nearest_byte((component + 1) / 2);
+}
+
+float component_in_byte(double component) {
+    return static_cast<float>(byte_of_component(component) / 255.0);
+}
+
+/// The texel `step` beside another in a row or column of `count`.
+int beside(int texel, int step, int count, Wrap wrap) {
+    const int other = texel + step;
+    if (other >= 0 && other < count) return other;
+    return wrap == Wrap::repeat ? (other + count) % count : texel;
+}
+
+glm::dvec3 to_unit(double x, double y, double z) {
+    const double length = std::sqrt(x * x + y * y + z * z);
+    return {x / length, y / length, z / length};
+}
+
+/// A normal map's texel without the scale of its length; a height field's slope as a normal.
+Image<glm::dvec3> expected_normals(const TextureImage& map, const Material& material) {
+    Image<glm::dvec3> normals(map.texels.width, map.texels.height);
+    if (material.bump == Bump::normal_map) {
+        for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+            const glm::vec4& texel = map.texels.pixels[i];
+            normals.pixels[i] = {material.bump_scale * (2 * double{texel.r} - 1),
+                                 material.bump_scale * (2 * double{texel.g} - 1),
+                                 2 * double{texel.b} - 1};
+        }
+        return normals;
+    }
+    const Image<glm::dvec2> slopes = expected_slopes(map, material.bump_scale);
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i)
+        normals.pixels[i] = {-slopes.pixels[i].x, slopes.pixels[i].y, 1};
+    return normals;
+}
+
+BumpTexels empty_texels(BumpForm form, const TextureImage& map) {
+    return {.form = form, .texels = Image<glm::vec4>(map.texels.width, map.texels.height)};
+}
+
+BumpTexels normals_in_bytes(const Image<glm::dvec3>& normals, BumpTexels made) {
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+        const glm::dvec3& n = normals.pixels[i];
+        const glm::dvec3 unit = to_unit(n.x, n.y, n.z);
+        made.texels.pixels[i] = {component_in_byte(unit.x), component_in_byte(unit.y),
+                                 component_in_byte(unit.z), 1};
+    }
+    return made;
+}
+
+BumpTexels slopes_in_bytes(const Image<glm::dvec3>& normals, BumpTexels made) {
+    double range = 0;
+    for (const glm::dvec3& n : normals.pixels)
+        range = std::max({range, std::abs(n.x / n.z), std::abs(n.y / n.z)});
+    made.slope_range = range > 0 ? range : 1;
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+        const glm::dvec3& n = normals.pixels[i];
+        made.texels.pixels[i] = {stored_in_byte(0.5 - n.x / n.z / (2 * made.slope_range)),
+                                 stored_in_byte(0.5 + n.y / n.z / (2 * made.slope_range)), 0, 1};
+    }
+    return made;
+}
+
+/// A point of the octahedron |x| + |y| + |z| = 1 seen from above, its lower half folded outwards
+/// over the upper half's four edges.
+struct OctahedralPlace {
+    double u = 0;
+    double v = 0;
+
+    OctahedralPlace folded() const {
+        return {std::copysign(1 - std::abs(v), u < 0 ? -1.0 : 1.0),
+                std::copysign(1 - std::abs(u), v < 0 ? -1.0 : 1.0)};
+    }
+};
+
+BumpTexels numbers_of_normals(const Image<glm::dvec3>& normals, BumpTexels made) {
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+        glm::dvec3 n = normals.pixels[i];
+        double size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+        if (!(size > 0)) {
+            n = {0, 0, 1};
+            size = 1;
+        }
+        OctahedralPlace place{n.x / size, n.y / size};
+        if (n.z < 0) place = place.folded();
+        made.texels.pixels[i] = {
+            static_cast<float>(byte_of_component(place.v) * 256 + byte_of_component(place.u)), 0, 0,
+            1};
+    }
+    return made;
+}
+
+} // namespace
+
+Image<glm::dvec2> expected_slopes(const TextureImage& heights, double scale) {
+    const int width = heights.texels.width;
+    const int height = heights.texels.height;
+    Image<glm::dvec2> slopes(width, height);
+    const auto at = [&](int x, int y) { return double{heights.texels.at(x, y).r}; };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double along = at(beside(x, 1, width, heights.wrap_s), y) -
+                                 at(beside(x, -1, width, heights.wrap_s), y);
+            const double down = at(x, beside(y, 1, height, heights.wrap_t)) -
+                                at(x, beside(y, -1, height, heights.wrap_t));
+            slopes.at(x, y) = {along * (scale / 2), down * (scale / 2)};
+        }
+    return slopes;
+}
+
+BumpTexels expected_bump_texels(const Scene& scene, const Material& material, BumpForm form) {
+    assert(material.bump != Bump::none);
+    const TextureImage& map = scene.textures[material.bump_map];
+    const bool heights = material.bump == Bump::height_field;
+    if (form == BumpForm::as_given) form = heights ? BumpForm::height_field : BumpForm::normal_map;
+    const bool given = form == (heights ? BumpForm::height_field : BumpForm::normal_map);
+    if (given) return {.form = form, .texels = map.texels, .scale = material.bump_scale};
+    const Image<glm::dvec3> normals = expected_normals(map, material);
+    if (form == BumpForm::derivatives) return slopes_in_bytes(normals, empty_texels(form, map));
+    if (form == BumpForm::indexed) return numbers_of_normals(normals, empty_texels(form, map));
+    return normals_in_bytes(normals, empty_texels(form, map));
+}
+
+glm::dvec3 expected_normal(std::uint16_t number) {
+    OctahedralPlace place{(number & 0xffU) / 127.5 - 1, (number >> 8U) / 127.5 - 1};
+    const double z = 1 - std::abs(place.u) - std::abs(place.v);
+    if (z < 0) place = place.folded();
+    return to_unit(place.u, place.v, z);
+}
+
+NormalisationCube expected_normalisation_cube(int size) {
+    NormalisationCube cube{size, {}};
+    for (std::size_t face = 0; face < cube.faces.size(); ++face) {
+        cube.faces[face] = Image<glm::u8vec3>(size, size);
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const auto place = [&](int texel) { return 2 * (texel + 0.5) / size - 1; };
+                const glm::dvec3 way = through(face, place(x), place(y));
+                const glm::dvec3 unit = to_unit(way.x, way.y, way.z);
+                cube.faces[face].at(x, y) = {byte_of_component(unit.x), byte_of_component(unit.y),
+                                             byte_of_component(unit.z)};
+            }
+    }
+    return cube;
+}
+
+} // namespace shadowproof

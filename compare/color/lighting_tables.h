@@ -1,0 +1,30 @@
+// The tables of the techniques' lighting, made a second time from their definitions, so that the
+// judge shares no code with the claim: it uses nothing of scenes/surface/bump_forms.cpp,
+// scenes/surface/relief.cpp or make_normalisation_cube.
+#pragma once
+
+#include "scenes/scene.h"
+#include "scenes/surface/bump_forms.h"
+#include "scenes/surface/normalisation_cube.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// Central differences of a height field's red channel, in heights per texel times `scale`: along a
+/// row, and down the rows. Past the border are the texels of the wrap mode; for mirrored, those of
+/// the border itself.
+Image<glm::dvec2> expected_slopes(const TextureImage& heights, double scale);
+
+/// As bump_forms.h defines them. The form must be one that the material can have.
+BumpTexels expected_bump_texels(const Scene& scene, const Material& material, BumpForm form);
+
+/// The normal that a number stands for (indexed_normal's definition).
+glm::dvec3 expected_normal(std::uint16_t number);
+
+/// As normalisation_cube.h defines it.
+NormalisationCube expected_normalisation_cube(int size = 64);
+
+} // namespace shadowproof

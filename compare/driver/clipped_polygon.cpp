@@ -1,0 +1,161 @@
+#include "compare/driver/clipped_polygon.h"
+
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+using Corner = ViewCorner;
+using Polygon = std::vector<Corner>;
+
+// Mesa's draw module makes a corner as out + t (in - out), in each component of the clip
+// coordinates: the difference, its product and the sum round, by v of at most the larger corner's
+// size each, as t is between 0 and 1. An error of t itself moves the corner along the edge. The
+// corners' own errors weigh as they do.
+Corner between(const Corner& from, const Corner& to, double t, double standard_near) {
+    const auto numerator = [&](const Corner& corner) {
+        return standard_near > 0 ? std::abs(corner.at.z - 2 * standard_near * corner.at.w) : 0.0;
+    };
+    Corner made;
+    made.at = from.at + t * (to.at - from.at);
+    const glm::dvec3 larger = glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
+    made.error = (1 - t) * from.error + t * to.error + 3 * v * larger;
+    made.clip_error = (1 - t) * from.clip_error + t * to.clip_error +
+                      3 * v * (larger.z + std::max(numerator(from), numerator(to)));
+    made.made_by_clipping = true;
+    return made;
+}
+
+// A corner is kept where the clip coordinates say so. Window depth's numerator z and w are off by 5
+// v of their terms each, which are those of forward and, but in reversed depth, twice the near
+// plane: their sum or difference moves the near plane by no more than forward's own error and 6 v
+// of the plane's depth. The far plane is where z and w are equal: where standard depth is, they are
+// so nearly alike everywhere that the same error moves it by (far - near) / near as much.
+double near_error(const Corner& corner, const Drawing& drawing) {
+    return corner.error.z + 6 * v * drawing.near * corner.at.w;
+}
+double far_error(const Corner& corner, const Drawing& drawing) {
+    const double n = drawing.standard_near;
+    if (n > 0)
+        return (corner.error.z + 6 * v * n * corner.at.w) * std::max((drawing.far - n) / n, 1.0);
+    return corner.error.z + 6 * v * drawing.far * corner.at.w;
+}
+
+// Window depth is half the quotient of numerator and depth; the inverse depth is what is left of it
+// to 1, over the near plane.
+PicturePoint pictured(const Camera& camera, const Corner& corner, double standard_near) {
+    const glm::dvec2 half = half_extent(camera);
+    const glm::dvec4& at = corner.at;
+    PicturePoint point{.place = {(at.x / at.z / half.x + 1) * 0.5 * camera.width,
+                                 (1 - at.y / at.z / half.y) * 0.5 * camera.height},
+                       .inverse_depth = at.w / at.z,
+                       .made_by_clipping = corner.made_by_clipping};
+    const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
+                                    double(camera.width), double(camera.height)});
+    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double depth_error = corner.error.z / at.z;
+    point.place_error = std::max(corner.error.x, corner.error.y) / at.z * scale +
+                        depth_error * pixels + 3 * v * pixels;
+    point.depth_error = (depth_error + window_depth_roundings * v) * point.inverse_depth;
+    if (standard_near > 0) point.depth_error += 0.5 * corner.clip_error / at.z / standard_near;
+    return point;
+}
+
+} // namespace
+
+ViewCorner viewed(const Camera& camera, const glm::dvec4& point, double offset) {
+    const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
+    const glm::dvec3 at(glm::dot(camera.right, relative), glm::dot(camera.up, relative),
+                        glm::dot(camera.forward, relative));
+    const double terms = 2 * (std::sqrt(3.0) * glm::length(at) + point.w * offset);
+    return {.at = {at, point.w}, .error = glm::dvec3(transform_roundings * v * terms)};
+}
+
+std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
+                                const ClipFunction& function, const Drawing& drawing) {
+    Polygon kept; // Sutherland & Hodgman 1974
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Corner& from = polygon[i];
+        const Corner& to = polygon[(i + 1) % polygon.size()];
+        const double one = function(from);
+        const double other = function(to);
+        if (one >= 0) kept.push_back(from);
+        if ((one < 0) != (other < 0))
+            kept.push_back(between(from, to, one / (one - other), drawing.standard_near));
+    }
+    return kept;
+}
+
+std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<ViewCorner> polygon,
+                                          const Drawing& drawing, PlaneCut cut) {
+    const glm::dvec2 guard = 2.0 * half_extent(camera);
+    const double sign = cut == PlaneCut::nominal ? 0 : (cut == PlaneCut::most ? 1 : -1);
+    const auto clip = [&](const ClipFunction& function) {
+        const bool all_kept =
+            std::all_of(polygon.begin(), polygon.end(),
+                        [&](const Corner& corner) { return function(corner) >= 0; });
+        if (!all_kept) polygon = clipped(polygon, function, drawing);
+    };
+    clip([&](const Corner& c) {
+        return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
+    });
+    clip([&](const Corner& c) { return c.at.x + guard.x * c.at.z; });
+    clip([&](const Corner& c) { return -c.at.x + guard.x * c.at.z; });
+    clip([&](const Corner& c) { return c.at.y + guard.y * c.at.z; });
+    clip([&](const Corner& c) { return -c.at.y + guard.y * c.at.z; });
+    if (std::isfinite(drawing.far))
+        clip([&](const Corner& c) {
+            return drawing.far * c.at.w - c.at.z + sign * far_error(c, drawing);
+        });
+    std::vector<PicturePoint> points;
+    for (const Corner& corner : polygon)
+        points.push_back(pictured(camera, corner, drawing.standard_near));
+    return points;
+}
+
+Drawing drawing_of(const Scene& scene, const Frame& frame, double far) {
+    const DepthModel& model = frame.depth_model;
+    return {.near = frame.depth_model.clamp ? 0 : scene.camera.near,
+            .far = far,
+            .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
+            .standard_near = model.reversed() ? 0 : model.near};
+}
+
+std::vector<PicturePoint> clipped_polygon(const Camera& camera,
+                                          const std::array<glm::dvec4, 3>& corners,
+                                          const Drawing& drawing) {
+    Polygon polygon;
+    for (const glm::dvec4& corner : corners)
+        polygon.push_back(viewed(camera, corner, drawing.offset));
+    return clipped_polygon(camera, std::move(polygon), drawing, PlaneCut::nominal);
+}
+
+std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
+                                                           const std::vector<glm::vec3>* far_ends,
+                                                           std::uint32_t triangle, int first) {
+    const glm::dvec4 light = homogeneous(chosen_light(casters));
+    const auto start = [&](int k) {
+        return glm::dvec4(glm::dvec3(casters.positions[casters.triangles[triangle][k]]), 1);
+    };
+    const auto end = [&](int k) {
+        if (far_ends == nullptr) return light.w * start(k) - light;
+        return glm::dvec4(glm::dvec3((*far_ends)[casters.triangles[triangle][k]]), 1);
+    };
+    const int a = first;
+    const int b = (first + 1) % 3;
+    return {{{start(a), start(b), end(b)},
+             {start(a), end(b), end(a)},
+             {start(b), start(a), end(a)},
+             {start(b), end(a), end(b)}}};
+}
+
+} // namespace shadowproof

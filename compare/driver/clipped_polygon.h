@@ -1,0 +1,86 @@
+// A triangle as a rasterizer's clipper leaves it, with bounds for float roundings. A corner made by
+// clipping lies between two others; its error grows with the size of the larger one.
+#pragma once
+
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <vector>
+
+namespace shadowproof {
+
+/// The parameters of a drawing that affect clipping.
+struct Drawing {
+    double near = 0; ///< depths of planes that clip; 0 where depths are clamped instead
+    double far = std::numeric_limits<double>::infinity();
+    double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
+    /// The projection's near plane where window depth rises with depth; 0 where it is reversed.
+    double standard_near = 0;
+};
+
+/// `far`: the far plane of what is drawn; infinite if none clips.
+Drawing drawing_of(const Scene& scene, const Frame& frame, double far);
+
+/// A point of the picture, in pixels, and its inverse view depth, which is linear over the picture,
+/// as window depth is.
+struct PicturePoint {
+    glm::dvec2 place{0, 0};
+    double inverse_depth = 0;
+    double place_error = 0; ///< of the float transform, as lateral_error has it, and of clipping
+    double depth_error = 0; ///< of both and the window's roundings, as depth_error has it
+    bool made_by_clipping = false;
+};
+
+/// A corner relative to the eye, along right, up and forward, and w: exact, with bounds of its
+/// error in floats.
+struct ViewCorner {
+    glm::dvec4 at{0, 0, 0, 0};
+    glm::dvec3 error{0, 0, 0}; ///< of right, up and forward
+    double clip_error = 0; ///< that clipping added to forward and to the window depth's numerator
+    bool made_by_clipping = false;
+};
+
+/// A homogeneous world point (p, w) after the float transform. `offset`: as in Drawing.
+ViewCorner viewed(const Camera& camera, const glm::dvec4& point, double offset);
+
+/// Where the near and far planes cut: the floats that decide on which side a corner lies have
+/// errors, too.
+enum class PlaneCut : std::uint8_t {
+    nominal, ///< at their own depths
+    most,    ///< so that they leave the most
+    least,   ///< so that they leave the least
+};
+
+/// The part of a convex polygon where a function of its corners that is linear along edges is not
+/// negative.
+using ClipFunction = std::function<double(const ViewCorner&)>;
+std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
+                                const ClipFunction& function, const Drawing& drawing);
+
+/// A convex polygon clipped by the near and far planes and by a guard band, as below.
+std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<ViewCorner> polygon,
+                                          const Drawing& drawing, PlaneCut cut);
+
+/// `corners`: homogeneous world points (p, w). Clipped by the near and far planes, and by a guard
+/// band twice the picture's size, as Mesa's draw module has it (draw_pt_post_vs: x and y to twice
+/// w). Empty where nothing is left.
+std::vector<PicturePoint> clipped_polygon(const Camera& camera,
+                                          const std::array<glm::dvec4, 3>& corners,
+                                          const Drawing& drawing);
+
+/// The triangles that may draw a side of a volume, over the edge from corner `first` of a triangle
+/// to the next. A side is two triangles; the order of positions decides which diagonal divides
+/// them. `far_ends`: where the casters' positions lie once extruded, null where that is at
+/// infinity.
+std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
+                                                           const std::vector<glm::vec3>* far_ends,
+                                                           std::uint32_t triangle, int first);
+
+} // namespace shadowproof

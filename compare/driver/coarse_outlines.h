@@ -1,0 +1,37 @@
+// Outlines that the clipper's float errors may displace far: those of triangles that reach far
+// beyond the picture, and of the sides of their volumes.
+#pragma once
+
+#include "compare/driver/clipped_polygon.h"
+#include "reference/predict/region_ledger.h"
+
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+class CoarseOutlines {
+public:
+    /// Of all triangles of a scene, and of the sides over its silhouette. `far_ends`: where
+    /// casters' positions lie once extruded, null where that is at infinity.
+    CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
+                   const std::vector<glm::vec3>* far_ends, const Drawing& drawing);
+
+    /// Places, in pixels, on either side of the outlines that may be displaced as far as `place`,
+    /// each a step from the outline's nearest point: what is true there may be drawn at `place`. If
+    /// there are more than `most`, those across the outlines that may be displaced furthest.
+    std::vector<glm::dvec2> places_across(const glm::dvec2& place, double step,
+                                          std::size_t most) const;
+
+private:
+    struct Outline {
+        PicturePoint from, to; ///< one of them at least is made by clipping
+    };
+    std::vector<Outline> outlines_; ///< furthest displacement first
+
+    void add(const std::vector<PicturePoint>& polygon);
+};
+
+} // namespace shadowproof

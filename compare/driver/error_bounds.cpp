@@ -1,0 +1,75 @@
+#include "compare/driver/error_bounds.h"
+
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+/// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
+/// point, the largest over the three. World coordinates carry the eye's distance from the origin
+/// with them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A
+/// point of a volume's side was extruded from the light, and that direction is rounded too.
+double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    const Camera& camera = scene.camera;
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    double largest = 0;
+    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
+        const auto terms = [&](const glm::dvec3& p) {
+            return glm::dot(glm::abs(axis), glm::abs(p));
+        };
+        const double position = depth_model.eye_relative ? 2 * terms(point - camera.eye)
+                                                         : terms(point) + terms(camera.eye);
+        largest = std::max(largest, position + terms(light.w * point - glm::dvec3(light)));
+    }
+    return largest;
+}
+
+/// View depth of `point`, at least the near plane's.
+double depth_of(const Camera& camera, const glm::dvec3& point) {
+    return std::max(view_depth(camera, point), camera.near);
+}
+
+} // namespace
+
+// A matrix entry is rounded (1), multiplied (1) and added up (3): 5 v of the terms' sizes. In x
+// that moves a point by scale / depth pixels a unit, in w by its own distance from the middle, at
+// most half the picture, over the depth. The division, the viewport's product and its sum each
+// round a coordinate of up to the picture's width: 3 v.
+double lateral_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    const Camera& camera = scene.camera;
+    const double half_step = half_snapping_step(depth_model.subpixel_bits);
+    const double pixels = std::max(camera.width, camera.height);
+    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double terms = transform_terms(scene, depth_model, point);
+    const double transform =
+        transform_roundings * v * (scale + 0.5 * pixels) * terms / depth_of(camera, point);
+    return half_step + transform + 3 * v * pixels;
+}
+
+// Window depth z is rounded at 1/w, z/w, the viewport's sum (its product is by a power of two), and
+// at the pixel in two products and two sums of its plane: 7 times by at most v z, where z = 1 is
+// the largest standard depth and z = n/t the reversed one (where that is finite, a difference of
+// terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
+// more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
+// are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
+// lateral_error), which 8 covers too. How far off the plane itself is set up, setup_error
+// tells.
+double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    const double t = depth_of(scene.camera, point);
+    const double near = depth_model.near;
+    const double far = depth_model.far;
+    double window_depth_error = t * t / near; // dt/dz times z, projection infinite
+    if (depth_model.finite()) window_depth_error = t * t * (far - near) / (far * near);
+    if (depth_model.reversed()) window_depth_error = t;
+    return depth_roundings * (window_depth_error + transform_terms(scene, depth_model, point));
+}
+
+} // namespace shadowproof

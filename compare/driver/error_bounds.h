@@ -1,0 +1,25 @@
+// Error bounds of a rasterizer that conforms to OpenGL: how far aside it may draw a face, and how
+// far off the face's depth may be. Derived from the driver's snapping, the depth format and the
+// roundings of floats, term by term; never tuned.
+#pragma once
+
+#include "scenes/driver.h"
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// Roundings of window depth between two faces that are compared: see depth_error.
+inline constexpr double depth_roundings = 2 * window_depth_roundings * float_roundoff;
+
+/// How far, in pixels, the rasterizer may move what it draws at a world point sideways: half a
+/// step of the snapping grid, and the float transform's error.
+double lateral_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
+
+/// How far, in view depth, two faces at a world point may be apart and yet be stored in either
+/// order: the quantum of the depth format and the float transform's error.
+double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
+
+} // namespace shadowproof

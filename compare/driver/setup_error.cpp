@@ -1,0 +1,215 @@
+#include "compare/driver/setup_error.h"
+
+#include "reference/trace/faces.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+using PictureTriangle = std::array<PicturePoint, 3>;
+
+/// The triangles that are set up: a fan over what clipping leaves.
+std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
+                                    const CoveredPixel& pixel) {
+    const std::vector<PicturePoint> polygon = clipped_polygon(camera, corners, pixel.drawing);
+    std::vector<PictureTriangle> fan;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    return fan;
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// Whether it comes within `reach` of the pixel.
+bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+    const double area =
+        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2 from = triangle[i].place;
+        const glm::dvec2 along = triangle[(i + 1) % 3].place - from;
+        const double inside = cross(along, pixel - from) * (area < 0 ? -1 : 1);
+        if (inside < -reach * glm::length(along)) return false;
+    }
+    return true;
+}
+
+// llvmpipe makes a triangle's depth a plane over the picture: with differences x01, y01, z01 of its
+// first two corners and x20, y20, z20 of the third and first, A = x01 y20 - x20 y01, and
+//   dz/dx = z01 (y20 / A) - z20 (y01 / A),   dz/dy = z20 (x01 / A) - z01 (x20 / A),
+// z at the picture's corner is z0 - (dz/dx x0 + dz/dy y0), and from there on at the pixel. Rounded
+// are, by v of its size each: in the slopes' terms both differences, quotient, product and
+// difference of the two (5 v), 1 / A alike in all terms; in A two differences and a product (3 v of
+// each of its terms), and their difference (v). An error that is alike in all terms tilts the plane
+// about the first corner, by that share of its rise to the pixel. The sums at the picture's corner
+// and at the pixel round products of slopes and places: three times each, and the first one's twice
+// more.
+struct Plane {
+    double z01 = 0;
+    double z20 = 0;
+    glm::dvec2 slope{0, 0}; ///< sizes
+};
+double error_from(const PicturePoint& first, const PicturePoint& second, const PicturePoint& third,
+                  const glm::dvec2& pixel, const Plane& plane) {
+    const auto& [z01, z20, slope] = plane;
+    const glm::dvec2 d01 = first.place - second.place;
+    const glm::dvec2 d20 = third.place - first.place;
+    const double area = std::abs(cross(d01, d20));
+    const glm::dvec2 terms(std::abs(z01 * d20.y) + std::abs(z20 * d01.y),
+                           std::abs(z20 * d01.x) + std::abs(z01 * d20.x));
+    const glm::dvec2 way = glm::abs(pixel - first.place);
+    const double climb = std::max({std::abs(z01), std::abs(z20), glm::dot(slope, way)});
+    const double terms_of_area = std::abs(d01.x * d20.y) + std::abs(d20.x * d01.y);
+    return 5 * v * glm::dot(terms / area, way) + v * (3 * terms_of_area / area + 2) * climb +
+           v * glm::dot(slope, 5.0 * glm::abs(first.place) + 3.0 * glm::abs(pixel));
+}
+
+/// Of the inverse depths' plane.
+Plane plane_of_depths(const PicturePoint& first, const PicturePoint& second,
+                      const PicturePoint& third) {
+    const glm::dvec2 d01 = first.place - second.place;
+    const glm::dvec2 d20 = third.place - first.place;
+    const double z01 = first.inverse_depth - second.inverse_depth;
+    const double z20 = third.inverse_depth - first.inverse_depth;
+    const double area = std::abs(cross(d01, d20));
+    return {z01, z20,
+            glm::abs(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area};
+}
+
+/// The steepest plane of a value over depth whose value is nowhere larger than 1.
+Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
+                     const PicturePoint& third) {
+    const glm::dvec2 d01 = glm::abs(first.place - second.place);
+    const glm::dvec2 d20 = glm::abs(third.place - first.place);
+    const double z01 = first.inverse_depth + second.inverse_depth;
+    const double z20 = third.inverse_depth + first.inverse_depth;
+    const double area = std::abs(cross(first.place - second.place, third.place - first.place));
+    return {z01, z20, glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area};
+}
+
+/// Which corner is the first depends on the driver: any may be. Corners are off, too, each by as
+/// much as it weighs at the pixel: by more than one in sum where snapping makes a triangle cover
+/// what lies beside it, and by far more where that is thin.
+double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+    const auto& [a, b, c] = triangle;
+    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
+    // Seen edge-on; or an end at infinity in no direction at all, so that the area is not a number.
+    if (!(area > 0)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 d01 = a.place - b.place;
+    const glm::dvec2 d20 = c.place - a.place;
+    const double z01 = a.inverse_depth - b.inverse_depth;
+    const double z20 = c.inverse_depth - a.inverse_depth;
+    const double slope =
+        glm::length(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area;
+    double corners = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2 from = triangle[(i + 1) % 3].place;
+        const glm::dvec2 along = triangle[(i + 2) % 3].place - from;
+        const double weight =
+            (std::abs(cross(along, pixel - from)) + reach * glm::length(along)) / area;
+        corners += weight * (triangle[i].depth_error + slope * triangle[i].place_error);
+    }
+    return corners + std::max({error_from(a, b, c, pixel, plane_of_depths(a, b, c)),
+                               error_from(b, c, a, pixel, plane_of_depths(b, c, a)),
+                               error_from(c, a, b, pixel, plane_of_depths(c, a, b))});
+}
+
+/// For a value over depth whose value is nowhere larger than 1: corners are off by their quotient's
+/// and product's roundings, and those of the shader that made them, 8 v in all.
+double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
+    const auto& [a, b, c] = triangle;
+    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
+    if (!(area > 0)) return std::numeric_limits<double>::infinity();
+    const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
+    return 8 * v * largest + std::max({error_from(a, b, c, pixel, steepest_plane(a, b, c)),
+                                       error_from(b, c, a, pixel, steepest_plane(b, c, a)),
+                                       error_from(c, a, b, pixel, steepest_plane(c, a, b))});
+}
+
+/// The largest over the triangles that may cover the pixel, or over all if none does.
+template <class Freedom>
+double largest_error(const Camera& camera, const std::vector<PictureTriangle>& triangles,
+                     const CoveredPixel& pixel, const Freedom& error_of) {
+    const glm::dvec2 place = project(camera, camera.eye + pixel.direction);
+    double covering = -1;
+    double any = 0;
+    for (const PictureTriangle& triangle : triangles) {
+        const double error = error_of(triangle, place);
+        any = std::max(any, error);
+        if (may_reach(triangle, place, pixel.reach)) covering = std::max(covering, error);
+    }
+    return covering < 0 ? any : covering;
+}
+
+/// For depths.
+double largest_error(const Camera& camera, const std::vector<PictureTriangle>& triangles,
+                     const CoveredPixel& pixel) {
+    return largest_error(camera, triangles, pixel,
+                         [&](const PictureTriangle& triangle, const glm::dvec2& place) {
+                             return error_of(triangle, place, pixel.reach);
+                         });
+}
+
+std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
+                                    const CoveredPixel& pixel) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    return set_up(scene.camera, {at(0), at(1), at(2)}, pixel);
+}
+
+} // namespace
+
+double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    return largest_error(scene.camera, set_up(scene, triangle, pixel), pixel);
+}
+
+// It grows to all sides as sizes of linear functions do, so that no pixel has more than the corners
+// of a region that holds it.
+double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach) {
+    double largest = 0;
+    for (const PicturePoint& corner : triangle)
+        for (const double x : {-reach, reach})
+            for (const double y : {-reach, reach})
+                largest =
+                    std::max(largest, error_of(triangle, corner.place + glm::dvec2(x, y), reach));
+    return largest;
+}
+
+// An interpolated value is q = p / r, where p is the value over depth and r the inverse depth, both
+// off by up to the share of its size: q is off by (error of p + |q| error of r) / r.
+double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const double inverse_depth =
+        largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
+                      [](const PictureTriangle& one, const glm::dvec2& place) {
+                          return attribute_error_of(one, place);
+                      });
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 across =
+        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
+    const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
+    return 2 * inverse_depth * depth;
+}
+
+double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
+                   const Crossing& side, const CoveredPixel& pixel) {
+    std::vector<PictureTriangle> triangles;
+    for (const std::array<glm::dvec4, 3>& half :
+         triangles_of_side(casters, far_ends, side.triangle, static_cast<int>(side.part)))
+        for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel))
+            triangles.push_back(triangle);
+    return largest_error(casters.camera, triangles, pixel);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,39 @@
+// Error bounds of triangle set-up: of the plane of a face's depths over the picture, and of other
+// interpolated values. The error is large for long and thin triangles, such as the volume sides of
+// fine meshes: rounding their slopes tilts the plane far more than that of a well-shaped triangle.
+#pragma once
+
+#include "compare/driver/clipped_polygon.h"
+#include "reference/predict/ledger.h"
+#include "scenes/scene.h"
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+/// A pixel that a face covers.
+struct CoveredPixel {
+    glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
+    double reach = 0;              ///< pixels by which a face may be drawn aside
+    Drawing drawing;
+};
+
+/// Error of the inverse of a triangle's view depth at a pixel. Infinite where the triangle is seen
+/// edge-on, as then any slope may come out.
+double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
+
+/// The same for a side of a volume. `far_ends`: where the casters' positions lie once extruded,
+/// null where that is at infinity.
+double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
+                   const Crossing& side, const CoveredPixel& pixel);
+
+/// The largest error for a triangle of the picture, over all pixels within `reach` of it.
+double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach);
+
+/// Error of a value interpolated over a triangle, in perspective, at a pixel: as a share of the
+/// value's size at the corner where it is largest. Infinite where the triangle is seen edge-on.
+double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
+
+} // namespace shadowproof

@@ -1,0 +1,16 @@
+// The families of claims by name.
+#pragma once
+
+#include "compare/judge/judge.h"
+
+#include <span>
+
+namespace shadowproof {
+
+/// All families in the order of the registry, families.inc.
+std::span<const Family> all_families();
+
+/// The judge of a claim, by its family; keeps references to both. Asserts that the family is known.
+std::unique_ptr<Judge> judge_of(const TracedScene& traced, const Frame& frame);
+
+} // namespace shadowproof

@@ -1,0 +1,34 @@
+// What judges share whose claims are classes alone, without surface or counter: nothing but the
+// claim is predicted, and what differs is an edge's or unexplained.
+#pragma once
+
+#include "compare/judge/judge.h"
+
+namespace shadowproof {
+
+class ClassJudge : public Judge {
+public:
+    ClassJudge(const TracedScene& traced, const Frame& frame) : claim_{traced, frame} {}
+
+    bool settles(PixelPlace p, std::optional<PixelCause>& cause) const override;
+    std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override;
+    void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+                     std::span<const RayTruth> truths) const override;
+    Finding look_around(PixelPlace p, const Neighbourhood& around,
+                        std::span<const RayTruth> truth) const override;
+    CoarseOutlines coarse_outlines() const override;
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override;
+
+protected:
+    const JudgedClaim& claim() const { return claim_; }
+
+private:
+    JudgedClaim claim_;
+
+    /// How far from its centre a pixel may show what is true there, beside the driver's own error.
+    virtual double footprint() const { return 0; }
+    /// Whether what is true along a ray of its neighbourhood may make the pixel's claim.
+    virtual bool allows(PixelPlace p, const RayTruth& truth) const;
+};
+
+} // namespace shadowproof

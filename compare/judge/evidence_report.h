@@ -1,0 +1,57 @@
+// The evidence of a cell beside its claim: words and figures, which are sent between processes, and
+// pictures and data of the report, which are written by the process that makes them.
+#pragma once
+
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowproof {
+
+/// Compares what was read back with the prediction, at every pixel. A surface that no rasterizer
+/// would show (surface_check.h) leaves the pixel unexplained, whatever its evidence.
+struct EvidenceCheck {
+    std::uint64_t equal = 0;       ///< at the pixel's centre
+    std::uint64_t in_band = 0;     ///< equal to a value inside the pixel's band
+    std::uint64_t unexplained = 0; ///< neither; always a failure
+    int first_x = 0;               ///< the first unexplained, in rows from the top
+    int first_y = 0;
+};
+
+/// Figures of the evidence as a whole.
+struct EvidenceSummary {
+    std::vector<std::string> unexplained; ///< one clause per figure or picture that is not as
+                                          ///< predicted; any fails the cell
+    std::string results; ///< members of the cell in results.json, as the text of a JSON object
+    std::string words;   ///< for the cell's line on the console; empty: none
+    std::vector<std::string> pictures; ///< kinds of EvidenceReport::pictures
+};
+
+/// A named list of values for the viewer, encoded (compare/report/blocks.h).
+using Blocks = std::vector<std::pair<std::string, std::string>>;
+
+/// What a report shows of the evidence.
+class EvidenceReport {
+public:
+    /// A picture of the report: "volumes" is written to volumes.png.
+    struct Picture {
+        std::string kind;
+        std::function<std::string(const Frame&)> png; ///< the file's bytes
+    };
+
+    EvidenceReport() = default;
+    virtual ~EvidenceReport() = default;
+    EvidenceReport(const EvidenceReport&) = delete;
+    EvidenceReport& operator=(const EvidenceReport&) = delete;
+
+    virtual std::vector<Picture> pictures() const = 0;
+    /// Members of the header of the cell's data, as the text of a JSON object.
+    virtual std::string header() const = 0;
+    virtual Blocks blocks(const Frame& frame) const = 0;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,110 @@
+// What all families of claims are judged by: the questions that a family's judge answers of a
+// claim, pixel by pixel and as a whole. Everything else (edge, verdict, gate, writers) knows no
+// family.
+#pragma once
+
+#include "compare/driver/coarse_outlines.h"
+#include "compare/driver/neighbourhood.h"
+#include "compare/judge/account.h"
+#include "compare/judge/evidence_report.h"
+#include "compare/judge/pixel_record.h"
+#include "reference/predict/traced_scene.h"
+#include "scenes/cause.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof {
+
+struct PixelPlace {
+    int x = 0;
+    int y = 0;
+};
+
+/// A claim beside the truth.
+struct JudgedClaim {
+    const TracedScene& traced;
+    const Frame& frame;
+
+    bool differs(PixelPlace p) const {
+        return frame.claim.at(p.x, p.y) != traced.truth().visibility.at(p.x, p.y);
+    }
+    /// Whether the triangle shown is the one truly seen; so where the claim shows no surface.
+    bool surface_as_true(PixelPlace p) const {
+        return !frame.shows_surface() ||
+               frame.triangle.at(p.x, p.y) == traced.truth().triangle.at(p.x, p.y);
+    }
+};
+
+/// Why one pixel differs.
+struct PixelCause {
+    Cause cause = Cause::unexplained;
+    /// Causes without which that one alone makes no difference to the pixel.
+    CauseSet also{};
+};
+
+/// What was found by looking at a pixel's surroundings.
+struct Finding {
+    bool evidence_in_band = false; ///< what was read back is predicted somewhere in its band
+    PixelCause cause;              ///< where the pixel differs
+};
+
+/// Pixels of one region of the picture (region_side), looked at together.
+struct Region {
+    std::span<const PixelPlace> places;
+    std::span<Finding> findings; ///< one per place
+};
+
+/// The judge of one claim: a family's answers. All are asked by several threads at once.
+class Judge {
+public:
+    Judge() = default;
+    virtual ~Judge() = default;
+    Judge(const Judge&) = delete;
+    Judge& operator=(const Judge&) = delete;
+
+    /// What the evidence is called in messages: "counter".
+    virtual std::string_view evidence() const = 0;
+
+    /// Settle: whether what was read back at the pixel is what is predicted at its centre, and its
+    /// claim, if it differs from the truth, follows from that; `cause` is then named.
+    virtual bool settles(PixelPlace p, std::optional<PixelCause>& cause) const = 0;
+
+    /// How far to each side what is drawn at each pixel may lie. `places`: of one region.
+    virtual std::vector<BandRadius> radii(std::span<const PixelPlace> places) const = 0;
+
+    /// Name: what may be drawn at the region's pixels within their neighbourhoods, one per place.
+    /// `truths`: along the rays of all neighbourhoods, one pixel after the other.
+    virtual void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+                             std::span<const RayTruth> truths) const = 0;
+    /// The same of one pixel, where the neighbourhood is some other place's.
+    virtual Finding look_around(PixelPlace p, const Neighbourhood& around,
+                                std::span<const RayTruth> truth) const = 0;
+
+    /// Outlines that the clipper may draw far aside, of surfaces and of what else is drawn.
+    virtual CoarseOutlines coarse_outlines() const = 0;
+
+    /// What the evidence tells of the claim as a whole. `cause`: Comparison::cause.
+    virtual EvidenceSummary summary(const EvidenceCheck& check,
+                                    const Image<std::uint8_t>& cause) const = 0;
+    /// What a report shows of it; null where that is nothing.
+    virtual std::shared_ptr<const EvidenceReport>
+    report(const Image<std::uint8_t>& cause) const = 0;
+
+    /// Account: the story of the record's pixel, its lengths times `unit` (Scene::unit).
+    virtual Account account(const PixelRecord& record, double unit) const = 0;
+};
+
+/// A family of claims, by the name that frames give (Frame::family).
+struct Family {
+    std::string_view name;
+    std::string_view summary; ///< one clause: what its evidence is
+    std::unique_ptr<Judge> (*judge)(const TracedScene& traced, const Frame& frame) = nullptr;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,32 @@
+// Why a picture's shadows are wrong: hypotheses, each predicted from the exact reference for the
+// whole picture and fitted to its wrong pixels.
+#pragma once
+
+#include "reference/predict/traced_scene.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowproof {
+
+struct Diagnosis {
+    /// "no_shadow", "inverted", "other_light", "caster_missing", "receiver_missing",
+    /// "one_sided_casters", "zpass", "zfail_far", "short_volumes", "missing_cap",
+    /// "stencil_bits", "shadow_map" (cut at its range), "light_moved"
+    std::string hypothesis;
+    std::vector<std::pair<std::string, double>> parameters; ///< "range", 12
+    std::uint64_t explained = 0;                            ///< wrong pixels that it predicts
+    std::uint64_t contradicted = 0; ///< right ones that would be wrong by it
+    std::string words;              ///< "the shadow of `lamp` is missing"
+};
+
+/// Hypotheses that explain more wrong pixels than they contradict right ones, best first, five at
+/// most. `frame`: of family "picture"; `cause`: Comparison::cause. None where no pixel is wrong but
+/// at edges.
+std::vector<Diagnosis> diagnose(const TracedScene& traced, const Frame& frame,
+                                const Image<std::uint8_t>& cause);
+
+} // namespace shadowproof

@@ -1,0 +1,20 @@
+// Colours, normals and tangents as pictures for viewing.
+#pragma once
+
+#include "compare/report/png.h"
+#include "reference/shade/shading.h"
+
+namespace shadowproof {
+
+/// Linear to sRGB (IEC 61966-2-1), clamped to what 8 bits hold.
+Image<Rgb> color_picture(const Image<glm::dvec3>& linear);
+Image<Rgb> color_picture(const Image<glm::vec3>& linear);
+
+/// The bumped normals as normal maps show them, in world space: 0.5 + 0.5 n. Background is black.
+Image<Rgb> normal_picture(const Image<Shading>& shadings);
+
+/// The tangents likewise; black also where a surface has no bump map. Where they jump, so does the
+/// frame that a bump map is read in.
+Image<Rgb> tangent_picture(const Image<Shading>& shadings);
+
+} // namespace shadowproof

@@ -1,0 +1,18 @@
+// One pixel's colour in words, and as JSON of schema shadowproof/pixel/1.
+#pragma once
+
+#include "compare/color/color_check.h"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace shadowproof {
+
+/// Several lines, each indented; none where the colour is not judged.
+std::string to_text(const ColorAccount& account, const std::string& technique);
+
+nlohmann::ordered_json to_json(const ColorAccount& account);
+
+std::string_view name_of(ColorVerdict verdict); ///< "within"
+
+} // namespace shadowproof

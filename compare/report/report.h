@@ -1,0 +1,100 @@
+// The writers of a run's result: as text, JSON, JUnit and a folder with pictures. They judge
+// nothing.
+#pragma once
+
+#include "compare/cell.h"
+#include "compare/output/replaced_folder.h"
+#include "compare/words.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// One line per cell, as the console prints it, without colour: "zpass  near_plane  agrees  ...",
+/// its first three columns padded to the widths given.
+struct ColumnWidths {
+    int technique = 0;
+    int scene = 0;
+    int verdict = 0;
+};
+std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths = {});
+
+/// The verdict's name, or "error".
+std::string_view outcome_name(const Cell& cell);
+
+/// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
+std::string cause_counts(const CausePixels& causes);
+
+/// Why a cell fails or could not run: "edge 31, near_plane 1,173; first (212,340) near_plane; ...",
+/// without how to reproduce it.
+std::string why_it_fails(const Cell& cell, const Gate& gate);
+
+/// The command that runs this cell alone, quoted for a POSIX shell.
+std::string reproducing_command(const Report& report, const SceneResult& scene, const Cell& cell);
+/// The same for the whole scene, with every technique.
+std::string reproducing_command(const Report& report, const SceneResult& scene);
+
+/// "no technique shows near_plane any more, which the scene declares"
+std::string no_longer_provoked_words(const SceneResult& scene);
+
+/// The scene's folder in the report: its name, unique in the run, in characters that every file
+/// system and URL takes.
+std::string folder_of(const SceneResult& scene);
+
+/// "colour off by 1.04/255 at most (rmse 0.31, 99.9 % within 0.92)"
+std::string words_of(const ColorCheck& colors);
+
+/// Names of files that every report has, besides manifest.json.
+inline constexpr const char* page_name = "index.html";
+inline constexpr const char* results_name = "results.json";
+inline constexpr const char* results_script_name = "results.js";
+
+/// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause,
+/// volumes.
+std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
+
+/// The same for the picture that all cells of a scene share.
+std::string truth_path(const SceneResult& scene);
+std::string color_path(const SceneResult& scene);
+
+/// results.json of schema shadowproof/results/1.
+std::string to_json(const Report& report);
+/// JUnit XML: one suite per scene, one case per cell; valid by Ant's schema and by Jenkins'.
+/// `timestamp`: when the run began, "2024-01-31T23:59:59".
+std::string to_junit(const Report& report, const std::string& timestamp);
+/// For GitHub Actions: a line `::error title=...::...` for each cell and scene that fails.
+std::string to_workflow_commands(const Report& report);
+/// For GitHub's step summary: the cells as a table in Markdown, failures first.
+std::string to_step_summary(const Report& report);
+
+/// The report's folder, with index.html, results.json and pictures, while it is being written
+/// beside its place. For what happens to an existing folder see compare/output/replaced_folder.h.
+class ReportFolder {
+public:
+    /// Throws Error where `folder` must not be replaced, or cannot be written.
+    explicit ReportFolder(const std::filesystem::path& folder);
+
+    /// Writes the truth and what else the cells of a scene share.
+    void add_scene(const SceneResult& scene) const;
+    /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
+    /// threads 0: one per core.
+    void add_cell(const SceneResult& scene, Cell& cell, int threads = 0) const;
+    /// Writes a file that is taken over from another report.
+    void add_file(const std::string& name, std::string_view bytes) const;
+    /// Writes a file that the user requested by its name in this folder.
+    void add_requested(const std::string& name, std::string_view bytes);
+    /// Writes index.html, results.json and results.js, and replaces an older report.
+    void finish(const Report& report);
+    void finish(const std::string& results_json);
+
+    /// Messages for the user: files in the folder that were kept.
+    const std::vector<std::string>& notes() const { return files_.notes(); }
+
+private:
+    ReplacedFolder files_;
+};
+
+} // namespace shadowproof

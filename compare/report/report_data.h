@@ -1,0 +1,25 @@
+// The data files of a report: what the viewer reads when a cell is opened. They are scripts, since
+// a page opened from disk may load scripts and nothing else.
+#pragma once
+
+#include "compare/report/report.h"
+
+#include <string>
+
+namespace shadowproof {
+
+/// FOLDER/scene.js: camera, light, meshes and the truth, for all cells of a scene; of bump-lit
+/// scenes with the true colours.
+std::string scene_script(const SceneResult& scene);
+
+/// FOLDER/TECHNIQUE/cell.js: claim and counters of all pixels, ledgers of those that differ;
+/// where the technique has colours, those too, with their verdicts.
+std::string cell_script(const SceneResult& scene, const Cell& cell);
+
+/// results.js: the results as a script. Besides results.json the only file with times.
+std::string results_script(const std::string& results_json);
+
+/// The cause map as it stands in results.json: packed, one byte per pixel.
+std::string packed_cause_map(const Comparison& comparison);
+
+} // namespace shadowproof

@@ -1,0 +1,153 @@
+#include "compare/report/report_pictures.h"
+
+#include "compare/report/color_picture.h"
+#include "compare/report/report_data.h"
+#include "reference/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+namespace shadowproof {
+
+namespace {
+
+/// The dimmed claim, and where mark(i) is a number that colour of `marks`.
+template <class Colors, class ColorOf, class Mark>
+PalettePicture marked(const Cell& cell, const Colors& marks, ColorOf color_of, Mark mark) {
+    const Image<Visibility>& claim = cell.frame.claim;
+    PalettePicture picture{
+        Image<std::uint8_t>(claim.width, claim.height),
+        {dimmed(Visibility::lit), dimmed(Visibility::shadowed), dimmed(Visibility::background)}};
+    for (const auto& each : marks) picture.palette.push_back(color_of(each));
+    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
+        const std::optional<int> number = mark(i);
+        picture.indices.pixels[i] = number ? static_cast<std::uint8_t>(dimmed_count + *number)
+                                           : dimmed_index(claim.pixels[i]);
+    }
+    return picture;
+}
+
+} // namespace
+
+std::string folder_of(const SceneResult& scene) {
+    std::string folder = scene.name;
+    for (char& c : folder) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '_';
+        if (!plain) c = '_';
+    }
+    return folder.empty() ? "scene" : folder;
+}
+
+std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
+    return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+}
+
+std::string truth_path(const SceneResult& scene) {
+    return folder_of(scene) + "/truth.png";
+}
+
+std::string color_path(const SceneResult& scene) {
+    return folder_of(scene) + "/color.png";
+}
+
+PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell) {
+    return marked(
+        cell, all_contradictions, [](const ContradictionWords& words) { return words.color; },
+        [&](std::size_t i) -> std::optional<int> {
+            const Visibility right = truth.visibility.pixels[i];
+            const Visibility claim = cell.frame.claim.pixels[i];
+            if (right == claim) return std::nullopt; // though colours may differ
+            return static_cast<int>(contradiction(right, claim));
+        });
+}
+
+PalettePicture cause_picture(const Cell& cell) {
+    return marked(
+        cell, cause_colors, [](const Rgb& color) { return color; },
+        [&](std::size_t i) -> std::optional<int> {
+            const std::uint8_t cause = cell.comparison.cause.pixels[i];
+            return cause == no_difference ? std::nullopt : std::optional<int>(cause);
+        });
+}
+
+PalettePicture color_error_picture(const ColorCheck& colors) {
+    constexpr int shades = 128;
+    constexpr int octave = 8;
+    constexpr int least = -8; // log2 of the error of the first shade
+    constexpr std::uint8_t background = shades;
+    constexpr std::uint8_t beyond = shades + 1;
+    constexpr std::uint8_t unpredicted = shades + 2;
+    constexpr Rgb full{0xFF, 0xF4, 0xC8};
+    PalettePicture picture{Image<std::uint8_t>(colors.error.width, colors.error.height), {}};
+    for (int shade = 0; shade < shades; ++shade) {
+        Rgb color{};
+        for (std::size_t i = 0; i < color.size(); ++i)
+            color[i] = static_cast<std::uint8_t>(full[i] * shade / (shades - 1));
+        picture.palette.push_back(color);
+    }
+    picture.palette.push_back(dimmed(Visibility::background));
+    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::shading)]);
+    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::unexplained)]);
+    const auto shade_of = [](float error) {
+        if (!(error > 0)) return 0;
+        const double level = octave * (std::log2(double{error}) - least);
+        return std::clamp(static_cast<int>(std::lround(level)), 0, shades - 1);
+    };
+    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
+        switch (colors.verdict.pixels[i]) {
+        case ColorVerdict::not_judged:
+            picture.indices.pixels[i] = background;
+            break;
+        case ColorVerdict::within:
+        case ColorVerdict::moved:
+            picture.indices.pixels[i] = static_cast<std::uint8_t>(shade_of(colors.error.pixels[i]));
+            break;
+        case ColorVerdict::beyond:
+            picture.indices.pixels[i] = beyond;
+            break;
+        case ColorVerdict::unpredicted:
+        case ColorVerdict::unexplained:
+            picture.indices.pixels[i] = unpredicted;
+            break;
+        }
+    }
+    return picture;
+}
+
+void write_scene(const SceneResult& scene, const ReplacedFolder& report) {
+    report.add(truth_path(scene), to_png(scene.truth.visibility));
+    if (!scene.color.pixels.empty())
+        report.add(color_path(scene), to_png(color_picture(scene.color)));
+    report.add(folder_of(scene) + "/scene.js", scene_script(scene));
+}
+
+void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads) {
+    if (!cell.error.empty()) return;
+    const auto add = [&](const char* kind, const auto& picture) {
+        report.add(picture_path(scene, cell, kind), to_png(picture));
+    };
+    const std::string script = folder_of(scene) + "/" + cell.technique + "/cell.js";
+    std::vector<std::function<void()>> jobs{
+        [&] { report.add(script, cell_script(scene, cell)); },
+        [&] { cell.cause_map = packed_cause_map(cell.comparison); },
+        [&] { add("claim", cell.frame.claim); },
+        [&] { add("difference", difference_picture(scene.truth, cell)); },
+        [&] { add("cause", cause_picture(cell)); }};
+    if (cell.evidence)
+        for (const EvidenceReport::Picture& picture : cell.evidence->pictures())
+            jobs.emplace_back([&, picture] {
+                report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame));
+            });
+    if (cell.comparison.colors) {
+        jobs.emplace_back([&] { add("color", color_picture(cell.frame.color)); });
+        jobs.emplace_back(
+            [&] { add("color_error", color_error_picture(*cell.comparison.colors)); });
+    }
+    parallel_for(static_cast<int>(jobs.size()), thread_count(threads),
+                 [&](int job, int) { jobs[static_cast<std::size_t>(job)](); });
+}
+
+} // namespace shadowproof

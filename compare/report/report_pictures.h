@@ -1,0 +1,27 @@
+// The pictures of a report as values, and as files.
+#pragma once
+
+#include "compare/output/replaced_folder.h"
+#include "compare/report/png.h"
+#include "compare/report/report.h"
+#include "compare/report/report_legend.h"
+
+namespace shadowproof {
+
+/// The dimmed claim with each pixel that contradicts the truth in the colour of its contradiction.
+PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell);
+
+/// The dimmed claim with each differing pixel in the colour of its cause.
+PalettePicture cause_picture(const Cell& cell);
+
+/// How far colours are from the truth, lighter for further: eight shades per octave, from a 256th
+/// of a step of 1/255 on. What is beyond its bound, or unpredicted, has its cause's colour.
+PalettePicture color_error_picture(const ColorCheck& colors);
+
+/// Writes the truth, at truth_path and color_path, and the data that the cells share into `report`.
+void write_scene(const SceneResult& scene, const ReplacedFolder& report);
+/// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
+/// threads 0: one per core.
+void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads);
+
+} // namespace shadowproof

@@ -1,0 +1,20 @@
+// Compares a run with an earlier one: what is new, gone or changed since, by pixels.
+#pragma once
+
+#include "compare/cell.h"
+#include "compare/results/results_file.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// Sets Cell::since where the baseline has the same cell of the same content (equal digests).
+/// Throws Error naming the file where a cause map in it is damaged.
+void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& cell);
+
+/// What could not be compared, and what differs besides pixels, one sentence each: another driver
+/// or version, scenes of another content, cells that are new or were not tried.
+std::vector<std::string> notes_on(const ResultsFile& baseline, const Report& report);
+
+} // namespace shadowproof

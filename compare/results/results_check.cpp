@@ -1,0 +1,407 @@
+#include "compare/results/results_check.h"
+
+#include "compare/results/results_place.h"
+#include "scenes/cause.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = ResultsJson;
+
+// One rule per function, named as in the schema.
+using Rule = void (*)(const Place&);
+
+/// Integers up to here are the same in every reader of JSON (RFC 8259, 6).
+constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
+
+bool is_count(const Json& value, std::uint64_t least) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() >= least &&
+           value.get<std::uint64_t>() <= largest_count;
+}
+
+void text(const Place& place) {
+    require(place.value.is_string(), place, "a string");
+}
+void some_text(const Place& place) {
+    require(place.value.is_string() && !place.value.get_ref<const std::string&>().empty(), place,
+            "a string that is not empty");
+}
+void boolean(const Place& place) {
+    require(place.value.is_boolean(), place, "true or false");
+}
+void always_true(const Place& place) {
+    require(place.value == true, place, "true, as what could not run fails");
+}
+void count(const Place& place) {
+    require(is_count(place.value, 0), place, "a whole number from 0");
+}
+void size(const Place& place) {
+    require(is_count(place.value, 1), place, "a whole number from 1");
+}
+/// OpenGL's pictures have sides of 32 bits, so the product of two does not overflow.
+void side(const Place& place) {
+    require(is_count(place.value, 1) && place.value.get<std::uint64_t>() <= 0x7fffffff, place,
+            "a whole number from 1 to 2147483647");
+}
+void milliseconds(const Place& place) {
+    require(place.value.is_number() && place.value.get<double>() >= 0, place, "a number from 0");
+}
+void number(const Place& place) {
+    require(place.value.is_number(), place, "a number");
+}
+void whole_number(const Place& place) {
+    require(place.value.is_number_integer(), place, "a whole number");
+}
+void cause(const Place& place) {
+    require(place.value.is_string() && cause_named(place.value.get_ref<const std::string&>()),
+            place, "the name of a cause");
+}
+void folder(const Place& place) {
+    require(place.value.is_string() && is_plain_name(place.value.get_ref<const std::string&>()),
+            place, "a plain folder name of letters, digits, '-' and '_'");
+}
+void family(const Place& place) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+    const auto holds = [&](const std::string& name) {
+        return !name.empty() && std::all_of(name.begin(), name.end(), is_letter);
+    };
+    require(place.value.is_string() && holds(place.value.get_ref<const std::string&>()), place,
+            "a family's name of small letters and '_'");
+}
+void digest(const Place& place) {
+    const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+    const auto holds = [&](const std::string& d) {
+        return d.size() == 16 && std::all_of(d.begin(), d.end(), is_digit);
+    };
+    require(place.value.is_string() && holds(place.value.get_ref<const std::string&>()), place,
+            "16 digits of 0-9 and a-f");
+}
+
+void one_of(const Place& place, std::initializer_list<std::string_view> names) {
+    const bool holds =
+        std::any_of(names.begin(), names.end(), [&](auto name) { return place.value == name; });
+    require(holds, place, fmt::format("one of {}", fmt::join(names, ", ")));
+}
+void gate(const Place& place) {
+    one_of(place, {"defects", "differences"});
+}
+void verdict(const Place& place) {
+    one_of(place, {"agrees", "fails_as_predicted", "defect", "unexplained"});
+}
+void timed_out(const Place& place) {
+    one_of(place, {"timed_out"});
+}
+
+void schema(const Place& place) {
+    if (place.value != results_schema)
+        refuse(place, fmt::format("must be \"{}\", but is {}", results_schema, shown(place.value)),
+               "give a results.json of shadowproof, or use the shadowproof that wrote it");
+}
+void format(const Place& place) {
+    if (place.value != results_format)
+        refuse(place, fmt::format("must be {}, but is {}", results_format, shown(place.value)),
+               "write the results again with shadowproof verify, or use the shadowproof that wrote "
+               "them");
+}
+
+template <Rule rule>
+void list_of(const Place& place) {
+    require(place.value.is_array(), place, "an array");
+    for (std::size_t i = 0; i < place.value.size(); ++i) rule(place.at(i));
+}
+
+/// Every run tries something: an empty list must not pass.
+template <Rule rule>
+void some_of(const Place& place) {
+    require(place.value.is_array() && !place.value.empty(), place, "an array that is not empty");
+    list_of<rule>(place);
+}
+
+enum class Need : std::uint8_t { required, optional };
+
+struct Member {
+    const char* name;
+    Rule rule;
+    Need need = Need::required;
+};
+
+/// Members that are not in the table are from a newer writer.
+void object(const Place& place, std::initializer_list<Member> members) {
+    require(place.value.is_object(), place, "an object");
+    for (const Member& member : members) {
+        if (place.value.contains(member.name)) {
+            member.rule(place.at(member.name));
+        } else if (member.need == Need::required) {
+            refuse(place, fmt::format("lacks \"{}\"", member.name));
+        }
+    }
+}
+
+/// Results with an error have no figures: with both they would be ambiguous.
+void nothing_beside_error(const Place& place, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (place.value.contains(name))
+            refuse(place, fmt::format("has both \"error\" and \"{}\"", name));
+}
+
+void gl(const Place& place) {
+    object(place, {{"version", text},
+                   {"renderer", text},
+                   {"subpixel_bits", count},
+                   {"depth_bits", count},
+                   {"stencil_bits", count}});
+}
+
+void reference(const Place& place) {
+    object(place, {{"ms", milliseconds},
+                   {"build_ms", milliseconds},
+                   {"rays", count},
+                   {"exact_decisions", count},
+                   {"lit", count},
+                   {"shadowed", count},
+                   {"background", count},
+                   {"degenerate", count}});
+}
+
+void first(const Place& place) {
+    object(place, {{"x", count}, {"y", count}, {"cause", cause}});
+}
+
+void ledger(const Place& place) {
+    object(place, {{"equal", count}, {"in_band", count}, {"unexplained", count}});
+}
+
+void cause_or_none(const Place& place) {
+    if (!place.value.is_null()) cause(place);
+}
+
+void change(const Place& place) {
+    object(place, {{"x", count},
+                   {"y", count},
+                   {"cause", cause_or_none, Need::optional},
+                   {"was", cause_or_none, Need::optional}});
+}
+
+void since(const Place& place) {
+    object(
+        place,
+        {{"new", count}, {"gone", count}, {"changed", count}, {"first", change, Need::optional}});
+}
+
+void baseline(const Place& place) {
+    object(place, {{"file", text},
+                   {"passed", boolean, Need::optional},
+                   {"notes", list_of<text>, Need::optional}});
+}
+
+void causes(const Place& place) {
+    require(place.value.is_object(), place, "an object");
+    for (const auto& [name, pixels] : place.value.items()) {
+        if (!cause_named(name))
+            refuse(place, fmt::format("names a cause that there is not: {}", shown(name)));
+        size(place.at(name));
+    }
+}
+
+void truth_images(const Place& place) {
+    object(place, {{"truth", text}, {"color", text, Need::optional}});
+}
+void cell_images(const Place& place) {
+    object(place, {{"claim", text},
+                   {"difference", text},
+                   {"cause", text},
+                   {"volumes", text, Need::optional},
+                   {"color", text, Need::optional},
+                   {"color_error", text, Need::optional}});
+}
+void counted_images(const Place& place) {
+    cell_images(place);
+    object(place, {{"volumes", text}});
+}
+
+void place_in_picture(const Place& place) {
+    object(place, {{"x", count}, {"y", count}});
+}
+
+void bound_width(const Place& place) {
+    object(place, {{"median", number}, {"p999", number}, {"widest", number}});
+}
+
+/// By the names of ColorTerm.
+void beyond_by(const Place& place) {
+    require(place.value.is_object(), place, "an object");
+    for (const auto& [name, pixels] : place.value.items()) count(place.at(name));
+}
+
+void color(const Place& place) {
+    object(place, {{"judged", count},
+                   {"largest", number},
+                   {"largest_at", place_in_picture, Need::optional},
+                   {"rmse", number},
+                   {"p999", number},
+                   {"beyond", count},
+                   {"beyond_by", beyond_by, Need::optional},
+                   {"unpredicted", count},
+                   {"moved", count, Need::optional},
+                   {"interpolated", count, Need::optional},
+                   {"bound_width", bound_width, Need::optional},
+                   {"first_unpredicted", place_in_picture, Need::optional},
+                   {"normalise", text},
+                   {"bumps", text}});
+}
+
+void figure(const Place& place) {
+    object(place, {{"shown", count}, {"low", count}, {"high", count}});
+}
+
+void wrong_faces(const Place& place) {
+    object(place, {{"x", count}, {"y", count}, {"faces", figure}});
+}
+
+void volumes(const Place& place) {
+    object(place, {{"checked", count},
+                   {"unexplained", count},
+                   {"fragments", figure},
+                   {"against", figure, Need::optional},
+                   {"first", wrong_faces, Need::optional},
+                   {"words", some_text, Need::optional}});
+}
+
+void saved(const Place& place) {
+    object(place, {{"against", text},
+                   {"ms", number},
+                   {"volume_fragments", whole_number},
+                   {"plan_ms", number, Need::optional}});
+}
+
+void failed_cell(const Place& place) {
+    object(place, {{"name", text},
+                   {"summary", text},
+                   {"command", text},
+                   {"fails", always_true},
+                   {"verdict", timed_out, Need::optional},
+                   {"error", some_text}});
+    nothing_beside_error(place, {"images", "causes", "cause_map"});
+}
+
+void cell(const Place& place) {
+    if (place.value.is_object() && could_not_run(place.value)) return failed_cell(place);
+    object(place, {{"name", folder}, {"family", family}});
+    const Need counted = place.value.at("family") == "stencil" ? Need::required : Need::optional;
+    object(place, {{"summary", text},
+                   {"command", text},
+                   {"fails", boolean},
+                   {"ms", milliseconds},
+                   {"volume_fragments", count, counted},
+                   {"left_out", list_of<text>, Need::optional},
+                   {"saved", saved, Need::optional},
+                   {"verdict", verdict},
+                   {"pixels", size},
+                   {"differing", count},
+                   {"causes", causes},
+                   {"several", count, Need::optional},
+                   {"first", first, Need::optional},
+                   {"ledger", ledger, counted},
+                   {"color", color, Need::optional},
+                   {"volumes", volumes, counted},
+                   {"images", counted == Need::required ? counted_images : cell_images},
+                   {"cause_map", some_text},
+                   {"since", since, Need::optional}});
+}
+
+void scene(const Place& place) {
+    if (place.value.is_object() && could_not_run(place.value)) {
+        object(place, {{"name", text},
+                       {"file", text},
+                       {"width", count, Need::optional},
+                       {"height", count, Need::optional},
+                       {"error", some_text}});
+        nothing_beside_error(place, {"techniques", "images", "no_longer_provoked"});
+        return;
+    }
+    object(place, {{"name", text},
+                   {"file", text},
+                   {"width", side},
+                   {"height", side},
+                   {"folder", folder},
+                   {"digest", digest},
+                   {"triangles", count},
+                   {"light", text},
+                   {"provokes", list_of<cause>},
+                   {"no_longer_provoked", list_of<cause>},
+                   {"left_out", list_of<text>},
+                   {"notes", list_of<text>},
+                   {"reference", reference},
+                   {"images", truth_images},
+                   {"techniques", some_of<cell>}});
+    check_scene_figures(place);
+    const Place cells = place.at("techniques");
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < cells.value.size(); ++i) {
+        check_cell_figures(cells.at(i), place.value);
+        if (!names.insert(cells.value.at(i).at("name").get<std::string>()).second)
+            refuse(cells.at(i).at("name"), "stands there twice");
+    }
+}
+
+/// A cell's data are found by the folder of its scene.
+void check_folders_differ(const Place& scenes) {
+    std::set<std::string> folders;
+    for (std::size_t i = 0; i < scenes.value.size(); ++i) {
+        const Json& scene = scenes.value.at(i);
+        if (could_not_run(scene)) continue;
+        if (!folders.insert(scene.at("folder").get<std::string>()).second)
+            refuse(scenes.at(i).at("folder"), "is the folder of another scene too");
+    }
+}
+
+} // namespace
+
+bool is_plain_name(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '-' || c == '_';
+    });
+}
+
+bool could_not_run(const Json& scene_or_cell) {
+    return scene_or_cell.contains("error");
+}
+
+bool scene_fails(const Json& scene) {
+    if (could_not_run(scene) || !scene.at("no_longer_provoked").empty()) return true;
+    const Json& cells = scene.at("techniques");
+    return std::any_of(cells.begin(), cells.end(),
+                       [](const Json& cell) { return cell.at("fails") == true; });
+}
+
+void check_results(const Json& results, const std::string& file) {
+    const Place whole{file, "", results};
+    // The schema's name is checked before its rules.
+    object(whole, {{"schema", schema}});
+    object(whole, {{"format", format}});
+    object(whole, {{"version", some_text},
+                   {"gl", gl},
+                   {"embree", text},
+                   {"arguments", list_of<text>},
+                   {"gate", gate},
+                   {"allow", list_of<text>, Need::optional},
+                   {"baseline", baseline, Need::optional},
+                   {"passed", boolean},
+                   {"ms", milliseconds},
+                   {"report_ms", milliseconds},
+                   {"scenes", some_of<scene>}});
+    check_folders_differ(whole.at("scenes"));
+    const Json& scenes = results.at("scenes");
+    if (results.at("passed") == true && std::any_of(scenes.begin(), scenes.end(), scene_fails))
+        refuse(whole.at("passed"), "is true, but a scene or a cell fails");
+}
+
+} // namespace shadowproof

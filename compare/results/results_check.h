@@ -1,0 +1,27 @@
+// What docs/results.schema.json says, as code. By hand, because valijson 1.0, Debian's library for
+// JSON Schema in C++, overflows the stack where a pattern meets a string of 40 kB, which cause maps
+// reach, and does not say which member of an object has a wrong name.
+#pragma once
+
+#include "compare/results/results_file.h"
+
+#include <string>
+#include <string_view>
+
+namespace shadowproof {
+
+/// Throws Error naming `file`, the JSON pointer of the first value that is not as it must be, and
+/// the remedy. Beyond the schema's rules: sums and cause maps must agree with the counts, and
+/// pictures must lie in the folder of their scene.
+void check_results(const ResultsJson& results, const std::string& file);
+
+/// "^[A-Za-z0-9_-]+$": a folder's name without a path.
+bool is_plain_name(std::string_view name);
+
+/// Whether the scene, or the cell, holds nothing but the reason why it could not run.
+bool could_not_run(const ResultsJson& scene_or_cell);
+
+/// Whether anything in the scene fails the run.
+bool scene_fails(const ResultsJson& scene);
+
+} // namespace shadowproof

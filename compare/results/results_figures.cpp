@@ -1,0 +1,149 @@
+#include "compare/classify.h"
+#include "compare/report/blocks.h"
+#include "compare/results/results_check.h"
+#include "compare/results/results_place.h"
+#include "scenes/cause.h"
+
+#include <array>
+#include <initializer_list>
+#include <numeric>
+#include <optional>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = ResultsJson;
+
+/// What a picture's path must begin with; the rest is "NAME.png".
+void pictures_in(const Place& images, const std::string& folder) {
+    for (const auto& [name, path] : images.value.items()) {
+        const Place place = images.at(name);
+        require(path.is_string(), place, "a string");
+        const auto& whole = path.get_ref<const std::string&>();
+        const bool beneath = whole.starts_with(folder + "/") && whole.ends_with(".png") &&
+                             whole.size() > folder.size() + 5 &&
+                             is_plain_name(std::string_view(whole).substr(
+                                 folder.size() + 1, whole.size() - folder.size() - 5));
+        require(beneath, place, fmt::format("the path of a picture, \"{}/NAME.png\"", folder));
+    }
+}
+
+std::uint64_t sum(const Json& figures, std::initializer_list<const char*> names) {
+    return std::accumulate(names.begin(), names.end(), std::uint64_t{0},
+                           [&](std::uint64_t total, const char* name) {
+                               return total + figures.at(name).get<std::uint64_t>();
+                           });
+}
+
+using CausePixels = std::array<std::uint64_t, all_causes.size()>;
+
+CausePixels pixels_by_cause(const Json& causes) {
+    CausePixels pixels{};
+    for (const auto& [name, count] : causes.items())
+        pixels[static_cast<std::size_t>(*cause_named(name))] = count.get<std::uint64_t>();
+    return pixels;
+}
+
+/// Checks that the counts are those of the map.
+void check_cause_map(const Place& map, const CausePixels& counts, std::uint64_t pixels) {
+    const auto& packed_map = map.value.get_ref<const std::string&>();
+    // No zlib stream grows more than 1032-fold (zlib technical details): a small text that claims
+    // a huge picture takes no memory. Base64 is longer than its bytes, and 16 covers the rest.
+    const bool possible = pixels / 1032 <= packed_map.size() + 16;
+    const auto bytes = possible ? unpacked(packed_map, pixels) : std::nullopt;
+    if (!bytes) refuse(map, "is damaged: it is not base64 of a zlib stream of a byte a pixel");
+    CausePixels found{};
+    for (const std::uint8_t byte : *bytes) {
+        if (byte == no_difference) continue;
+        if (byte >= found.size()) refuse(map, fmt::format("holds {}, which is no cause", byte));
+        ++found[byte];
+    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (found[i] != counts[i])
+            refuse(map, fmt::format("shows {} pixels of {}, but the cell counts {}", found[i],
+                                    all_causes[i].name, counts[i]));
+}
+
+void require_sum(const Place& place, std::uint64_t is, std::uint64_t must_be, const char* of) {
+    if (is != must_be) refuse(place, fmt::format("adds up to {}, but {} is {}", is, of, must_be));
+}
+
+void require_figure(const Place& figure, std::int64_t shown, const char* what) {
+    require(figure.value.at("shown") == shown, figure.at("shown"),
+            fmt::format("{}, {}", shown, what));
+    require(figure.value.at("low").get<std::uint64_t>() <=
+                figure.value.at("high").get<std::uint64_t>(),
+            figure, "no range whose low end is above its high one");
+}
+
+/// Checks that figures compared with predictions are the cell's own.
+void check_volumes(const Place& cell, std::uint64_t pixels) {
+    const Place volumes = cell.at("volumes");
+    const auto fragments = cell.value.at("volume_fragments").get<std::int64_t>();
+    require(volumes.value.at("checked") == pixels, volumes.at("checked"),
+            fmt::format("{}, the pixels of the cell", pixels));
+    require_figure(volumes.at("fragments"), fragments, "the cell's own \"volume_fragments\"");
+    require(volumes.value.contains("first") ==
+                (volumes.value.at("unexplained").get<std::uint64_t>() > 0),
+            volumes, "\"first\" where pixels are unexplained, and only there");
+    if (!cell.value.contains("saved") || !volumes.value.contains("against")) return;
+    const auto saved = cell.value.at("saved").at("volume_fragments").get<std::int64_t>();
+    require_figure(volumes.at("against"), fragments + saved, "what the cell has and has saved");
+}
+
+/// An eye ray for each pixel, and at most one to the light for what it sees.
+void check_rays(const Place& reference, std::uint64_t pixels) {
+    const auto rays = reference.value.at("rays").get<std::uint64_t>();
+    const std::uint64_t seen = sum(reference.value, {"lit", "shadowed"});
+    require(
+        rays >= pixels && rays <= pixels + seen, reference.at("rays"),
+        fmt::format("from {} to {}, as many as that many pixels ask for", pixels, pixels + seen));
+    require(reference.value.at("degenerate").get<std::uint64_t>() <= pixels,
+            reference.at("degenerate"), "no more than all pixels");
+}
+
+} // namespace
+
+void check_cell_figures(const Place& cell, const Json& scene) {
+    if (could_not_run(cell.value)) return;
+    const std::string folder = scene.at("folder").get<std::string>();
+    pictures_in(cell.at("images"), folder + "/" + cell.value.at("name").get<std::string>());
+    const auto width = scene.at("width").get<std::uint64_t>();
+    const auto height = scene.at("height").get<std::uint64_t>();
+    const auto pixels = cell.value.at("pixels").get<std::uint64_t>();
+    const auto differing = cell.value.at("differing").get<std::uint64_t>();
+    require(pixels == width * height, cell.at("pixels"),
+            fmt::format("{}, the size of its scene", width * height));
+    const CausePixels counts = pixels_by_cause(cell.value.at("causes"));
+    require_sum(cell.at("causes"), std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}),
+                differing, "\"differing\"");
+    if (cell.value.contains("ledger"))
+        require_sum(cell.at("ledger"),
+                    sum(cell.value.at("ledger"), {"equal", "in_band", "unexplained"}), pixels,
+                    "\"pixels\"");
+    check_cause_map(cell.at("cause_map"), counts, pixels);
+    if (cell.value.contains("several"))
+        require(cell.value.at("several").get<std::uint64_t>() <= differing, cell.at("several"),
+                "no more than \"differing\"");
+    if (cell.value.at("family") == "stencil") check_volumes(cell, pixels);
+    if (cell.value.contains("first") != (differing > 0))
+        refuse(cell, differing > 0 ? "lacks \"first\", though pixels differ"
+                                   : "has \"first\", though no pixel differs");
+    if (differing == 0) return;
+    const Json& at = cell.value.at("first");
+    require(at.at("x").get<std::uint64_t>() < width && at.at("y").get<std::uint64_t>() < height,
+            cell.at("first"), "a pixel of the picture");
+}
+
+void check_scene_figures(const Place& scene) {
+    pictures_in(scene.at("images"), scene.value.at("folder").get<std::string>());
+    const auto pixels = scene.value.at("width").get<std::uint64_t>() *
+                        scene.value.at("height").get<std::uint64_t>();
+    check_rays(scene.at("reference"), pixels);
+    require_sum(scene.at("reference"),
+                sum(scene.value.at("reference"), {"lit", "shadowed", "background"}), pixels,
+                "the scene's size");
+}
+
+} // namespace shadowproof

@@ -1,0 +1,41 @@
+// Reads results.json. A file is refused, with the place named, if it violates
+// docs/results.schema.json or its figures contradict each other. Unknown members, such as a newer
+// writer's, are accepted.
+#pragma once
+
+#include "scenes/memory_budget.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace shadowproof {
+
+inline constexpr std::string_view results_schema = "shadowproof/results/1";
+/// Format of the data beside the results: a viewer reads only its own format.
+inline constexpr int results_format = 4;
+
+using ResultsJson = nlohmann::ordered_json; ///< members in the order of the file
+
+struct ResultsFile {
+    std::filesystem::path path; ///< of the file itself; its pictures stand beside it
+    ResultsJson json;
+};
+
+/// `path`: a results.json, or the folder of a report, which holds one. Throws Error naming the
+/// file, the JSON pointer (RFC 6901) of what is wrong in it, and the remedy. The memory that it
+/// takes is charged to the account, if there is one.
+ResultsFile read_results(const std::filesystem::path& path, MemoryAccount* memory = nullptr);
+
+/// The same of a text; `file` names it in errors.
+ResultsJson parse_results(const std::string& text, const std::string& file);
+
+/// The file's text again: the same bytes for what shadowproof has written.
+std::string results_text(const ResultsJson& results);
+
+/// A value for a message: quoted, on one line, and short.
+std::string shown(const ResultsJson& value);
+
+} // namespace shadowproof

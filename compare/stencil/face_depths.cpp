@@ -1,0 +1,93 @@
+#include "compare/stencil/face_depths.h"
+
+#include "compare/driver/error_bounds.h"
+#include "reference/trace/faces.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+    const double depth = depth_on_triangle(scene, triangle, direction);
+    return depth > 0 ? depth : infinity;
+}
+
+// A standard infinite projection's depths round to 1, what is cleared to, as soon as n / t is
+// within the error of 1.
+DepthRange FaceDepths::background() const {
+    const DepthModel& model = frame_.depth_model;
+    if (model.projection == DepthModel::Projection::infinite_reversed)
+        return {infinity, infinity, infinity};
+    if (model.projection == DepthModel::Projection::infinite)
+        return {infinity, model.near / depth_roundings, infinity};
+    const glm::dvec3 point = scene_.camera.eye + far_ * scene_.camera.forward;
+    const double q = depth_error(scene_, model, point);
+    return {far_, far_ - q, far_ + q};
+}
+
+DepthRange FaceDepths::surface(std::uint32_t triangle) const {
+    DepthRange range{0, infinity, 0};
+    const double setup = plane_error(triangle);
+    for (const glm::dvec3& direction : around_.corners) {
+        const double t = plane_depth(scene_, triangle, direction);
+        const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
+        const double slope_error = std::isfinite(t) ? setup * t * t : 0;
+        range.include(t, depth_error(scene_, frame_.depth_model, point) + slope_error);
+    }
+    return range;
+}
+
+// On a ray D a plane is met at a depth that is inverse to D . plane; not at all where that changes
+// its sign.
+DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& direction) const {
+    DepthRange range{crossing.depth, crossing.depth, crossing.depth};
+    const double square = crossing.depth * crossing.depth;
+    // Light caps that may be in front belong to culled surfaces, or fill holes.
+    if (crossing.is_side())
+        range.include(crossing.depth, plane_error(crossing) * square);
+    else if (crossing.triangle < scene_.triangles.size())
+        range.include(crossing.depth, plane_error(crossing.triangle) * square);
+    const double here = glm::dot(direction, crossing.plane);
+    for (const glm::dvec3& other : around_.corners) {
+        const double ratio = here / glm::dot(other, crossing.plane);
+        range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
+    }
+    return range;
+}
+
+double FaceDepths::clip_far() const {
+    return frame_.depth_model.clips_at_far() ? far_ : infinity;
+}
+
+double FaceDepths::clip_depth(double depth, int move) const {
+    const Camera& camera = scene_.camera;
+    return depth +
+           move * depth_error(scene_, frame_.depth_model, camera.eye + depth * camera.forward);
+}
+
+CoveredPixel FaceDepths::covered_pixel() const {
+    return {around_.rays.front(), around_.reach, drawing_of(scene_, frame_, clip_far())};
+}
+
+double FaceDepths::plane_error(const Crossing& side) const {
+    const auto [known, is_new] = setup_of_side_.try_emplace(side.edge, 0.0);
+    if (is_new)
+        known->second = setup_error(volumes_.casters, volumes_.far_ends, side, covered_pixel());
+    return known->second;
+}
+
+double FaceDepths::plane_error(std::uint32_t triangle) const {
+    const auto [known, is_new] = setup_of_triangle_.try_emplace(triangle, 0.0);
+    if (is_new) known->second = setup_error(scene_, triangle, covered_pixel());
+    return known->second;
+}
+
+} // namespace shadowproof

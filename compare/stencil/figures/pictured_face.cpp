@@ -1,0 +1,242 @@
+#include "compare/stencil/figures/pictured_face.h"
+
+#include "compare/driver/setup_error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+/// The last pixel centre, as a column's number, that is not past a place; and the first.
+int last_column(double place, int width) {
+    return static_cast<int>(std::clamp(std::floor(place - 0.5), -1.0, double(width)));
+}
+int first_column(double place, int width) {
+    return static_cast<int>(std::clamp(std::ceil(place - 0.5), -1.0, double(width)));
+}
+
+} // namespace
+
+ConvexRegion ConvexRegion::everywhere() {
+    ConvexRegion all;
+    all.low_ = glm::dvec2(-infinity);
+    all.high_ = glm::dvec2(infinity);
+    return all;
+}
+
+// Where corners move by up to `margin` on both axes, a point is drawn whatever they do if the
+// square of that half side around it lies within the polygon: the support of the square in the
+// direction of a normal is the margin times the sum of the normal's sizes. And it may be drawn only
+// where the square meets the polygon. An edge's normal points outwards on that side where no other
+// corner lies; a polygon without an area has both sides, and holds no square.
+ConvexRegion::ConvexRegion(const std::vector<PicturePoint>& polygon, double margin) {
+    if (polygon.empty()) return;
+    assert(polygon.size() + 1 < most_bounds);
+    low_ = glm::dvec2(infinity);
+    high_ = glm::dvec2(-infinity);
+    double area = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        low_ = glm::min(low_, polygon[i].place);
+        high_ = glm::max(high_, polygon[i].place);
+        if (i >= 2)
+            area +=
+                cross(polygon[i - 1].place - polygon[0].place, polygon[i].place - polygon[0].place);
+    }
+    low_ += margin;
+    high_ -= margin;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 from = polygon[i].place;
+        const glm::dvec2 along = polygon[(i + 1) % polygon.size()].place - from;
+        if (along.x == 0 && along.y == 0) continue;
+        const glm::dvec2 normal = glm::dvec2(along.y, -along.x) * (area < 0 ? -1.0 : 1.0);
+        double most = glm::dot(normal, from);
+        if (margin < 0)
+            for (const PicturePoint& point : polygon)
+                most = std::max(most, glm::dot(normal, point.place));
+        bound(normal, most - margin * (std::abs(normal.x) + std::abs(normal.y)));
+    }
+}
+
+void ConvexRegion::bound(const glm::dvec2& normal, double most) {
+    if (normal.x == 0) {
+        if (normal.y > 0) high_.y = std::min(high_.y, most / normal.y);
+        if (normal.y < 0) low_.y = std::max(low_.y, most / normal.y);
+        return;
+    }
+    bounds_[count_++] = {most / normal.x, -normal.y / normal.x, normal.x < 0};
+}
+
+PixelRun ConvexRegion::rows(int height) const {
+    if (!(low_.x <= high_.x && low_.y <= high_.y)) return {};
+    const PixelRun run{first_column(low_.y, height), last_column(high_.y, height) + 1};
+    return {std::max(run.first, 0), std::min(run.end, height)};
+}
+
+PixelRun ConvexRegion::row(int y, int width) const {
+    const double centre = y + 0.5;
+    if (centre < low_.y || centre > high_.y) return {};
+    double left = low_.x;
+    double right = high_.x;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const double x = bounds_[i].at + bounds_[i].slope * centre;
+        if (bounds_[i].lower)
+            left = std::max(left, x);
+        else
+            right = std::min(right, x);
+    }
+    if (!(left <= right)) return {};
+    return {std::max(first_column(left, width), 0), std::min(last_column(right, width) + 1, width)};
+}
+
+namespace {
+
+/// Whether floats determine the direction in which a corner lies. If not, it may be drawn anywhere.
+bool has_direction(const ViewCorner& corner) {
+    return glm::length(corner.error) < 0.25 * glm::length(glm::dvec3(corner.at));
+}
+
+// A corner that clipping makes is put together with a weight that is itself rounded, in its
+// difference and quotient: by up to 2 v of the edge, which is up to 4 v of the larger corner,
+// beside the 3 v that clipped_polygon counts.
+std::optional<double> margin_of(const PictureMaking& making,
+                                const std::vector<PicturePoint>& polygon) {
+    double margin = 0;
+    for (const PicturePoint& point : polygon) {
+        const double error = point.place_error * (point.made_by_clipping ? 7.0 / 3.0 : 1.0);
+        // Not a number where it lies in the eye.
+        if (!(error < infinity) || !std::isfinite(point.place.x) || !std::isfinite(point.place.y))
+            return std::nullopt;
+        margin = std::max(margin, error);
+    }
+    return making.half_step + margin;
+}
+
+struct Regions {
+    ConvexRegion certain;
+    ConvexRegion possible;
+    std::optional<double> margin; ///< of the possible one
+};
+
+Regions regions_of(const PictureMaking& making, const std::vector<PicturePoint>& most,
+                   const std::vector<PicturePoint>& least) {
+    Regions regions{{}, ConvexRegion::everywhere(), margin_of(making, most)};
+    if (!regions.margin) return regions;
+    regions.possible = ConvexRegion(most, -*regions.margin);
+    if (const std::optional<double> margin = margin_of(making, least))
+        regions.certain = ConvexRegion(least, *margin);
+    return regions;
+}
+
+/// The inverse depths of a plane through three view points are linear in their direction: the
+/// coefficients that give each corner's w from its x, y and z.
+glm::dvec3 plane_of(const std::array<ViewCorner, 3>& corners) {
+    const glm::dvec3 a(corners[0].at);
+    const glm::dvec3 b(corners[1].at);
+    const glm::dvec3 c(corners[2].at);
+    const glm::dvec3 sum = corners[0].at.w * glm::cross(b, c) + corners[1].at.w * glm::cross(c, a) +
+                           corners[2].at.w * glm::cross(a, b);
+    return sum / glm::dot(a, glm::cross(b, c));
+}
+
+/// As coefficients of pixels.
+glm::dvec3 in_pixels(const Camera& camera, const glm::dvec3& plane) {
+    const glm::dvec2 half = half_extent(camera);
+    return {plane.x * 2 * half.x / camera.width, -plane.y * 2 * half.y / camera.height,
+            plane.z - plane.x * half.x + plane.y * half.y};
+}
+
+// A polygon is cut into triangles from any of its corners: any three of them may be one. A depth is
+// off by what its set-up is, and by as much as it changes over what the corners are drawn aside.
+std::vector<DepthError> depth_errors(const std::vector<PicturePoint>& polygon, double margin,
+                                     const glm::dvec3& inverse_depth) {
+    const double aside = margin * (std::abs(inverse_depth.x) + std::abs(inverse_depth.y));
+    std::vector<DepthError> parts;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        for (std::size_t j = i + 1; j < polygon.size(); ++j)
+            for (std::size_t k = j + 1; k < polygon.size(); ++k) {
+                const std::array<PicturePoint, 3> part{polygon[i], polygon[j], polygon[k]};
+                const double error = aside + largest_setup_error(part, margin);
+                parts.push_back({ConvexRegion({part.begin(), part.end()}, -margin),
+                                 std::isfinite(error) ? error : infinity});
+            }
+    return parts;
+}
+
+} // namespace
+
+// A direction from the light is made of the light as two floats, which leave 2^-48 of it away. Two
+// triangles with an edge in common cover a point once that lies within both together, whatever
+// their corners do as long as none of the four edges around them passes over it: how often those go
+// around it is the sum of how often, with its sign, either triangle covers it.
+PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners,
+                           const glm::dvec4* other, double light_size) {
+    const auto seen_of = [&](const glm::dvec4& corner) {
+        ViewCorner seen = viewed(making.camera, corner, making.drawing.offset);
+        if (corner.w == 0) seen.error += 0x1p-48 * light_size;
+        return seen;
+    };
+    const std::array<ViewCorner, 3> seen{seen_of(corners[0]), seen_of(corners[1]),
+                                         seen_of(corners[2])};
+    PicturedFace face;
+    if (!std::all_of(seen.begin(), seen.end(), has_direction)) {
+        face.possible = ConvexRegion::everywhere();
+        face.edge_on = true;
+        return face;
+    }
+    const auto left = [&](const std::vector<ViewCorner>& polygon, PlaneCut cut) {
+        return clipped_polygon(making.camera, polygon, making.drawing, cut);
+    };
+    std::vector<ViewCorner> polygon(seen.begin(), seen.end());
+    const std::vector<PicturePoint> most = left(polygon, PlaneCut::most);
+    const Regions regions = regions_of(making, most, left(polygon, PlaneCut::least));
+    face.certain = regions.certain;
+    face.certain_of_both = regions.certain;
+    if (other != nullptr) {
+        polygon.push_back(seen_of(*other));
+        const std::vector<PicturePoint> both = left(polygon, PlaneCut::least);
+        const std::optional<double> margin = margin_of(making, both);
+        const bool known = has_direction(polygon.back()) && margin;
+        face.certain_of_both = known ? ConvexRegion(both, *margin) : ConvexRegion();
+    }
+    face.possible = regions.possible;
+    face.inverse_depth = in_pixels(making.camera, plane_of(seen));
+    const glm::dvec3& inverse = face.inverse_depth;
+    face.edge_on = !regions.margin || !std::isfinite(inverse.x + inverse.y + inverse.z);
+    if (!face.edge_on) face.parts = depth_errors(most, *regions.margin, inverse);
+    return face;
+}
+
+PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewCorner>& most,
+                            const std::vector<ViewCorner>& least) {
+    PicturedFace face;
+    face.in_front = true;
+    Drawing drawing = making.drawing;
+    drawing.near = 0; // it lies in the near plane, and is not clipped there
+    drawing.far = infinity;
+    if (!std::all_of(most.begin(), most.end(), has_direction)) {
+        face.possible = ConvexRegion::everywhere();
+        return face;
+    }
+    const Regions regions =
+        regions_of(making, clipped_polygon(making.camera, most, drawing, PlaneCut::nominal),
+                   clipped_polygon(making.camera, least, drawing, PlaneCut::nominal));
+    face.certain = regions.certain;
+    face.certain_of_both = regions.certain;
+    face.possible = regions.possible;
+    return face;
+}
+
+} // namespace shadowproof

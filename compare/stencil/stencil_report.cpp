@@ -1,0 +1,189 @@
+#include "compare/stencil/stencil_report.h"
+
+#include "compare/report/blocks.h"
+#include "compare/report/report_legend.h"
+#include "compare/stencil/ledger_table.h"
+#include "compare/words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Stored in bytes if a counter fits into one.
+std::string counter_block(const Image<std::uint32_t>& counter, const Counting& counting) {
+    if (counting.bits > 8) return block(counter.pixels);
+    return block(converted<std::uint8_t>(counter, [](std::uint32_t count) {
+                     return static_cast<std::uint8_t>(count);
+                 }).pixels);
+}
+
+std::string_view name_of(DepthModel::Projection projection) {
+    switch (projection) {
+    case DepthModel::Projection::finite:
+        return "finite";
+    case DepthModel::Projection::finite_reversed:
+        return "finite_reversed";
+    case DepthModel::Projection::infinite:
+        return "infinite";
+    case DepthModel::Projection::infinite_reversed:
+        break;
+    }
+    return "infinite_reversed";
+}
+
+Json figure_of(const CheckedFigure& figure) {
+    return {
+        {"shown", figure.shown}, {"low", figure.predicted.low}, {"high", figure.predicted.high}};
+}
+
+Json volumes_of(const VolumeCheck& volumes) {
+    Json json{{"checked", volumes.checked},
+              {"unexplained", volumes.unexplained},
+              {"fragments", figure_of(volumes.fragments)}};
+    if (volumes.against) json["against"] = figure_of(*volumes.against);
+    if (volumes.first)
+        json["first"] = {{"x", volumes.first->x},
+                         {"y", volumes.first->y},
+                         {"faces", figure_of(volumes.first->faces)}};
+    if (!volumes.holds()) json["words"] = words_of(volumes);
+    return json;
+}
+
+Json header_of(const Frame& frame, const Scene& scene) {
+    const Counting& counting = frame.counted->counting;
+    const DepthModel& depth = frame.depth_model;
+    Json header{{"counting",
+                 {{"test", name_of(counting.test)},
+                  {"operation", name_of(counting.operation)},
+                  {"start", name_of(counting.start)},
+                  {"depth_clamp", depth.clamp},
+                  {"light_cap", counting.light_cap},
+                  {"dark_cap", counting.dark_cap},
+                  {"bits", counting.bits}}},
+                {"depth",
+                 {{"projection", name_of(depth.projection)},
+                  {"floating", depth.floating},
+                  {"near", depth.near},
+                  {"far", std::isfinite(depth.far) ? Json(depth.far) : Json(nullptr)}}}};
+    if (counting.casters.empty()) return header;
+    Json& tests = header["counting"]["tests"] = Json::array(); // one per mesh
+    for (const Mesh& mesh : scene.meshes)
+        tests.push_back(name_of(counting.caster(mesh.first_triangle).test));
+    return header;
+}
+
+class CounterReport final : public EvidenceReport {
+public:
+    CounterReport(const Json& header, LedgerTable ledgers, Image<std::uint32_t> predicted)
+        : header_(header.dump()), ledgers_(std::move(ledgers)), predicted_(std::move(predicted)) {}
+
+    std::vector<Picture> pictures() const override {
+        return {{"volumes", [](const Frame& frame) { return to_png(volume_picture(frame)); }}};
+    }
+    std::string header() const override { return header_; }
+    Blocks blocks(const Frame& frame) const override {
+        const Counting& counting = frame.counted->counting;
+        return {{"predicted", counter_block(predicted_, counting)},
+                {"read_back", counter_block(frame.counted->counter, counting)},
+                {"faces", block(frame.counted->volumes.pixels)},
+                {"seen", block(ledgers_.seen)},
+                {"shown", block(ledgers_.shown)},
+                {"exactness", block(ledgers_.exactness)},
+                {"ledger", block(ledgers_.ledger)},
+                {"ledger_start", block(ledgers_.start)},
+                {"ledger_counts", block(ledgers_.counts)},
+                {"ledger_exact", block(ledgers_.adds_up)},
+                {"ledger_predicted", block(ledgers_.predicted)},
+                {"crossing_face", block(ledgers_.crossing_face)},
+                {"crossing_change", block(ledgers_.crossing_change)},
+                {"crossing_status", block(ledgers_.crossing_tally)},
+                {"face", block(ledgers_.face)},
+                {"triangle", block(ledgers_.triangle)},
+                {"vertex", block(ledgers_.vertex)}};
+    }
+
+private:
+    std::string header_;
+    LedgerTable ledgers_;
+    Image<std::uint32_t> predicted_; ///< the counter at each pixel's centre, as stored
+};
+
+} // namespace
+
+EvidenceSummary summary_of(const Frame& frame, const EvidenceCheck& check,
+                           const VolumeCheck& volumes) {
+    const CounterEvidence& counted = *frame.counted;
+    Json results{
+        {"volume_fragments", counted.volume_fragments},
+        {"ledger",
+         {{"equal", check.equal}, {"in_band", check.in_band}, {"unexplained", check.unexplained}}},
+        {"volumes", volumes_of(volumes)}};
+    EvidenceSummary summary;
+    if (counted.saved) {
+        const Savings& saved = *counted.saved;
+        results["saved"] = {{"against", saved.against},
+                            {"ms", saved.milliseconds},
+                            {"volume_fragments", saved.volume_fragments},
+                            {"plan_ms", saved.plan_milliseconds}};
+        summary.words = words_of(saved, counted.volume_fragments);
+    }
+    if (!volumes.holds()) summary.unexplained.push_back(words_of(volumes));
+    summary.results = results.dump(-1, ' ', false, Json::error_handler_t::replace);
+    summary.pictures = {"volumes"};
+    return summary;
+}
+
+std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced, const Frame& frame,
+                                                      const Prediction& prediction,
+                                                      const Image<std::uint8_t>& cause) {
+    const Counting& counting = frame.counted->counting;
+    return std::make_shared<CounterReport>(
+        header_of(frame, traced.scene()),
+        list_ledgers(traced.tracer(), traced.truth(), frame, prediction, cause),
+        converted<std::uint32_t>(prediction.counts(),
+                                 [&](std::int32_t count) { return stored(count, counting); }));
+}
+
+PalettePicture volume_picture(const Frame& frame) {
+    // As many faces as the picture can tell apart under each class of the claim.
+    constexpr int levels = 256 / 3;
+    constexpr Rgb full{0xFF, 0xC0, 0x40};
+    const Image<std::uint8_t>& faces = frame.counted->volumes;
+    const int most =
+        std::clamp<int>(*std::max_element(faces.pixels.begin(), faces.pixels.end()), 6, levels - 1);
+    PalettePicture picture{Image<std::uint8_t>(faces.width, faces.height), {}};
+    for (const Visibility claim :
+         {Visibility::lit, Visibility::shadowed, Visibility::background}) // as dimmed_index says
+        for (int level = 0; level < levels; ++level) {
+            Rgb color = dimmed(claim);
+            for (std::size_t i = 0; i < color.size(); ++i)
+                color[i] = static_cast<std::uint8_t>(
+                    std::min(255, color[i] + full[i] * std::min(level, most) / most));
+            picture.palette.push_back(color);
+        }
+    for (std::size_t i = 0; i < faces.pixels.size(); ++i)
+        picture.indices.pixels[i] =
+            static_cast<std::uint8_t>(dimmed_index(frame.claim.pixels[i]) * levels +
+                                      std::min<int>(faces.pixels[i], levels - 1));
+    return picture;
+}
+
+std::string words_of(const Savings& saved, std::uint64_t volume_fragments) {
+    const std::int64_t fragments = saved.volume_fragments;
+    const std::uint64_t all = volume_fragments + static_cast<std::uint64_t>(fragments);
+    return fmt::format("saved {:.1f} ms and {}{} of {} volume fragments against {}",
+                       saved.milliseconds, fragments < 0 ? "-" : "",
+                       grouped(static_cast<std::uint64_t>(std::abs(fragments))), grouped(all),
+                       saved.against);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,47 @@
+// An OpenGL 4.5 core context without a window: OSMesa, or surfaceless EGL.
+#pragma once
+
+#include "scenes/frame.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace shadowproof {
+
+enum class GlPlatform : std::uint8_t { osmesa, egl };
+
+struct GlFunctions; // gl.h
+struct Platform;    // platform.h
+
+/// Owns the context. Passed to everything that draws, so there is no hidden current context. Each
+/// object that holds a GL name keeps a reference to its Gpu's functions, and must not outlive the
+/// Gpu.
+class Gpu {
+public:
+    /// The context is current on this thread afterwards. Throws Error: no library, no context,
+    /// wrong renderer.
+    explicit Gpu(GlPlatform platform);
+    ~Gpu();
+    Gpu(Gpu&&) noexcept;
+    Gpu& operator=(Gpu&&) noexcept;
+    Gpu(const Gpu&) = delete;
+    Gpu& operator=(const Gpu&) = delete;
+
+    /// Must be called before drawing: another Gpu may have become current, or another thread may
+    /// call.
+    void make_current();
+
+    const GlFunctions& gl() const;
+    const DriverInfo& driver() const; ///< depth and stencil bits are those of a D24_S8 texture
+
+    /// Whether an extension's name is listed. Function pointers prove nothing: Mesa returns some
+    /// for extensions that it does not have.
+    bool has_extension(std::string_view name) const;
+
+private:
+    struct Context;
+    std::unique_ptr<Context> context_;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,272 @@
+#include "raster/passes/passes.h"
+
+#include "raster/gl/shader.h"
+#include "raster/passes/lit_sides.h"
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+
+namespace shadowproof {
+
+namespace {
+
+/// Rounds to float through memory, because gcc 12 at -O2 drops the conversion of two neighbours to
+/// float and back.
+float rounded(double value) {
+    const volatile float nearest = static_cast<float>(value);
+    return nearest;
+}
+
+glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
+    switch (model.projection) {
+    case DepthModel::Projection::finite:
+        return clip_from_view_finite(camera, model.far);
+    case DepthModel::Projection::finite_reversed:
+        return clip_from_view_finite_reversed(camera, model.far);
+    case DepthModel::Projection::infinite:
+        return clip_from_view_infinite(camera);
+    case DepthModel::Projection::infinite_reversed:
+        return clip_from_view_infinite_reversed(camera);
+    }
+    assert(false);
+    return glm::dmat4(1);
+}
+
+} // namespace
+
+TwoFloats split(const glm::dvec3& point) {
+    TwoFloats sum;
+    for (int k = 0; k < 3; ++k) {
+        sum.high[k] = rounded(point[k]);
+        sum.low[k] = rounded(point[k] - double{sum.high[k]});
+    }
+    return sum;
+}
+
+ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
+    const glm::dmat4 projection = clip_from_view(scene.camera, depth_model);
+    ClipTransform transform;
+    if (depth_model.eye_relative) {
+        transform.origin = split(scene.camera.eye);
+        transform.clip_from_relative =
+            glm::mat4(projection * glm::dmat4(view_from_eye_relative(scene.camera)));
+    } else {
+        transform.clip_from_relative = glm::mat4(projection * view_from_world(scene.camera));
+    }
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    transform.light = split(light);
+    transform.light_w = static_cast<float>(light.w);
+    return transform;
+}
+
+Buffer make_filled_buffer(const GlFunctions& gl,
+                          std::span<const std::span<const std::byte>> parts) {
+    std::size_t size = 0;
+    for (const auto& part : parts) size += part.size();
+    Buffer buffer = make_buffer(gl);
+    gl.NamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(std::max<std::size_t>(size, 1)),
+                          nullptr, GL_DYNAMIC_STORAGE_BIT);
+    std::size_t offset = 0;
+    for (const auto& part : parts) {
+        if (!part.empty())
+            gl.NamedBufferSubData(buffer.name(), static_cast<GLintptr>(offset),
+                                  static_cast<GLsizeiptr>(part.size()), part.data());
+        offset += part.size();
+    }
+    return buffer;
+}
+
+Triangles upload_triangles(const GlFunctions& gl,
+                           std::span<const std::span<const glm::uvec3>> parts) {
+    std::vector<std::span<const std::byte>> bytes;
+    std::size_t count = 0;
+    for (const auto& part : parts) {
+        bytes.push_back(std::as_bytes(part));
+        count += part.size();
+    }
+    // glDrawElements takes the number of indices as an int.
+    if (count > std::size_t{std::numeric_limits<GLsizei>::max()} / 3)
+        throw Error("scene", std::to_string(count) + " triangles in one draw call are too many",
+                    "split the scene");
+    return {make_filled_buffer(gl, bytes), static_cast<std::uint32_t>(count)};
+}
+
+std::vector<SurfaceRun> surface_runs(const Scene& scene) {
+    std::vector<SurfaceRun> runs;
+    for (const Mesh& mesh : scene.meshes) {
+        const bool double_sided = scene.materials[mesh.material].double_sided;
+        if (runs.empty() || runs.back().double_sided != double_sided)
+            runs.push_back({mesh.first_triangle, 0, double_sided});
+        runs.back().triangle_count += mesh.triangle_count;
+    }
+    return runs;
+}
+
+Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends,
+                std::span<const glm::vec3> more) {
+    Geometry geometry{.position_count = static_cast<std::uint32_t>(scene.positions.size()),
+                      .ends_at_infinity = far_ends.empty(),
+                      .vertices = make_vertex_array(gl),
+                      .runs = surface_runs(scene)};
+    const std::span<const std::byte> positions = std::as_bytes(std::span(scene.positions));
+    const std::span<const std::byte> ends = far_ends.empty() ? positions : std::as_bytes(far_ends);
+    geometry.positions = make_filled_buffer(gl, std::array{positions, ends, std::as_bytes(more)});
+    const GLuint vertices = geometry.vertices.name();
+    gl.VertexArrayVertexBuffer(vertices, 0, geometry.positions.name(), 0, sizeof(glm::vec3));
+    gl.VertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    gl.VertexArrayAttribBinding(vertices, 0, 0);
+    gl.EnableVertexArrayAttrib(vertices, 0);
+    geometry.surface = upload_triangles(gl, std::array{std::span(scene.triangles)});
+
+    const LitSides sides = lit_sides(scene);
+    geometry.receivers = static_cast<std::uint32_t>(sides.receivers);
+    std::vector<glm::uvec3> triangles;
+    for (const std::uint32_t triangle : sides.triangles)
+        triangles.push_back(scene.triangles[triangle]);
+    geometry.lit_sides = upload_triangles(gl, std::array{std::span<const glm::uvec3>(triangles)});
+    geometry.lit_side_indices =
+        make_filled_buffer(gl, std::array{std::as_bytes(std::span(sides.triangles))});
+    check(gl, "uploading the scene");
+    return geometry;
+}
+
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform) {
+    // Locations as project.vert lays them out.
+    gl.ProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE,
+                               glm::value_ptr(transform.clip_from_relative));
+    gl.ProgramUniform3fv(program.name(), 1, 1, glm::value_ptr(transform.origin.high));
+    gl.ProgramUniform3fv(program.name(), 2, 1, glm::value_ptr(transform.origin.low));
+    gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light.high));
+    gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light.low));
+    gl.ProgramUniform1f(program.name(), 11, transform.light_w);
+}
+
+Program link_projection(const GlFunctions& gl, std::string_view fragment,
+                        const ClipTransform& transform, const Geometry& geometry, Between between) {
+    Program program = between == Between::geometry_shader
+                          ? link_files(gl, {"project.vert", "surface.geom", fragment})
+                          : link_files(gl, {"project.vert", fragment});
+    set_transform(gl, program, transform);
+    gl.ProgramUniform1i(program.name(), 5,
+                        geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
+                                                  : std::numeric_limits<GLint>::max());
+    return program;
+}
+
+Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
+                   const Geometry& geometry, Between between) {
+    Program program = link_projection(gl, "light.frag", transform, geometry, between);
+    const Light& light = chosen_light(scene);
+    const bool spot = light.kind == Light::Kind::spot;
+    const glm::vec3 axis(light.direction);
+    gl.ProgramUniform3fv(program.name(), 13, 1, glm::value_ptr(axis));
+    gl.ProgramUniform1f(program.name(), 14,
+                        spot ? static_cast<float>(std::cos(light.outer_cone)) : -2.0F);
+    return program;
+}
+
+void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
+                 const DepthModel& depth_model) {
+    const bool reversed = depth_model.reversed();
+    gl.Viewport(0, 0, target.width, target.height);
+    gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    set_enabled(gl, GL_DEPTH_CLAMP, depth_model.clamp);
+    gl.FrontFace(GL_CCW);
+    gl.CullFace(GL_BACK);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.BindVertexArray(geometry.vertices.name());
+}
+
+void end_frame(const GlFunctions& gl) {
+    gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl.DepthRange(0, 1);
+    for (const GLenum capability : {GL_DEPTH_CLAMP, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE})
+        gl.Disable(capability);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0U);
+    gl.BindVertexArray(0);
+    gl.UseProgram(0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
+                    std::uint32_t first, std::uint32_t count) {
+    gl.VertexArrayElementBuffer(geometry.vertices.name(), triangles.buffer.name());
+    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(std::size_t{3} * sizeof(GLuint) * first));
+}
+
+void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Triangles& faces) {
+    constexpr std::uint32_t most_at_once = 1U << 18U;
+    for (std::uint32_t first = 0; first < faces.count; first += most_at_once) {
+        if (first > 0) gl.Finish();
+        draw_triangles(gl, geometry, faces, first, std::min(faces.count - first, most_at_once));
+    }
+}
+
+void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+                  const Geometry& geometry, const DepthModel& depth_model,
+                  const VisibleDepths& visible, std::uint8_t stencil) {
+    const bool reversed = depth_model.reversed();
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_TRUE);
+    gl.StencilMask(~0U);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);
+
+    const GLuint framebuffer = target.surface.name();
+    constexpr std::array<GLfloat, 4> background{0, 0, 0, 0};
+    constexpr std::array<GLuint, 4> nothing{no_triangle, no_triangle, no_triangle, no_triangle};
+    gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());
+    gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 1, nothing.data());
+    gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.UseProgram(surface.name());
+    // Locations as surface.frag lays them out.
+    gl.ProgramUniform2f(surface.name(), 6, visible.near, visible.far);
+    for (const SurfaceRun& run : geometry.runs) {
+        set_enabled(gl, GL_CULL_FACE, !run.double_sided);
+        gl.ProgramUniform1ui(surface.name(), 7, run.first_triangle);
+        draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
+    }
+    check(gl, "the surface pass");
+}
+
+void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
+                const Geometry& geometry, Counter counter) {
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_FALSE);
+    gl.DepthFunc(GL_EQUAL);
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilMask(0);
+    const bool stencil = counter == Counter::stencil;
+    gl.StencilFunc(stencil ? GL_EQUAL : GL_ALWAYS, 0, ~0U);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    gl.Disable(GL_CULL_FACE); // a side that is culled in the surface pass is not the one seen
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
+    gl.UseProgram(light.name());
+    gl.BindTextureUnit(0, target.triangle.name());
+    gl.BindTextureUnit(1, target.sum.name());
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.lit_side_indices.name());
+    const auto draw = [&](std::uint32_t first, std::uint32_t count) {
+        gl.ProgramUniform1ui(light.name(), 7, first);
+        draw_triangles(gl, geometry, geometry.lit_sides, first, count);
+    };
+    gl.ProgramUniform1i(light.name(), 12, stencil ? 0 : 1);
+    draw(0, geometry.receivers);
+    gl.StencilFunc(GL_ALWAYS, 0, ~0U);
+    gl.ProgramUniform1i(light.name(), 12, 0);
+    draw(geometry.receivers, geometry.lit_sides.count - geometry.receivers);
+    check(gl, "the light pass");
+}
+
+} // namespace shadowproof

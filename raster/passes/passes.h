@@ -1,0 +1,127 @@
+// The steps that techniques share: the uploaded scene, the surface pass, the light pass. Every pass
+// sets all the state that it depends on.
+#pragma once
+
+#include "raster/gl/context.h"
+#include "raster/gl/gl.h"
+#include "raster/gl/target.h"
+#include "scenes/frame.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof {
+
+/// A point as a sum of two floats per coordinate, exact to 48 bits.
+struct TwoFloats {
+    glm::vec3 high{0};
+    glm::vec3 low{0};
+};
+TwoFloats split(const glm::dvec3& point);
+
+/// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
+/// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
+/// floats, and the matrix is computed in double and rounded once.
+struct ClipTransform {
+    glm::mat4 clip_from_relative{1};
+    TwoFloats origin;
+    TwoFloats light;   ///< position, or the direction to a light at infinity
+    float light_w = 1; ///< 0 at infinity
+};
+/// In an infinite projection, row z equals row w in all coefficients of directions, so corners at
+/// infinity get z == w bit for bit and are not clipped.
+ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model);
+
+/// A buffer of indices, ready to draw as triangles.
+struct Triangles {
+    Buffer buffer{};
+    std::uint32_t count = 0; ///< of triangles
+};
+/// A buffer with these parts one after the other. OpenGL allows no empty buffer: one without parts
+/// holds one unused byte instead.
+Buffer make_filled_buffer(const GlFunctions& gl, std::span<const std::span<const std::byte>> parts);
+
+/// Uploads the parts, to be drawn one after the other in one draw call.
+Triangles upload_triangles(const GlFunctions& gl,
+                           std::span<const std::span<const glm::uvec3>> parts);
+
+/// A run of triangles that are culled alike.
+struct SurfaceRun {
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+    bool double_sided = false;
+};
+/// Covers all triangles in order with the fewest runs.
+std::vector<SurfaceRun> surface_runs(const Scene& scene);
+
+/// A scene on the GPU.
+struct Geometry {
+    std::uint32_t position_count = 0;
+    Buffer positions{};           ///< the scene's, and then those of the volumes' far ends
+    bool ends_at_infinity = true; ///< far ends are the same positions, and the shader moves them
+    VertexArray vertices{};
+    Triangles surface{}; ///< the scene's triangles
+    std::vector<SurfaceRun> runs{};
+    Triangles lit_sides{};       ///< from lit_sides.h
+    std::uint32_t receivers = 0; ///< how many of them, the first, receive shadows
+    Buffer lit_side_indices{};   ///< their indices into Scene::triangles
+};
+/// `far_ends`: one per position of the scene, or empty for infinity. `more`: points after them,
+/// moved away from the light to infinity like far ends.
+Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends,
+                std::span<const glm::vec3> more = {});
+
+/// Sets the uniforms shared by all vertex shaders that transform as project.vert does.
+void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform);
+
+/// The stage between a program's vertex and fragment shaders.
+enum class Between : std::uint8_t { nothing, geometry_shader };
+
+/// Links project.vert and light.frag, with the cone of a spot light.
+Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
+                   const Geometry& geometry, Between between);
+
+/// Links project.vert and a fragment shader, with the scene's vertices under the transform.
+Program link_projection(const GlFunctions& gl, std::string_view fragment,
+                        const ClipTransform& transform, const Geometry& geometry,
+                        Between between = Between::nothing);
+
+void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
+                    std::uint32_t first, std::uint32_t count);
+
+/// Draws in batches small enough for a software driver's memory: llvmpipe sorts triangles into
+/// tiles faster than it draws them, and keeps up to 64 scenes of 36 MB. Primitives are numbered
+/// from zero in each draw call.
+void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Triangles& faces);
+
+/// Sets the state of a whole frame: how depth is made, which side is the front.
+void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
+                 const DepthModel& depth_model);
+/// Back to OpenGL's initial values.
+void end_frame(const GlFunctions& gl);
+
+/// The range of visible view depths. Where the projection clips at near and far itself, everything
+/// that is left is visible.
+struct VisibleDepths {
+    float near = 0;
+    float far = std::numeric_limits<float>::infinity();
+};
+
+/// Clears the target, the stencil to `stencil`, and draws the nearest surfaces:
+/// Visibility::shadowed, depth and triangle.
+void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+                  const Geometry& geometry, const DepthModel& depth_model,
+                  const VisibleDepths& visible, std::uint8_t stencil);
+
+/// Draws the lit sides again, as Visibility::lit, where the depth is equal and the counter is zero,
+/// or where they receive no shadows. Writes neither stencil nor depth.
+void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
+                const Geometry& geometry, Counter counter);
+
+} // namespace shadowproof

@@ -1,0 +1,46 @@
+// Stencil shadow volumes: the passes of W (surface, volume, light) as configured by a recipe.
+#pragma once
+
+#include "raster/gl/context.h"
+#include "raster/lighting/lighting.h"
+#include "raster/volumes/volume_pass.h"
+#include "scenes/frame.h"
+#include "scenes/plan/plan.h"
+#include "scenes/scene.h"
+
+#include <optional>
+
+namespace shadowproof {
+
+/// Everything in which stencil techniques differ.
+struct StencilRecipe {
+    Counting counting;      ///< including near_plane's effect on `start`
+    DepthModel depth_model; ///< subpixel_bits is taken from the driver
+    /// One flag per triangle of the scene: those that Counting::flips flips here, see
+    /// counted_casters.h. Empty: none is flipped.
+    std::vector<std::uint8_t> flipped{};
+    VolumeMaking making = VolumeMaking::on_cpu;
+    std::function<Extruder(const Scene& casters)> extruder = by_silhouettes; ///< on the CPU
+    VolumeFaces::Sides sides = VolumeFaces::Sides::surplus;                  ///< the extruder's
+    /// One flag per triangle of the scene: its light cap is not drawn where faces in front of the
+    /// surface are counted, as it is never in front of the visible surface. On the CPU only; empty:
+    /// all are drawn.
+    std::vector<std::uint8_t> hidden_caps{};
+    NearPlane near_plane = NearPlane::lost;
+    Counter counter = Counter::stencil; ///< a sum requires Counting::bits 24 and wrapping
+    /// Colours in addition to the claim: only of bump-lit scenes, with a stencil, and relative to
+    /// the eye.
+    std::optional<LightingRecipe> lighting{};
+};
+
+/// Draws one pixel of the frame, so that the driver finishes deferred compilation. Then draws the
+/// whole up to three times, including the making of what depends on the light; the quickest is the
+/// time. Reads back the pictures, and draws the volumes once more to show and to measure them.
+/// Throws Error where the driver fails.
+Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
+
+/// The recipes that the techniques start from.
+StencilRecipe zpass_recipe(const Scene& scene);
+StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan);
+
+} // namespace shadowproof

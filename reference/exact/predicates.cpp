@@ -1,0 +1,271 @@
+#include "reference/exact/predicates.h"
+
+#include "reference/exact/bounded.h"
+#include "reference/exact/exact.h"
+
+#include <array>
+#include <cstddef>
+
+namespace shadowproof {
+
+namespace {
+
+template <class Arithmetic>
+using Number = typename Arithmetic::Number;
+
+template <class Arithmetic>
+struct Vector {
+    Number<Arithmetic> x, y, z;
+};
+
+template <class A>
+Vector<A> vector(const A& arithmetic, const glm::dvec3& v) {
+    return {arithmetic.number(v.x), arithmetic.number(v.y), arithmetic.number(v.z)};
+}
+
+/// That of an eye ray.
+template <class A>
+Vector<A> direction_of(const A& arithmetic, const EyeRay& ray) {
+    return {arithmetic.direction(ray.direction.x), arithmetic.direction(ray.direction.y),
+            arithmetic.direction(ray.direction.z)};
+}
+
+template <class A>
+Vector<A> difference(const A& arithmetic, const glm::dvec3& v, const glm::dvec3& w) {
+    return {arithmetic.difference(v.x, w.x), arithmetic.difference(v.y, w.y),
+            arithmetic.difference(v.z, w.z)};
+}
+
+template <class A>
+Vector<A> cross(const Vector<A>& v, const Vector<A>& w) {
+    return {v.y * w.z - v.z * w.y, v.z * w.x - v.x * w.z, v.x * w.y - v.y * w.x};
+}
+
+template <class A>
+Number<A> dot(const Vector<A>& v, const Vector<A>& w) {
+    return v.x * w.x + v.y * w.y + v.z * w.z;
+}
+
+template <class A>
+Vector<A> normal(const A& arithmetic, const Corners& t) {
+    return cross<A>(difference(arithmetic, t.b, t.a), difference(arithmetic, t.c, t.a));
+}
+
+/// w v - o for a point or a direction O = (o, w).
+template <class A>
+Vector<A> away_from(const A& arithmetic, const glm::dvec4& o, const glm::dvec3& v) {
+    const glm::dvec3 at(o);
+    return o.w == 0 ? vector(arithmetic, -at) : difference(arithmetic, v, at);
+}
+
+/// (w a - o) x (b - a), the normal of the plane through O and the edge: for a point (a - o) x
+/// (b - o), written with the edge because that is short where o is far away.
+template <class A>
+Vector<A> edge_plane(const A& arithmetic, const glm::dvec4& o, const glm::dvec3& a,
+                     const glm::dvec3& b) {
+    return cross<A>(away_from(arithmetic, o, a), difference(arithmetic, b, a));
+}
+
+/// A point as a quotient that is not divided: Q = E + (numerator / denominator) D.
+template <class A>
+struct Quotient {
+    Number<A> numerator, denominator;
+};
+
+/// Where the eye ray meets T's plane: t = (a - E) . N / (D . N).
+template <class A>
+Quotient<A> plane_depth(const A& arithmetic, const EyeRay& ray, const Corners& t) {
+    const Vector<A> n = normal(arithmetic, t);
+    return {dot<A>(difference(arithmetic, t.a, ray.eye), n),
+            dot<A>(direction_of(arithmetic, ray), n)};
+}
+
+/// (n, d) of a point: a depth is n / 1, infinity 1 / 0. A surface's denominator may be negative.
+template <class A>
+Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) {
+    switch (q.kind) {
+    case RayPoint::Kind::surface:
+        return plane_depth(arithmetic, ray, q.surface);
+    case RayPoint::Kind::depth:
+        return {arithmetic.number(q.depth), arithmetic.number(1)};
+    case RayPoint::Kind::infinity:
+        break;
+    }
+    return {arithmetic.number(1), arithmetic.number(0)};
+}
+
+std::optional<int> sign_of(const Bounded& number) {
+    return number.sign();
+}
+int sign_of(const Expansion& number) {
+    return number.sign();
+}
+int sign_of(const Dyadic& number) {
+    return number.sign();
+}
+
+/// Enough for an ordinary degree-6 sign; larger ones continue on the heap.
+constexpr std::size_t arena_bytes = std::size_t{1} << 16;
+
+/// `formula(arithmetic)` returns the number, or the product of numbers as a sign, that is wanted;
+/// it is written once and evaluated with as much precision as it needs. Expansions are for formulas
+/// of degree 6 with inputs within their range (exact.h).
+template <class Formula>
+Decision decide(const Formula& formula, bool by_expansions = true) {
+    if (const std::optional<int> sign = formula(BoundedArithmetic{}))
+        return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
+    int sign = 0;
+    bool left_range = !by_expansions;
+    if (by_expansions) {
+        alignas(std::max_align_t) std::array<std::byte, arena_bytes> buffer;
+        std::pmr::monotonic_buffer_resource arena(buffer.data(), buffer.size());
+        sign = *formula(ExpansionArithmetic{&arena, &left_range});
+    }
+    if (left_range) sign = *formula(DyadicArithmetic{});
+    return {sign, sign == 0 ? Exactness::degenerate : Exactness::exact};
+}
+
+/// Sign of value / denominator's sign, where both are certain.
+template <class N>
+std::optional<int> with_sign_of(const N& value, const N& denominator) {
+    const std::optional<int> v = sign_of(value);
+    const std::optional<int> d = sign_of(denominator);
+    if (!v || !d) return std::nullopt;
+    return *v * (*d < 0 ? -1 : 1);
+}
+
+/// Sign of (E - origin + (n / d) D) . plane, the plane's normal given: d (E - origin) . plane +
+/// n D . plane, with d made positive.
+template <class A>
+std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const RayPoint& q,
+                                 const glm::dvec3& origin, const Vector<A>& plane) {
+    const Number<A> along = dot<A>(direction_of(arithmetic, ray), plane);
+    if (q.kind == RayPoint::Kind::infinity) return sign_of(along);
+    const Number<A> base = dot<A>(difference(arithmetic, ray.eye, origin), plane);
+    const Quotient<A> t = position(arithmetic, ray, q);
+    return with_sign_of(t.denominator * base + t.numerator * along, t.denominator);
+}
+
+/// The side of a plane to which the move (e, e^2, e^3), e -> 0, takes a point on it: that of the
+/// first component of the plane's normal that is not zero.
+template <class NormalOf>
+Decision moved_against(const NormalOf& normal_of) {
+    Decision moved;
+    for (int axis = 0; axis < 3 && moved.sign == 0; ++axis)
+        moved = decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+            const Vector<A> n = normal_of(arithmetic);
+            return sign_of(axis == 0 ? n.x : (axis == 1 ? n.y : n.z));
+        });
+    return {moved.sign, Exactness::degenerate};
+}
+
+} // namespace
+
+Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(away_from(arithmetic, o, t.a), normal(arithmetic, t)));
+    });
+}
+
+Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(direction_of(arithmetic, ray),
+                              edge_plane(arithmetic, glm::dvec4(ray.eye, 1), a, b)));
+    });
+}
+
+Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corners& u) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Quotient<A> p = plane_depth(arithmetic, ray, t);
+        const Quotient<A> q = plane_depth(arithmetic, ray, u);
+        const std::optional<int> order =
+            with_sign_of(p.numerator * q.denominator - q.numerator * p.denominator, p.denominator);
+        const std::optional<int> d = sign_of(q.denominator);
+        if (!order || !d) return std::nullopt;
+        return *order * (*d < 0 ? -1 : 1);
+    });
+}
+
+Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double depth) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Quotient<A> p = plane_depth(arithmetic, ray, t);
+        return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator, p.denominator);
+    });
+}
+
+Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
+                                 const glm::dvec3& b) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
+        if (ray.light.w != 0)
+            return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
+        const std::optional<int> sign = point_against<A>(arithmetic, ray, q, a, plane);
+        if (q.kind != RayPoint::Kind::infinity || sign != 0) return sign;
+        // The ray is parallel to the plane: the side is the eye's.
+        return sign_of(dot<A>(difference(arithmetic, ray.eye, a), plane));
+    });
+}
+
+Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
+                                        const glm::dvec3& b) const {
+    const Decision tied = shadow_edge(ray, q, a, b);
+    if (tied.sign != 0) return tied;
+    // Not all three are zero: otherwise light, a and b would be collinear, and the light would lie
+    // in the plane of the triangle, which then takes no part.
+    return moved_against(
+        [&]<class A>(const A& arithmetic) { return edge_plane(arithmetic, ray.light, a, b); });
+}
+
+Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
+    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
+    });
+}
+
+Decision Predicates::side_of_point_untied(const EyeRay& ray, const RayPoint& q,
+                                          const Corners& u) const {
+    const Decision tied = side_of_point(ray, q, u);
+    if (tied.sign != 0) return tied;
+    return moved_against([&]<class A>(const A& arithmetic) { return normal(arithmetic, u); });
+}
+
+bool Predicates::runs_from_light(const EyeRay& ray) const {
+    const auto sign = [&](const auto& component) {
+        return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+                   const Vector<A> d = direction_of(arithmetic, ray);
+                   return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
+               })
+            .sign;
+    };
+    return sign([](const auto& d, const auto& l) { return d.y * l.z - d.z * l.y; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.z * l.x - d.x * l.z; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.x * l.y - d.y * l.x; }) == 0 &&
+           sign([](const auto& d, const auto& l) { return d.x * l.x + d.y * l.y + d.z * l.z; }) < 0;
+}
+
+// With Q = E + (n / d) D, d made positive, and v = d (E - apex) + n D = d (Q - apex): where v .
+// axis and the cosine differ in sign that decides, else it is the sign of (v . axis)^2 - cosine^2 v
+// . v, negated where both are negative.
+Decision Predicates::within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const {
+    return decide(
+        [&]<class A>(const A& arithmetic) -> std::optional<int> {
+            const Quotient<A> t = position(arithmetic, ray, q);
+            const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);
+            const Vector<A> d = direction_of(arithmetic, ray);
+            const Vector<A> v{t.denominator * base.x + t.numerator * d.x,
+                              t.denominator * base.y + t.numerator * d.y,
+                              t.denominator * base.z + t.numerator * d.z};
+            const Number<A> along = dot<A>(v, vector(arithmetic, cone.axis));
+            const Number<A> cosine = arithmetic.number(cone.cosine);
+            const std::optional<int> side = with_sign_of(along, t.denominator);
+            const std::optional<int> squares =
+                sign_of(along * along - cosine * cosine * dot<A>(v, v));
+            if (!side) return std::nullopt;
+            if (cone.cosine >= 0) return *side < 0 ? std::optional(-1) : squares;
+            if (*side >= 0) return 1;
+            return squares ? std::optional(-*squares) : std::nullopt;
+        },
+        false);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,51 @@
+#include "reference/predict/traced_scene.h"
+
+#include "scenes/plan/plan.h"
+
+#include <mutex>
+#include <optional>
+
+namespace shadowproof {
+
+struct TracedScene::State {
+    const Tracer& tracer;
+    const GroundTruth& truth;
+    double far = 0;
+    std::once_flag has_silhouette{};
+    std::once_flag has_depths{};
+    std::optional<Silhouette> silhouette{};
+    std::optional<ShadowDepths> depths{};
+};
+
+TracedScene::TracedScene(const Tracer& tracer, const GroundTruth& truth)
+    : state_(new State{tracer, truth, finite_far(tracer.scene())}) {}
+TracedScene::~TracedScene() = default;
+TracedScene::TracedScene(TracedScene&&) noexcept = default;
+TracedScene& TracedScene::operator=(TracedScene&&) noexcept = default;
+
+const Tracer& TracedScene::tracer() const {
+    return state_->tracer;
+}
+const Scene& TracedScene::scene() const {
+    return state_->tracer.scene();
+}
+const GroundTruth& TracedScene::truth() const {
+    return state_->truth;
+}
+double TracedScene::far() const {
+    return state_->far;
+}
+
+const Silhouette& TracedScene::silhouette() const {
+    std::call_once(state_->has_silhouette, [&] { state_->silhouette.emplace(state_->tracer); });
+    return *state_->silhouette;
+}
+
+const ShadowDepths& TracedScene::depths() const {
+    std::call_once(state_->has_depths, [&] {
+        state_->depths = count_shadow_depths(state_->tracer, state_->truth, state_->far);
+    });
+    return *state_->depths;
+}
+
+} // namespace shadowproof

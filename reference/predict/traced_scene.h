@@ -1,0 +1,39 @@
+// A scene beside its truth: what claims are judged against, worked out once for all of them.
+#pragma once
+
+#include "reference/predict/ledger.h"
+#include "reference/predict/region_ledger.h"
+#include "reference/trace/trace.h"
+
+#include <memory>
+
+namespace shadowproof {
+
+/// A scene under its chosen light, traced. What only some families of claims need is worked out
+/// when it is first asked for, by any thread. Keeps references.
+class TracedScene {
+public:
+    TracedScene(const Tracer& tracer, const GroundTruth& truth);
+    ~TracedScene();
+    TracedScene(TracedScene&&) noexcept;
+    TracedScene& operator=(TracedScene&&) noexcept;
+    TracedScene(const TracedScene&) = delete;
+    TracedScene& operator=(const TracedScene&) = delete;
+
+    const Tracer& tracer() const;
+    const Scene& scene() const;
+    const GroundTruth& truth() const;
+    /// View depth of the finite far plane of the techniques that have one (finite_far).
+    double far() const;
+
+    /// The sides of the casters' shadow volumes.
+    const Silhouette& silhouette() const;
+    /// Shadow depths at the points of each pixel's ray.
+    const ShadowDepths& depths() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace shadowproof

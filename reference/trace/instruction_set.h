@@ -1,0 +1,17 @@
+// Which of the processor's instruction sets the reference uses: the best by default. The
+// environment variable SHADOWPROOF_INSTRUCTION_SET selects one (sse2, ssse3, sse4, avx2, avx512, or
+// best), for tests that all of them give the same bytes.
+#pragma once
+
+#include <string>
+
+namespace shadowproof {
+
+/// Selects the instruction set that the variable names now, for the whole process. Throws Error
+/// where it names an unknown one, or one that this processor does not have.
+void choose_instruction_set();
+
+/// The same as a setting of Embree's device: ",isa=avx2"; empty where none was selected.
+std::string embree_instruction_set();
+
+} // namespace shadowproof

@@ -1,0 +1,288 @@
+#include "reference/trace/records.h"
+
+#include "scenes/driver.h"
+
+#include <limits>
+#include <utility>
+
+// Highway compiles what follows once for each instruction set, then chooses when it runs.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reference/trace/records.cpp"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+#ifndef SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
+#define SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
+namespace shadowproof {
+
+/// World-space corners of a cluster's triangles, oriented so that det > 0; zeros where none is.
+struct ClusterCorners {
+    alignas(64) std::array<std::array<PerTriangle<double>, 3>, 3> corner{}; ///< a, b, c; axis
+};
+
+} // namespace shadowproof
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace shadowproof::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Doubles = hn::CappedTag<double, cluster_capacity>;
+using Floats = hn::Rebind<float, Doubles>;
+using Number = hn::Vec<Doubles>;
+
+constexpr Doubles doubles;
+constexpr Floats floats;
+constexpr double u = 0x1p-53; ///< rounding unit of double
+constexpr double v = float_roundoff;
+
+Number number(double x) {
+    return hn::Set(doubles, x);
+}
+
+struct Vector {
+    Number x, y, z;
+};
+
+Vector minus(const Vector& p, const Vector& q) {
+    return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+}
+Vector times(const Vector& p, Number s) {
+    return {hn::Mul(p.x, s), hn::Mul(p.y, s), hn::Mul(p.z, s)};
+}
+Vector cross(const Vector& p, const Vector& q) {
+    return {hn::Sub(hn::Mul(p.y, q.z), hn::Mul(p.z, q.y)),
+            hn::Sub(hn::Mul(p.z, q.x), hn::Mul(p.x, q.z)),
+            hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x))};
+}
+Number dot(const Vector& p, const Vector& q) {
+    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
+}
+Number largest(const Vector& p) {
+    return hn::Max(hn::Max(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+}
+Number largest(const Vector& p, const Vector& q, const Vector& r) {
+    return hn::Max(hn::Max(largest(p), largest(q)), largest(r));
+}
+Number sum_of(const Vector& p) {
+    return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
+}
+
+void store(Number value, PerTriangle<float>& to, std::size_t i) {
+    hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
+}
+void store(const Vector& value, std::array<PerTriangle<float>, 3>& to, std::size_t i) {
+    store(value.x, to[0], i);
+    store(value.y, to[1], i);
+    store(value.z, to[2], i);
+}
+
+// The bound of a float dot product w . N, N known in double to within e per component.
+//   w: its float differs from the true direction by v |w_i| of rounding, and by at most v |w| / 2
+//      of error in the surface point it leads to (otherwise prepare(), packet.cpp, makes |w|
+//      infinite);
+//   N: its float by v |N_i| + e;
+//   the products and two sums: 3 roundings.
+// To first order |w| ((3 + 1 + 1.5) v |N|_1 + 3 e). 7 v covers second order, and that threshold and
+// |w| are floats themselves. A float that underflows is off by less than 2^-126, which 2^-100
+// covers, as 1 <= |w|. What is returned is grown by more than its conversion to float can take.
+Number tolerance(Number size, Number component_error) {
+    const Number bound =
+        hn::Add(hn::Add(hn::Mul(number(7 * v), size), hn::Mul(number(3.1), component_error)),
+                number(0x1p-100));
+    return hn::Mul(bound, number(1 + 0x1p-22));
+}
+
+/// A tolerance; infinite, so that nothing is certain, where `nothing_known`.
+template <class Mask>
+Number unless(Mask nothing_known, Number tolerance) {
+    return hn::IfThenElse(nothing_known, number(std::numeric_limits<double>::infinity()),
+                          tolerance);
+}
+
+// Triangles as parallel rays see them. With m <= 1/2 the largest coordinate relative to the origin
+// and l that of an edge, u and v of a corner are at most 2 m and off by 6.1 u m, those of an edge
+// at most 2 l and off by 6.1 u l (shear.h, with u of rounding in each difference).
+void make_parallel_records(const OriginView& view, const ClusterCorners& corners,
+                           ClusterRecord& record) {
+    const std::array<int, 3>& axes = view.shear.axes;
+    const Vector origin{number(view.origin[axes[0]]), number(view.origin[axes[1]]),
+                        number(view.origin[axes[2]])};
+    const Number scale = number(view.scale);
+    const auto sheared = [&](const Vector& p) {
+        return Vector{hn::Sub(p.x, hn::Mul(number(view.shear.slope_u), p.z)),
+                      hn::Sub(p.y, hn::Mul(number(view.shear.slope_v), p.z)),
+                      hn::Mul(number(view.shear.up), p.z)};
+    };
+    for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
+        const auto world = [&](std::size_t k) {
+            const auto load = [&](int axis) {
+                return hn::Load(doubles,
+                                corners.corner[k][static_cast<std::size_t>(axis)].data() + i);
+            };
+            return Vector{load(axes[0]), load(axes[1]), load(axes[2])};
+        };
+        const auto relative = [&](const Vector& p, const Vector& q) {
+            return times(minus(p, q), scale);
+        };
+        const Vector edges_as_given[3] = {relative(world(1), world(0)),
+                                          relative(world(2), world(1)),
+                                          relative(world(0), world(2))};
+        const Number l = largest(edges_as_given[0], edges_as_given[1], edges_as_given[2]);
+        const Number ll = hn::Mul(l, l);
+        const Vector a = sheared(relative(world(0), origin));
+        const auto outlying = hn::Gt(largest(relative(world(0), origin), relative(world(1), origin),
+                                             relative(world(2), origin)),
+                                     number(0.5));
+
+        // a x (b - a) with a = (u, v, 1): the third component, two products and a difference, is
+        // off by 2 (2 m 6.1 u l + 2 l 6.1 u m + 4 u m l) + 8 u m l = 65 u m l <= 33 u l.
+        const Number edge_error = hn::Mul(number(33 * u), l);
+        Number size = number(0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector from = sheared(relative(world(k), origin));
+            const Vector along = sheared(edges_as_given[k]);
+            const Vector edge{hn::Neg(along.y), along.x,
+                              hn::Sub(hn::Mul(from.x, along.y), hn::Mul(from.y, along.x))};
+            store(edge, record.edge[k], i);
+            size = hn::Max(size, sum_of(edge));
+        }
+        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
+
+        // n = (b - a) x (c - b): n_h, made of u and v alone, is at most 8 l^2 and off by
+        // 2 (2 2 6.1 + 4) u l^2 + 8 u l^2 = 65 u l^2; the others, of which one factor is an h of at
+        // most l and off by u l, are at most 4 l^2 and off by 2 (2 + 6.1 + 2) u l^2 + 4 u l^2 =
+        // 25 u l^2. n . a adds to that 6.1 u m of a, the products and two sums of at most 24 m l^2:
+        // 2 (4 6.1 + 2 25 + 8) + (8 + 65 + 8) + 2 24 = 294 u m l^2 <= 147 u l^2.
+        const Vector normal = cross(sheared(edges_as_given[0]), sheared(edges_as_given[1]));
+        const Number det = normal.z;
+        const Number det_error = hn::Mul(number(66 * u), ll);
+        const Number numerator_error = hn::Mul(number(150 * u), ll);
+        // The plane's height over (u, v) is (n . a - n_u u - n_v v) / n_h; as for points.
+        const Number reciprocal = hn::Div(number(1), det);
+        const Vector inverse =
+            times({hn::Neg(normal.x), hn::Neg(normal.y), dot(normal, a)}, reciprocal);
+        const Number extent = largest(inverse);
+        const Number inverse_error = hn::Add(
+            hn::Mul(hn::Add(numerator_error, hn::Mul(number(1.4), hn::Mul(extent, det_error))),
+                    reciprocal),
+            hn::Mul(number(2.1 * u), extent));
+        store(inverse, record.inverse, i);
+        const auto uncertain = hn::Not(hn::Gt(det, hn::Mul(number(4), det_error)));
+        store(unless(hn::Or(outlying, uncertain), tolerance(sum_of(inverse), inverse_error)),
+              record.inverse_tolerance, i);
+    }
+}
+
+void make_records(const OriginView& view, const ClusterCorners& corners, ClusterRecord& record) {
+    if (view.parallel) return make_parallel_records(view, corners, record);
+    const Vector origin{number(view.origin.x), number(view.origin.y), number(view.origin.z)};
+    const Number scale = number(view.scale);
+    for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
+        const auto world = [&](std::size_t k) {
+            return Vector{hn::Load(doubles, corners.corner[k][0].data() + i),
+                          hn::Load(doubles, corners.corner[k][1].data() + i),
+                          hn::Load(doubles, corners.corner[k][2].data() + i)};
+        };
+        const Vector a = times(minus(world(0), origin), scale);
+        const Vector b = times(minus(world(1), origin), scale);
+        const Vector c = times(minus(world(2), origin), scale);
+        const Vector ab = times(minus(world(1), world(0)), scale);
+        const Vector bc = times(minus(world(2), world(1)), scale);
+        const Vector ca = times(minus(world(0), world(2)), scale);
+        const Number m = largest(a, b, c);
+        const Number l = largest(ab, bc, ca);
+        const Number ll = hn::Mul(l, l);
+        const auto outlying = hn::Gt(m, number(1));
+
+        // Differences are off by u, so each component of a x (b - a), two products and a
+        // difference, by 4 u (m l + m l).
+        const Vector edges[3] = {cross(a, ab), cross(b, bc), cross(c, ca)};
+        const Number edge_error = hn::Mul(number(8.1 * u), hn::Mul(m, l));
+        Number size = number(0);
+        for (std::size_t k = 0; k < 3; ++k) {
+            store(edges[k], record.edge[k], i);
+            size = hn::Max(size, sum_of(edges[k]));
+        }
+        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
+
+        // As in view.cpp: the normal, (b - a) x (c - b), is off by 8 u l^2 per component, det by 48
+        // u m l^2.
+        const Vector normal = cross(ab, bc);
+        const Number det = dot(a, normal);
+        const Number det_error = hn::Mul(number(50 * u), hn::Mul(m, ll));
+        // normal / det: the normal's error over det, and its own size times det's relative error,
+        // at most 4/3 det_error / det since det may be that much smaller; two roundings.
+        const Number reciprocal = hn::Div(number(1), det);
+        const Vector inverse = times(normal, reciprocal);
+        const Number extent = largest(inverse);
+        const Number inverse_error =
+            hn::Add(hn::Mul(hn::Add(hn::Mul(number(8.2 * u), ll),
+                                    hn::Mul(number(1.4), hn::Mul(extent, det_error))),
+                            reciprocal),
+                    hn::Mul(number(2.1 * u), extent));
+        store(inverse, record.inverse, i);
+        const auto uncertain = hn::Not(hn::Gt(det, hn::Mul(number(4), det_error)));
+        store(unless(hn::Or(outlying, uncertain), tolerance(sum_of(inverse), inverse_error)),
+              record.inverse_tolerance, i);
+    }
+}
+
+} // namespace
+} // namespace shadowproof::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace shadowproof {
+
+namespace {
+
+HWY_EXPORT(make_records);
+
+/// Enough for a row of tiles, and small enough for the second-level cache.
+constexpr std::size_t slot_count = 256;
+
+} // namespace
+
+RecordCache::RecordCache(const OriginView& view, Part part,
+                         const std::vector<std::uint8_t>& double_sided)
+    : view_(&view), part_(part), double_sided_(&double_sided), slots_(slot_count) {}
+
+bool RecordCache::takes_part(std::uint32_t triangle) const {
+    const std::int8_t side = view_->side[triangle];
+    switch (part_) {
+    case Part::seen:
+        return side < 0 || (side > 0 && (*double_sided_)[triangle] != 0);
+    case Part::occluding:
+        return side != 0;
+    case Part::light_facing:
+        break;
+    }
+    return side < 0;
+}
+
+void RecordCache::fill(Slot& slot, std::uint32_t cluster) const {
+    slot.cluster = cluster;
+    slot.record.count = 0;
+    const Cluster& members = view_->hierarchy->clusters[cluster];
+    ClusterCorners gathered;
+    for (std::uint32_t i = 0; i < members.count; ++i) {
+        const std::uint32_t triangle = members.triangles[i];
+        if (!takes_part(triangle)) continue;
+        Corners t = corners(*view_->scene, triangle);
+        if (view_->side[triangle] < 0) std::swap(t.b, t.c);
+        const std::uint32_t place = slot.record.count++;
+        slot.record.triangle[place] = triangle;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            gathered.corner[0][k][place] = t.a[axis];
+            gathered.corner[1][k][place] = t.b[axis];
+            gathered.corner[2][k][place] = t.c[axis];
+        }
+    }
+    if (slot.record.count > 0) HWY_DYNAMIC_DISPATCH(make_records)(*view_, gathered, slot.record);
+}
+
+} // namespace shadowproof
+#endif

@@ -1,0 +1,68 @@
+// The float data of triangles for tests with rays from a common origin, with bounds of the errors
+// of those tests.
+#pragma once
+
+#include "reference/trace/view.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace shadowproof {
+
+/// Which triangles take part in a query, by their side in the view (OriginView::side).
+enum class Part : std::uint8_t {
+    seen,         ///< by the eye: not from behind, unless double sided
+    occluding,    ///< all that are not edge-on
+    light_facing, ///< those whose front faces the light
+};
+
+template <class T>
+using PerTriangle = std::array<T, cluster_capacity>;
+
+/// The triangles of a cluster that take part, side by side so that vectors make all at once.
+/// For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
+/// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then
+/// 1/s = w . inverse.
+///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
+/// Where rays are parallel, a = (u, v, 1) and w likewise: the same holds of the ray that runs up at
+/// (u, v), and w . inverse is the height h at which it meets the triangle's plane.
+/// In float, |w . edge - exact| <= |w| edge_tolerance and |w . inverse - exact| <=
+/// |w| inverse_tolerance, |w| the largest component. Derived in records.cpp.
+struct ClusterRecord {
+    alignas(64) std::array<std::array<PerTriangle<float>, 3>, 3> edge{}; ///< by k, then axis
+    std::array<PerTriangle<float>, 3> inverse{};                         ///< by axis
+    PerTriangle<float> edge_tolerance{};    ///< both infinite where coordinates are beyond 1
+    PerTriangle<float> inverse_tolerance{}; ///< infinite where doubles cannot tell det from 0
+    PerTriangle<std::uint32_t> triangle{};
+    std::uint32_t count = 0;
+};
+
+/// Creates records when they are first needed and keeps them in a small table, one per thread and
+/// part, as neighbouring rays meet the same clusters.
+class RecordCache {
+public:
+    RecordCache(const OriginView& view, Part part, const std::vector<std::uint8_t>& double_sided);
+
+    const OriginView& view() const { return *view_; }
+    const ClusterRecord& of(std::uint32_t cluster) {
+        Slot& slot = slots_[cluster % slots_.size()];
+        if (slot.cluster != cluster) fill(slot, cluster);
+        return slot.record;
+    }
+
+private:
+    struct Slot {
+        std::uint32_t cluster = 0xffffffffU;
+        ClusterRecord record;
+    };
+    const OriginView* view_;
+    Part part_;
+    const std::vector<std::uint8_t>* double_sided_;
+    std::vector<Slot> slots_;
+
+    void fill(Slot& slot, std::uint32_t cluster) const;
+    bool takes_part(std::uint32_t triangle) const;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,38 @@
+// The state of a Tracer: the scene, prepared for the queries of reference/.
+#pragma once
+
+#include "reference/exact/predicates.h"
+#include "reference/trace/embree.h"
+#include "reference/trace/shells.h"
+#include "reference/trace/trace.h"
+#include "reference/trace/view.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace shadowproof {
+
+struct Tracer::State {
+    const Scene* scene = nullptr;
+    int threads = 1;
+    Predicates predicates;
+    Hierarchy hierarchy;
+    OriginView from_eye;
+    OriginView from_light;                  ///< its `side` is 0 for triangles that do not cast
+    std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles
+    std::vector<std::uint8_t> double_sided; ///< one flag per triangle
+    std::vector<std::uint8_t> receives;     ///< one flag per triangle
+    glm::dvec3 eye{0, 0, 0};
+    glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
+    std::optional<Cone> cone;     ///< of a spot light
+    LazyShells shells;            ///< of the casters
+    double build_milliseconds = 0;
+
+    /// Whether eye and light are strictly on the same side of the triangle.
+    bool faces_light(std::uint32_t triangle) const {
+        return from_eye.side[triangle] * side_of_light[triangle] > 0;
+    }
+};
+
+} // namespace shadowproof

@@ -1,0 +1,180 @@
+#include "reference/trace/trace.h"
+
+#include "reference/trace/instruction_set.h"
+#include "reference/trace/tiles.h"
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace shadowproof {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void check(const Scene& scene) {
+    const std::string where = scene.file.empty() ? scene.name : scene.file.string();
+    if (scene.triangles.empty())
+        throw Error(where, "has no triangles", "give it a mesh with triangles");
+}
+
+/// A spot light's cone; its cosine is that of the outer angle as std::cos rounds it.
+std::optional<Cone> cone_of(const Light& light) {
+    if (light.kind != Light::Kind::spot) return std::nullopt;
+    return Cone{light.position, light.direction, std::cos(light.outer_cone)};
+}
+
+/// Removes from a view the triangles that do not cast.
+void keep_casters(const Scene& scene, OriginView& view) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::size_t i = 0; i < casts.size(); ++i)
+        if (casts[i] == 0) view.side[i] = 0;
+}
+
+} // namespace
+
+Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>()) {
+    check(scene);
+    choose_instruction_set();
+    const Clock::time_point start = Clock::now();
+    State& state = *state_;
+    state.scene = &scene;
+    state.threads = thread_count(threads);
+    state.hierarchy = build_hierarchy(scene, state.threads);
+    state.double_sided = double_sided_triangles(scene);
+    state.receives = receiving_triangles(scene);
+    state.eye = scene.camera.eye;
+    state.light = homogeneous(chosen_light(scene));
+    state.cone = cone_of(chosen_light(scene));
+    const auto from = [&](const glm::dvec4& origin) {
+        return view_from(origin, scene, state.hierarchy, state.predicates, state.threads);
+    };
+    state.from_eye = from(glm::dvec4(state.eye, 1));
+    state.from_light = from(state.light);
+    state.side_of_light = state.from_light.side;
+    keep_casters(scene, state.from_light);
+    state.build_milliseconds = milliseconds_since(start);
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+const Scene& Tracer::scene() const {
+    return *state_->scene;
+}
+int Tracer::threads() const {
+    return state_->threads;
+}
+
+namespace {
+
+Visibility visibility_of(const Seen& seen, const Lighting& lighting) {
+    if (seen.triangle == no_triangle) return Visibility::background;
+    return lighting.lit ? Visibility::lit : Visibility::shadowed;
+}
+
+void count_classes(const GroundTruth& truth, TraceStatistics& statistics) {
+    for (const Visibility visibility : truth.visibility.pixels) {
+        statistics.lit += visibility == Visibility::lit;
+        statistics.shadowed += visibility == Visibility::shadowed;
+        statistics.background += visibility == Visibility::background;
+    }
+    statistics.degenerate = static_cast<std::uint64_t>(std::count(
+        truth.exactness.pixels.begin(), truth.exactness.pixels.end(), Exactness::degenerate));
+}
+
+} // namespace
+
+GroundTruth trace(const Tracer& tracer) {
+    const Tracer::State& state = tracer.state();
+    const Camera& camera = state.scene->camera;
+    const Clock::time_point start = Clock::now();
+    GroundTruth truth;
+    truth.visibility = Image<Visibility>(camera.width, camera.height);
+    truth.triangle = Image<std::uint32_t>(camera.width, camera.height, no_triangle);
+    truth.depth = Image<double>(camera.width, camera.height);
+    truth.exactness = Image<Exactness>(camera.width, camera.height);
+    if (state.cone) truth.in_cone = Image<std::uint8_t>(camera.width, camera.height);
+
+    const auto probers = for_tiles(state, [&](Prober& prober, const Tile& tile) {
+        Lanes<Seen> seen;
+        Lanes<Lighting> lighting;
+        prober.see(tile.directions, tile.lanes, seen);
+        prober.light(tile.directions, tile.lanes, seen, lighting);
+        for (std::size_t lane = 0; lane < packet_size; ++lane) {
+            if ((tile.lanes >> lane & 1U) == 0) continue;
+            const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
+            truth.visibility.pixels[pixel] = visibility_of(seen[lane], lighting[lane]);
+            truth.triangle.pixels[pixel] = seen[lane].triangle;
+            truth.depth.pixels[pixel] = seen[lane].depth;
+            truth.exactness.pixels[pixel] =
+                std::max(seen[lane].exactness, lighting[lane].exactness);
+            if (state.cone && seen[lane].triangle != no_triangle)
+                truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
+        }
+    });
+
+    TraceStatistics& statistics = truth.statistics;
+    for (const auto& prober : probers) {
+        statistics.rays += prober->rays();
+        statistics.exact_decisions += prober->exact_decisions();
+    }
+    statistics.milliseconds = milliseconds_since(start);
+    statistics.build_milliseconds = state.build_milliseconds;
+    count_classes(truth, statistics);
+    return truth;
+}
+
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+    const Tracer::State& state = tracer.state();
+    std::vector<RayTruth> truths(directions.size());
+    std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
+    constexpr std::size_t piece_size = std::size_t{64} * packet_size;
+    const auto pieces = static_cast<int>((directions.size() + piece_size - 1) / piece_size);
+    parallel_for(pieces, state.threads, [&](int piece, int thread) {
+        std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
+        if (!prober) prober = std::make_unique<Prober>(state);
+        const std::size_t begin = static_cast<std::size_t>(piece) * piece_size;
+        const std::size_t end = std::min(directions.size(), begin + piece_size);
+        for (std::size_t first = begin; first < end; first += packet_size) {
+            const std::size_t count = std::min<std::size_t>(packet_size, end - first);
+            Lanes<glm::dvec3> packet{};
+            std::copy_n(directions.begin() + static_cast<std::ptrdiff_t>(first), count,
+                        packet.begin());
+            const std::uint32_t lanes = (1U << count) - 1;
+            Lanes<Seen> seen;
+            Lanes<Lighting> lighting;
+            prober->see(packet, lanes, seen);
+            prober->light(packet, lanes, seen, lighting);
+            for (std::size_t lane = 0; lane < count; ++lane)
+                truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
+                                        seen[lane].triangle,
+                                        seen[lane].depth,
+                                        lighting[lane].occluder,
+                                        std::max(seen[lane].exactness, lighting[lane].exactness),
+                                        lighting[lane].in_cone};
+        }
+    });
+    return truths;
+}
+
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
+    return trace_rays(tracer, std::span(&direction, 1)).front();
+}
+
+TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle) {
+    const Tracer::State& state = tracer.state();
+    const std::int8_t eye = state.from_eye.side[triangle];
+    const std::int8_t light = state.side_of_light[triangle];
+    return {eye<0, eye> 0, light<0, light> 0,
+            eye < 0 || (eye > 0 && state.double_sided[triangle] != 0)};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,97 @@
+// The entry to reference/: the ground truth at each pixel centre, decided by the signs of exact
+// expressions.
+#pragma once
+
+#include "reference/exact/exactness.h"
+#include "scenes/frame.h"
+#include "scenes/image.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+struct TraceStatistics {
+    double milliseconds = 0;           ///< tracing alone
+    double build_milliseconds = 0;     ///< the hierarchy
+    std::uint64_t rays = 0;            ///< eye rays and shadow rays
+    std::uint64_t exact_decisions = 0; ///< signs from exact arithmetic
+    std::uint64_t lit = 0;
+    std::uint64_t shadowed = 0;
+    std::uint64_t background = 0;
+    std::uint64_t degenerate = 0;
+};
+
+struct GroundTruth {
+    Image<Visibility> visibility;
+    Image<std::uint32_t> triangle; ///< the visible one, or no_triangle
+    Image<double> depth; ///< view depth of the visible point, rounded; infinity: background
+    Image<Exactness> exactness;
+    Image<std::uint8_t> in_cone; ///< 1 where the visible point is in the spot light's cone;
+                                 ///< empty where the light is no spot
+    TraceStatistics statistics;
+};
+
+/// A scene prepared for tracing: hierarchy, light and camera. Keeps a reference to the scene.
+class Tracer {
+public:
+    /// threads 0: one per core. Coordinates must be finite. Throws Error where there are no
+    /// triangles.
+    explicit Tracer(const Scene& scene, int threads = 0);
+    ~Tracer();
+    Tracer(Tracer&&) noexcept;
+    Tracer& operator=(Tracer&&) noexcept;
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    const Scene& scene() const;
+    int threads() const;
+
+    struct State; ///< for the rooms of reference/ only
+    const State& state() const { return *state_; }
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+/// The ground truth of the picture; the same, bit for bit, for any number of threads and any
+/// instruction set.
+GroundTruth trace(const Tracer& tracer);
+
+/// The truth along one ray of direction D from the eye (as Camera's ray_direction gives it).
+struct RayTruth {
+    Visibility visibility = Visibility::background;
+    std::uint32_t triangle = no_triangle;
+    double depth = 0;
+    std::uint32_t occluder = no_triangle; ///< some triangle in between, where there is one
+    Exactness exactness = Exactness::filtered;
+    bool in_cone = true; ///< false where the visible point is outside the spot light's cone
+};
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
+/// The same for many rays, on all threads.
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+
+/// Which sides of a triangle the eye and the light see, exactly: a sign of zero is neither.
+struct TriangleSides {
+    bool front_to_eye = false;
+    bool back_to_eye = false;
+    bool front_to_light = false;
+    bool back_to_light = false;
+    bool visible = false; ///< the side towards the eye is drawn
+
+    /// Whether eye and light are strictly on the same side: only then may the light pass light it.
+    bool faces_light() const {
+        return (front_to_eye && front_to_light) || (back_to_eye && back_to_light);
+    }
+};
+TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle);
+
+/// Version of the Embree library in use, "3.13.5".
+std::string embree_version();
+
+} // namespace shadowproof

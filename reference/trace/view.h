@@ -1,0 +1,44 @@
+// The scene as seen from one point, the common origin of all rays of a query: the eye, or the light
+// (shadow rays run from the light to the surface). Relative to its origin, the distance at which a
+// ray meets a box or a plane is a single product, so rounding errors stay relative and bounds
+// tight. The rays of a directional light have a common direction instead, and the scene is sheared.
+#pragma once
+
+#include "reference/exact/predicates.h"
+#include "reference/trace/embree.h"
+#include "reference/trace/shear.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+inline Corners corners(const Scene& scene, std::uint32_t triangle) {
+    return {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)};
+}
+
+struct OriginView {
+    const Scene* scene = nullptr;
+    const Hierarchy* hierarchy = nullptr;
+    bool parallel = false;      ///< rays have one direction, not one origin
+    glm::dvec3 origin{0, 0, 0}; ///< where rays are parallel: the scene's centre
+    Shear shear;                ///< where rays are parallel
+    /// A power of two: relative coordinates times scale lie within [-1, 1]; within [-1/2, 1/2]
+    /// where rays are parallel, so that they stay within [-1, 1] when sheared. The exception is a
+    /// few triangles very far out, which are not tested in float.
+    double scale = 1;
+    /// Hierarchy::entries relative to the origin, scaled and rounded outwards; children sorted by
+    /// their distance, nearest first. Where rays are parallel, boxes of (u, v, h).
+    std::vector<Entry> entries;
+    /// Per triangle the sign of det(a - O, b - O, c - O): -1 where its front faces the origin, 1
+    /// where its back does, 0 where the origin lies in its plane (or it has no area). Exact.
+    std::vector<std::int8_t> side;
+};
+
+/// `from` in homogeneous coordinates: a point, or the direction from which parallel rays come.
+OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy& hierarchy,
+                     const Predicates& predicates, int threads);
+
+} // namespace shadowproof

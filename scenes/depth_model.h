@@ -1,0 +1,39 @@
+// Window depth: how a technique makes it, and how a depth buffer keeps it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace shadowproof {
+
+/// How window depth is made and stored.
+struct DepthModel {
+    enum class Projection : std::uint8_t { finite, finite_reversed, infinite, infinite_reversed };
+    Projection projection = Projection::finite;
+    double near = 0.1;
+    double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
+    bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
+    bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
+    int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
+    double front = 0;   ///< window depth of the near plane; above 0, smaller depths are kept free
+    bool clamp = false; ///< GL_DEPTH_CLAMP: what lies past the near and far planes is kept
+
+    /// Window depth decreases away from the eye, from 1 at the near plane to 0.
+    bool reversed() const {
+        return projection == Projection::finite_reversed ||
+               projection == Projection::infinite_reversed;
+    }
+    bool finite() const {
+        return projection == Projection::finite || projection == Projection::finite_reversed;
+    }
+    /// Whether what lies past the far plane is lost.
+    bool clips_at_far() const { return finite() && !clamp; }
+};
+
+/// How a depth buffer stores window depth.
+struct DepthFormat {
+    int bits = 0;
+    bool floating = false;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,239 @@
+#include "scenes/load/admission.h"
+
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+namespace {
+
+/// The largest component's size; NaN where a component is.
+template <class Vector>
+double size_of(const Vector& v) {
+    double size = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double each = std::abs(static_cast<double>(v[k]));
+        if (!(each <= size)) size = each;
+        if (std::isnan(each)) break;
+    }
+    return size;
+}
+
+/// Zero where all vertices lie in the origin.
+double median_size(const Scene& scene) {
+    std::vector<double> sizes;
+    for (const glm::vec3& position : scene.positions)
+        if (const double size = size_of(position); size > 0) sizes.push_back(size);
+    if (sizes.empty()) return 0;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    return *middle;
+}
+
+/// Whether a number times 2^power is exact and not a denormal.
+template <class Float>
+bool scales_exactly(Float number, int power) {
+    if (number == 0) return true;
+    const Float scaled = std::ldexp(number, power);
+    return std::isnormal(scaled) && std::ldexp(scaled, -power) == number;
+}
+
+template <class Vector>
+bool scales_exactly_by_components(const Vector& v, int power) {
+    return scales_exactly(v.x, power) && scales_exactly(v.y, power) && scales_exactly(v.z, power);
+}
+
+bool scales_exactly(const Scene& scene, int power) {
+    const auto exactly = [&](const auto& v) { return scales_exactly_by_components(v, power); };
+    const Camera& camera = scene.camera;
+    const bool far = std::isinf(camera.far) || scales_exactly(camera.far, power);
+    return far && exactly(camera.eye) && scales_exactly(camera.near, power) &&
+           std::all_of(scene.positions.begin(), scene.positions.end(), exactly) &&
+           std::all_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+               return exactly(light.position) &&
+                      (!scene.inverse_square || scales_exactly(light.intensity, 2 * power));
+           });
+}
+
+/// All lengths times a power of two.
+void scale(Scene& scene, double factor) {
+    for (glm::vec3& position : scene.positions) position = glm::dvec3(position) * factor;
+    scene.camera.eye *= factor;
+    scene.camera.near *= factor;
+    scene.camera.far *= factor;
+    for (Light& light : scene.lights) {
+        light.position *= factor;
+        // The light received falls off with the square of the distance.
+        if (scene.inverse_square) light.intensity *= factor * factor;
+    }
+    scene.unit /= factor;
+}
+
+class Gate {
+public:
+    explicit Gate(const Scene& scene) : scene_(scene) {
+        const double size = median_size(scene);
+        // Too small, and yet not brought to ordinary size: something would be beyond the limit.
+        if (size > 0 && size < 1 / ordinary_size)
+            limit_ = std::ldexp(largest_coordinate, std::ilogb(size));
+    }
+
+    void check() const {
+        check_positions();
+        check_camera();
+        for (const Light& light : scene_.lights) check_light(light);
+        if (is_bump_lit(scene_)) check_lighting();
+    }
+
+private:
+    const Scene& scene_;
+    double limit_ = largest_coordinate;
+
+    [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const {
+        throw Error(scene_.file.empty() ? scene_.name : scene_.file.string(), what, remedy);
+    }
+
+    /// In the file's own units.
+    std::string words_of(const glm::dvec3& place) const {
+        const glm::dvec3 at = place * scene_.unit;
+        return fmt::format("({:.9g}, {:.9g}, {:.9g})", at.x, at.y, at.z);
+    }
+
+    /// The name of a camera or of a light, where it has one.
+    static std::string named(const char* kind, const std::string& name) {
+        return name.empty() ? fmt::format("the {}", kind)
+                            : fmt::format("the {} \"{}\"", kind, name);
+    }
+
+    void check_place(const std::string& who, const glm::dvec3& place) const {
+        if (size_of(place) <= limit_) return;
+        refuse(fmt::format("{} is at {}, which is not within {:.3g} of the origin", who,
+                           words_of(place), limit_ * scene_.unit),
+               "move it nearer, or scale the scene");
+    }
+
+    void check_axis(const std::string& who, const glm::dvec3& axis) const {
+        if (std::isfinite(size_of(axis)) && size_of(axis) > 0) return;
+        refuse(fmt::format("{} points along ({}, {}, {})", who, axis.x, axis.y, axis.z),
+               "mend its node's transform");
+    }
+
+    void check_positions() const {
+        for (const Mesh& mesh : scene_.meshes)
+            for (std::uint32_t i = 0; i < mesh.triangle_count; ++i)
+                for (int k = 0; k < 3; ++k) {
+                    const glm::uvec3& corners = scene_.triangles[mesh.first_triangle + i];
+                    const glm::dvec3 place(scene_.positions[corners[k]]);
+                    if (size_of(place) <= limit_) continue;
+                    check_place(fmt::format("mesh \"{}\": vertex {} (corner {} of triangle {})",
+                                            mesh.name, corners[k] - first_vertex(mesh), k, i),
+                                place);
+                }
+    }
+
+    std::uint32_t first_vertex(const Mesh& mesh) const {
+        std::uint32_t first = std::numeric_limits<std::uint32_t>::max();
+        for (std::uint32_t i = 0; i < mesh.triangle_count; ++i)
+            for (int k = 0; k < 3; ++k)
+                first = std::min(first, scene_.triangles[mesh.first_triangle + i][k]);
+        return first;
+    }
+
+    void check_camera() const {
+        const Camera& camera = scene_.camera;
+        check_place("the camera", camera.eye);
+        for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
+            check_axis("the camera", axis);
+        // As floats hold them; depths between the planes then are floats, too.
+        if (!(camera.near >= std::numeric_limits<float>::min() &&
+              camera.near <= largest_coordinate))
+            refuse(fmt::format("the camera's near plane is at {:.9g}, which is not between {:.3g} "
+                               "and {:.3g}",
+                               camera.near * scene_.unit,
+                               std::numeric_limits<float>::min() * scene_.unit,
+                               largest_coordinate * scene_.unit),
+                   "move the near plane");
+        if (std::isfinite(camera.far) && !(camera.far <= std::numeric_limits<float>::max()))
+            refuse(fmt::format("the camera's far plane is at {:.9g}, further than {:.3g}",
+                               camera.far * scene_.unit,
+                               std::numeric_limits<float>::max() * scene_.unit),
+                   "move the far plane nearer, or leave it out");
+        // A view coordinate is at most sqrt(3) 2^63, and clip coordinates are that over this.
+        const glm::dvec2 half = half_extent(camera);
+        if (!(std::min(half.x, half.y) >= 1 / largest_coordinate && std::isfinite(half.x) &&
+              std::isfinite(half.y)))
+            refuse(fmt::format("the camera's picture is {:.3g} by {:.3g} at depth 1", 2 * half.x,
+                               2 * half.y),
+                   "use another field of view");
+    }
+
+    /// Colours, and the heights and scales of bumps: floats hold products of four of them, and the
+    /// squares of slopes.
+    void check_number(const std::string& what, double number) const {
+        if (std::abs(number) <= largest_lighting_number) return;
+        refuse(fmt::format("{} of {:.9g} is larger than {:.3g}, and lighting would leave the range "
+                           "of floats",
+                           what, number, largest_lighting_number),
+               "write a smaller number");
+    }
+    void check_number(const std::string& what, const glm::dvec3& numbers) const {
+        for (int k = 0; k < 3; ++k) check_number(what, numbers[k]);
+    }
+
+    void check_lighting() const {
+        check_number("an ambient light", scene_.ambient);
+        for (const Material& material : scene_.materials) {
+            const std::string of = fmt::format("material \"{}\": a ", material.name);
+            check_number(of + "colour", material.color);
+            check_number(of + "specular colour", material.specular);
+            check_number(of + "reflectance", material.reflectance);
+            check_number(of + "scale of bumps", material.bump_scale);
+        }
+        for (const Light& light : scene_.lights) {
+            check_number(named("light", light.name) + ": a colour", light.color);
+            if (scene_.inverse_square)
+                check_number(named("light", light.name) + ": an intensity",
+                             light.intensity * scene_.unit * scene_.unit);
+        }
+    }
+
+    void check_light(const Light& light) const {
+        const std::string who = named("light", light.name);
+        if (light.kind != Light::Kind::directional) check_place(who, light.position);
+        if (light.kind != Light::Kind::point) check_axis(who, light.direction);
+    }
+};
+
+} // namespace
+
+void bring_to_ordinary_size(Scene& scene) {
+    const double size = median_size(scene);
+    if (!(size > 0) || !std::isfinite(size)) return;
+    if (size <= ordinary_size && size >= 1 / ordinary_size) return;
+    const int power = -std::ilogb(size);
+    if (!scales_exactly(scene, power)) return;
+    scale(scene, std::ldexp(1.0, power));
+    scene.notes.push_back(fmt::format(
+        "worked on with all lengths times 2^{}, exactly: floats do not hold products of the file's "
+        "own; explain and EXR tell lengths as in the file, the report's page as worked with",
+        power));
+}
+
+Scene in_file_units(Scene scene) {
+    if (scene.unit != 1) scale(scene, scene.unit);
+    return scene;
+}
+
+void admit(Scene& scene) {
+    bring_to_ordinary_size(scene);
+    Gate(scene).check();
+}
+
+} // namespace shadowproof

@@ -1,0 +1,356 @@
+#include "scenes/load/gltf/check.h"
+
+#include "scenes/load/gltf/file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace shadowproof::gltf {
+
+namespace {
+
+using nlohmann::json;
+
+enum class Kind : std::uint8_t {
+    text,
+    boolean,
+    number,
+    positive,       ///< a number above 0
+    numbers,        ///< an array of `most` numbers
+    whole,          ///< an integer from `least` to `most`
+    index,          ///< into `array`
+    component_type, ///< as tinygltf::GetComponentSizeInBytes knows them, but what glTF has not
+    accessor_type,
+};
+
+/// What the values at `path` are. In a path, * stands for every element of an array and {} for
+/// every member of an object; "name!" must be there, "name?" counts only where it is an object.
+struct Rule {
+    const char* path;
+    Kind kind = Kind::text;
+    std::uint64_t least = 0;
+    std::uint64_t most = 0;
+    const char* array = "";
+};
+
+constexpr Rule index(const char* path, const char* array) {
+    return {path, Kind::index, 0, 0xffffffffU, array};
+}
+constexpr Rule whole(const char* path, std::uint64_t least, std::uint64_t most) {
+    return {path, Kind::whole, least, most, ""};
+}
+constexpr Rule numbers(const char* path, std::uint64_t count) {
+    return {path, Kind::numbers, count, count, ""};
+}
+
+/// Checked first, as another version or an extension may break the other rules.
+constexpr std::array rules_of_the_head{
+    Rule{"asset!/version!"},
+    Rule{"extensionsUsed/*"},
+    Rule{"extensionsRequired/*"},
+};
+
+constexpr std::array rules{
+    Rule{"extras?/shadowproof/provokes/*"},
+    Rule{"extras?/shadowproof/provokesWide/*"},
+    index("scene", "/scenes"),
+    index("scenes/*/nodes/*", "/nodes"),
+    Rule{"nodes/*/name"},
+    Rule{"nodes/*/extras?/shadowproof/casts", Kind::boolean},
+    Rule{"nodes/*/extras?/shadowproof/receives", Kind::boolean},
+    index("nodes/*/mesh", "/meshes"),
+    index("nodes/*/skin", "/skins"),
+    index("nodes/*/camera", "/cameras"),
+    index("nodes/*/children/*", "/nodes"),
+    numbers("nodes/*/matrix", 16),
+    numbers("nodes/*/translation", 3),
+    numbers("nodes/*/rotation", 4),
+    numbers("nodes/*/scale", 3),
+    Rule{"nodes/*/weights/*", Kind::number},
+    index("nodes/*/extensions/KHR_lights_punctual/light!",
+          "/extensions/KHR_lights_punctual/lights"),
+    Rule{"extensions/KHR_lights_punctual/lights/*/name"},
+    Rule{"extensions/KHR_lights_punctual/lights/*/type!"},
+    numbers("extensions/KHR_lights_punctual/lights/*/color", 3),
+    Rule{"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
+    Rule{"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
+    Rule{"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
+    Rule{"cameras/*/name"},
+    Rule{"cameras/*/type!"},
+    Rule{"cameras/*/perspective/yfov!", Kind::number},
+    Rule{"cameras/*/perspective/znear!", Kind::positive},
+    Rule{"cameras/*/perspective/zfar", Kind::positive}, // tinygltf uses 0 for none
+    Rule{"materials/*/name"},
+    Rule{"materials/*/alphaMode"},
+    Rule{"materials/*/doubleSided", Kind::boolean},
+    whole("materials/*/normalTexture/index", 0, 0x7fffffff),
+    Rule{"meshes/*/name"},
+    Rule{"meshes/*/weights/*", Kind::number},
+    index("meshes/*/primitives!/*/attributes!/{}", "/accessors"),
+    index("meshes/*/primitives/*/targets/*/{}", "/accessors"),
+    index("meshes/*/primitives/*/indices", "/accessors"),
+    index("meshes/*/primitives/*/material", "/materials"),
+    whole("meshes/*/primitives/*/mode", 0, 6),
+    index("skins/*/joints!/*", "/nodes"),
+    index("skins/*/inverseBindMatrices", "/accessors"),
+    whole("animations/*/channels!/*/sampler!", 0, 0x7fffffff),
+    index("animations/*/channels/*/target!/node", "/nodes"),
+    Rule{"animations/*/channels/*/target/path!"},
+    index("animations/*/samplers!/*/input!", "/accessors"),
+    index("animations/*/samplers/*/output!", "/accessors"),
+    Rule{"animations/*/samplers/*/interpolation"},
+    whole("accessors/*/count!", 1, 0xffffffffU),
+    Rule{"accessors/*/type!", Kind::accessor_type},
+    Rule{"accessors/*/componentType!", Kind::component_type},
+    Rule{"accessors/*/normalized", Kind::boolean},
+    index("accessors/*/bufferView", "/bufferViews"),
+    whole("accessors/*/byteOffset", 0, limits.bytes),
+    whole("accessors/*/sparse/count!", 1, 0x7fffffff),
+    index("accessors/*/sparse/indices!/bufferView!", "/bufferViews"),
+    whole("accessors/*/sparse/indices/byteOffset", 0, limits.bytes),
+    Rule{"accessors/*/sparse/indices/componentType!", Kind::component_type},
+    index("accessors/*/sparse/values!/bufferView!", "/bufferViews"),
+    whole("accessors/*/sparse/values/byteOffset", 0, limits.bytes),
+    index("bufferViews/*/buffer!", "/buffers"),
+    whole("bufferViews/*/byteLength!", 1, limits.bytes),
+    whole("bufferViews/*/byteOffset", 0, limits.bytes),
+    whole("bufferViews/*/byteStride", 4, 252),
+    whole("buffers/*/byteLength!", 1, 1ULL << 53U),
+    Rule{"buffers/*/uri"},
+};
+
+/// Checked only where surfaces are lit by bump maps; otherwise textures are not read.
+constexpr std::array rules_of_lighting{
+    numbers("extras?/shadowproof/ambient", 3),
+    Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},
+    index("extras?/shadowproof/environment/faces!/*", "/textures"),
+    numbers("materials/*/pbrMetallicRoughness/baseColorFactor", 4),
+    index("materials/*/pbrMetallicRoughness/baseColorTexture/index!", "/textures"),
+    whole("materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", 0, 0x7fffffff),
+    index("materials/*/normalTexture/index!", "/textures"),
+    whole("materials/*/normalTexture/texCoord", 0, 0x7fffffff),
+    Rule{"materials/*/normalTexture/scale", Kind::number},
+    index("materials/*/extras?/shadowproof/height/index!", "/textures"),
+    whole("materials/*/extras?/shadowproof/height/texCoord", 0, 0x7fffffff),
+    Rule{"materials/*/extras?/shadowproof/height/scale", Kind::number},
+    Rule{"materials/*/extras?/shadowproof/glossInAlpha", Kind::boolean},
+    numbers("materials/*/extras?/shadowproof/specular", 3),
+    numbers("materials/*/extras?/shadowproof/reflectance", 3),
+    index("textures/*/sampler", "/samplers"),
+    index("textures/*/source", "/images"),
+    whole("samplers/*/magFilter", 0, 0xffff),
+    whole("samplers/*/wrapS", 0, 0xffff),
+    whole("samplers/*/wrapT", 0, 0xffff),
+    index("images/*/bufferView", "/bufferViews"),
+    Rule{"images/*/uri"},
+};
+
+void require(bool holds, const json& value, const Place& place, const char* kind) {
+    if (!holds)
+        place.refuse(fmt::format("is {}, not {}", value.type_name(), kind),
+                     fmt::format("write {}", kind));
+}
+
+double number(const json& value, const Place& place) {
+    require(value.is_number(), value, place, "a number");
+    return value.get<double>(); // always finite: JSON has no other
+}
+
+std::uint64_t integer(const json& value, const Place& place, std::uint64_t least,
+                      std::uint64_t most) {
+    const double real = number(value, place);
+    const bool is_unsigned = value.is_number_unsigned();
+    const bool fits = is_unsigned || (real >= 0 && real < 0x1p53 && std::trunc(real) == real);
+    const std::uint64_t result = !fits         ? 0
+                                 : is_unsigned ? value.get<std::uint64_t>()
+                                               : static_cast<std::uint64_t>(real);
+    if (!fits || result < least || result > most)
+        place.refuse(fmt::format("{} is not an integer from {} to {}", value.dump(), least, most),
+                     "write one");
+    return result;
+}
+
+/// Elements of the array at a JSON pointer; 0 where there is none.
+std::size_t count_at(const json& root, const char* array) {
+    const json::json_pointer pointer(array);
+    return root.contains(pointer) ? root.at(pointer).size() : 0;
+}
+
+void check_numbers(const json& value, const Place& place, std::size_t count) {
+    require(value.is_array(), value, place, "an array");
+    if (value.size() != count)
+        place.refuse(fmt::format("has {} elements, not {}", value.size(), count),
+                     fmt::format("write {} numbers", count));
+    for (std::size_t i = 0; i < count; ++i) number(value[i], place / i);
+}
+
+void check_component_type(const json& value, const Place& place) {
+    const std::uint64_t type = integer(value, place, 0, 0xffff);
+    if (type < 5120 || type > 5126 || type == 5124)
+        place.refuse(fmt::format("{} is no component type", type),
+                     "use 5120 to 5123, 5125 or 5126");
+}
+
+void check_accessor_type(const json& value, const Place& place) {
+    constexpr std::array types{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    require(value.is_string(), value, place, "a string");
+    if (std::find(types.begin(), types.end(), value) == types.end())
+        place.refuse(fmt::format("{} is no accessor type", value.dump()), "use \"VEC3\"");
+}
+
+/// Checks one rule on everything its path reaches.
+class Checker {
+public:
+    Checker(const Rule& rule, const json& root)
+        : rule_(rule), count_(rule.kind == Kind::index ? count_at(root, rule.array) : 0) {}
+
+    void walk(json& value, const Place& place, std::string_view path) const {
+        if (path.empty()) return check(value, place);
+        const std::string_view step = path.substr(0, path.find('/'));
+        const std::string_view rest = path.substr(std::min(step.size() + 1, path.size()));
+        if (step == "*") {
+            require(value.is_array(), value, place, "an array");
+            for (std::size_t i = 0; i < value.size(); ++i) walk(value[i], place / i, rest);
+            return;
+        }
+        require(value.is_object(), value, place, "an object");
+        if (step == "{}") {
+            for (const auto& [key, member] : value.items()) walk(member, place / key, rest);
+            return;
+        }
+        walk_member(value, place, step, rest);
+    }
+
+private:
+    void walk_member(json& value, const Place& place, std::string_view step,
+                     std::string_view rest) const {
+        const bool required = step.back() == '!';
+        const bool only_object = step.back() == '?';
+        if (required || only_object) step.remove_suffix(1);
+        const auto member = value.find(step);
+        if (member == value.end()) {
+            if (required)
+                place.refuse(fmt::format("\"{}\" is missing", step),
+                             "add it; glTF 2.0 requires it");
+        } else if (!only_object || member->is_object()) {
+            walk(*member, place / step, rest);
+        }
+    }
+
+    void check(json& value, const Place& place) const {
+        switch (rule_.kind) {
+        case Kind::text:
+            return require(value.is_string(), value, place, "a string");
+        case Kind::boolean:
+            return require(value.is_boolean(), value, place, "a boolean");
+        case Kind::number:
+            number(value, place);
+            return;
+        case Kind::positive:
+            if (!(number(value, place) > 0))
+                place.refuse(value.dump() + " is not above 0", "write a positive number");
+            return;
+        case Kind::numbers:
+            return check_numbers(value, place, rule_.most);
+        case Kind::whole:
+            value = integer(value, place, rule_.least, rule_.most);
+            return;
+        case Kind::index:
+            return check_index(value, place);
+        case Kind::component_type:
+            check_component_type(value, place);
+            value = integer(value, place, 0, 0xffff);
+            return;
+        case Kind::accessor_type:
+            return check_accessor_type(value, place);
+        }
+    }
+
+    void check_index(json& value, const Place& place) const {
+        const std::uint64_t index = integer(value, place, rule_.least, rule_.most);
+        if (index >= count_)
+            place.refuse(fmt::format("{} is no index into {}, which has {}", index, rule_.array,
+                                     count_ == 0 ? "none" : std::to_string(count_)),
+                         "name an element that exists");
+        value = index;
+    }
+
+    const Rule& rule_;
+    std::size_t count_;
+};
+
+/// Whether an extension changes only the look of a surface: then the notes say that it is ignored.
+bool is_only_look(std::string_view extension) {
+    return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+           extension == "EXT_texture_webp" || extension == "KHR_xmp_json_ld";
+}
+
+void check_version(const Place& root, const json& document) {
+    const std::string version = document["asset"]["version"];
+    if (!version.starts_with("2."))
+        (root / "asset" / "version")
+            .refuse(fmt::format("\"{}\" is not glTF 2", version), "convert the asset to glTF 2.0");
+}
+
+void check_required_extensions(const Place& root, const json& document) {
+    const auto required = document.find("extensionsRequired");
+    for (std::size_t i = 0; required != document.end() && i < required->size(); ++i) {
+        const std::string name = (*required)[i];
+        if (!is_evaluated(name) && !is_only_look(name))
+            (root / "extensionsRequired" / i)
+                .refuse(fmt::format("requires the extension {}, which is not evaluated", name),
+                        "export the asset without it");
+    }
+}
+
+/// tinygltf keeps the matrix and silently drops the rest.
+void check_transforms(const Place& root, const json& document) {
+    const auto nodes = document.find("nodes");
+    for (std::size_t i = 0; nodes != document.end() && i < nodes->size(); ++i)
+        for (const char* key : {"translation", "rotation", "scale"})
+            if ((*nodes)[i].contains("matrix") && (*nodes)[i].contains(key))
+                (root / "nodes" / i)
+                    .refuse(fmt::format("has both \"matrix\" and \"{}\"", key), "keep one");
+}
+
+/// tinygltf does not load index accessors that have no buffer view, and does not say which.
+void check_indices(const Place& root, const json& document) {
+    const auto meshes = document.find("meshes");
+    for (std::size_t i = 0; meshes != document.end() && i < meshes->size(); ++i) {
+        const auto& primitives = (*meshes)[i]["primitives"];
+        for (std::size_t k = 0; k < primitives.size(); ++k) {
+            const auto indices = primitives[k].find("indices");
+            if (indices == primitives[k].end()) continue;
+            if (!document["accessors"][indices->get<std::size_t>()].contains("bufferView"))
+                (root / "meshes" / i / "primitives" / k / "indices")
+                    .refuse("names an accessor without a buffer view", "give it one");
+        }
+    }
+}
+
+} // namespace
+
+bool is_evaluated(std::string_view extension) {
+    return extension == "KHR_lights_punctual" || extension == "KHR_mesh_quantization";
+}
+
+void check_json(const Place& root, json& document) {
+    for (const Rule& rule : rules_of_the_head)
+        Checker(rule, document).walk(document, root, rule.path);
+    check_version(root, document);
+    check_required_extensions(root, document);
+    for (const Rule& rule : rules) Checker(rule, document).walk(document, root, rule.path);
+    check_transforms(root, document);
+    check_indices(root, document);
+}
+
+void check_lighting(const Place& root, json& document) {
+    for (const Rule& rule : rules_of_lighting)
+        Checker(rule, document).walk(document, root, rule.path);
+}
+
+} // namespace shadowproof::gltf

@@ -1,0 +1,106 @@
+#include "scenes/load/gltf/texture.h"
+
+#include "scenes/load/file_bytes.h"
+#include "scenes/load/picture.h"
+
+#include <fmt/format.h>
+
+namespace shadowproof::gltf {
+
+namespace {
+
+using nlohmann::json;
+
+// Numbers of the glTF 2.0 specification.
+constexpr int filter_nearest = 9728;
+constexpr int wrap_clamp_to_edge = 33071;
+constexpr int wrap_mirrored_repeat = 33648;
+constexpr int wrap_repeat = 10497;
+
+FileBytes bytes_in_view(const Document& document, std::size_t index) {
+    const tinygltf::BufferView& view = document.model.bufferViews[index];
+    const FileBytes& buffer = document.model.buffers[as_index(view.buffer)].data;
+    if (view.byteOffset + view.byteLength > buffer.size()) // each is at most limits.bytes
+        (document.root() / "bufferViews" / index)
+            .refuse(fmt::format("ends at byte {} of a buffer of {}",
+                                view.byteOffset + view.byteLength, buffer.size()),
+                    "mend byteOffset and byteLength");
+    const auto first = buffer.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+    document.memory->require({view.byteLength, (document.root() / "bufferViews" / index).where(),
+                              "its bytes", "mend byteLength"});
+    return {first, first + static_cast<std::ptrdiff_t>(view.byteLength)};
+}
+
+FileBytes bytes_in_uri(const Document& document, const std::string& uri, const Place& place) {
+    if (!uri.starts_with("data:"))
+        return read_bytes(resolve_uri(document.folder, uri, place), place, *document.memory);
+    document.memory->require({3 * uri.size(), place.where(), "decoding it", "write a file"});
+    FileBytes bytes;
+    std::string type;
+    const std::string known = // as tinygltf knows it
+        fmt::format("data:application/octet-stream;base64,{}", base64_digits(uri, place));
+    if (!tinygltf::DecodeDataURI(&bytes, type, known, 0, false))
+        place.refuse("is an empty data URI", "embed the picture");
+    return bytes;
+}
+
+FileBytes image_bytes(const Document& document, const json& source, std::size_t image) {
+    const Place place = document.root() / "images" / image;
+    if (source.contains("bufferView")) return bytes_in_view(document, source["bufferView"]);
+    if (!source.contains("uri"))
+        place.refuse("has neither uri nor bufferView", "say where the picture is");
+    return bytes_in_uri(document, source["uri"], place / "uri");
+}
+
+Wrap wrap_mode(const Place& place, int mode) {
+    if (mode == wrap_repeat) return Wrap::repeat;
+    if (mode == wrap_mirrored_repeat) return Wrap::mirrored_repeat;
+    if (mode == wrap_clamp_to_edge) return Wrap::clamp_to_edge;
+    place.refuse(fmt::format("{} is no wrap mode", mode), "use 10497, 33071 or 33648");
+}
+
+} // namespace
+
+void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
+    const json& source = look_["samplers"][sampler];
+    const Place place = document_.root() / "samplers" / sampler;
+    texture.wrap_s = wrap_mode(place / "wrapS", source.value("wrapS", wrap_repeat));
+    texture.wrap_t = wrap_mode(place / "wrapT", source.value("wrapT", wrap_repeat));
+    nearest_ = nearest_ || source.value("magFilter", 0) == filter_nearest;
+}
+
+TextureImage TextureReader::decode(const Place& reference, std::size_t texture, Encoding encoding) {
+    const json& source = look_["textures"][texture];
+    const Place place = document_.root() / "textures" / texture;
+    if (!source.contains("source"))
+        reference.refuse(fmt::format("names texture {}, which has no PNG or JPEG image", texture),
+                         "give it a source");
+    const std::size_t image = source["source"];
+    TextureImage read{.name = place.pointer()};
+    if (source.contains("sampler")) set_sampler(source["sampler"], read);
+    const std::string where = (document_.root() / "images" / image).where();
+    MemoryAccount& memory = *document_.memory;
+    const FileBytes bytes = image_bytes(document_, look_["images"][image], image);
+    const MemoryHold held = memory.hold({bytes.size(), where, "its bytes", "scale it down"});
+    const Picture picture = decode_picture(bytes, where,
+                                           {.memory = memory,
+                                            .most_pixels = limits.texels - texels_,
+                                            .bytes_made_of_pixel = sizeof(glm::vec4)});
+    read.bits = picture.bits;
+    read.texels = texels_of(picture, encoding);
+    texels_ += read.texels.pixels.size();
+    memory.keep(
+        {read.texels.pixels.size() * sizeof(glm::vec4), where, "its texels", "scale it down"});
+    return read;
+}
+
+std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, Encoding encoding) {
+    const auto known = read_.find({texture, encoding});
+    if (known != read_.end()) return known->second;
+    textures_.push_back(decode(reference, texture, encoding));
+    const auto index = static_cast<std::uint32_t>(textures_.size() - 1);
+    read_.emplace(std::pair{texture, encoding}, index);
+    return index;
+}
+
+} // namespace shadowproof::gltf

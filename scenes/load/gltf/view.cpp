@@ -1,0 +1,194 @@
+#include "scenes/load/gltf/view.h"
+
+#include "scenes/error.h"
+#include "scenes/load/default_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+namespace shadowproof::gltf {
+
+namespace {
+
+/// A node that carries a camera or a light, with the names by which it can be chosen.
+struct Carrier {
+    std::size_t node = 0;
+    std::size_t index = 0; ///< of the camera or the light in the model
+    Place place;           ///< of the same
+    std::string name;
+};
+
+/// "camera 1 \"main\"" for messages and notes.
+std::string described(const char* kind, std::size_t index, const Carrier& carrier) {
+    return carrier.name.empty() ? fmt::format("{} {}", kind, index)
+                                : fmt::format("{} {} \"{}\"", kind, index, carrier.name);
+}
+
+/// The one that `wanted` names: node name, own name, or number in the order of the scene.
+std::optional<std::size_t> place_of(const std::vector<Carrier>& carriers, const NodeGraph& graph,
+                                    const std::string& wanted) {
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+        if (graph.nodes[carriers[i].node].name == wanted || carriers[i].name == wanted) return i;
+    std::size_t index = 0;
+    const char* const end = wanted.data() + wanted.size();
+    const auto [parsed, failure] = std::from_chars(wanted.data(), end, index);
+    if (failure == std::errc{} && parsed == end && index < carriers.size()) return index;
+    return std::nullopt;
+}
+
+std::size_t find_named(const std::string& file, const char* kind,
+                       const std::vector<Carrier>& carriers, const NodeGraph& graph,
+                       const std::string& wanted) {
+    if (const std::optional<std::size_t> place = place_of(carriers, graph, wanted)) return *place;
+    std::string offered;
+    for (std::size_t i = 0; i < carriers.size(); ++i)
+        offered += (i == 0 ? "" : ", ") + described(kind, i, carriers[i]);
+    throw Error(file, fmt::format("has no {} \"{}\"", kind, wanted),
+                offered.empty() ? fmt::format("there is no {} in the scene", kind)
+                                : "choose one of: " + offered);
+}
+
+std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& graph) {
+    std::vector<Carrier> carriers;
+    for (const std::size_t node : graph.in_scene) {
+        if (document.model.nodes[node].camera < 0) continue;
+        const std::size_t index = as_index(document.model.nodes[node].camera);
+        const std::string& own = document.model.cameras[index].name;
+        carriers.push_back({node, index, document.root() / "cameras" / index,
+                            own.empty() ? graph.nodes[node].name : own});
+    }
+    return carriers;
+}
+
+Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
+                   const SceneRequest& request) {
+    const tinygltf::Camera& source = document.model.cameras[carrier.index];
+    if (source.type != "perspective")
+        carrier.place.refuse("is an orthographic camera, which is not evaluated",
+                             "choose or add a perspective camera");
+    const tinygltf::PerspectiveCamera& perspective = source.perspective;
+    const Place place = carrier.place / "perspective";
+    if (!(perspective.yfov > 0 && perspective.yfov < std::numbers::pi)) // radians
+        (place / "yfov")
+            .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
+    Camera camera;
+    camera.width = request.width;
+    camera.height = request.height;
+    camera.tan_half_height = std::tan(perspective.yfov / 2);
+    camera.near = perspective.znear;
+    if (perspective.zfar > 0) camera.far = perspective.zfar; // 0: there is none
+    if (!(camera.far > camera.near))
+        (place / "zfar")
+            .refuse(fmt::format("{} is not above znear {}", camera.far, camera.near),
+                    "move the far plane back, or leave it out");
+    const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
+    camera.eye = glm::dvec3(world[3]);
+    if (!orient(camera, -glm::dvec3(world[2]), glm::dvec3(world[1])))
+        graph.nodes[carrier.node].place.refuse(
+            "has a transform that leaves its camera no direction",
+            "use a transform without zero scale");
+    return camera;
+}
+
+std::vector<Carrier> find_lights(const Document& document, const NodeGraph& graph) {
+    const char* const extension = "KHR_lights_punctual";
+    const Place lights = document.root() / "extensions" / extension / "lights";
+    std::vector<Carrier> carriers;
+    for (const std::size_t node : graph.in_scene) {
+        const tinygltf::ExtensionMap& extensions = document.model.nodes[node].extensions;
+        const auto found = extensions.find(extension);
+        if (found == extensions.end()) continue;
+        const std::size_t index = as_index(found->second.Get("light").GetNumberAsInt());
+        const std::string& own = document.model.lights[index].name;
+        carriers.push_back(
+            {node, index, lights / index, own.empty() ? graph.nodes[node].name : own});
+    }
+    return carriers;
+}
+
+Light::Kind light_kind(const Place& place, const std::string& type) {
+    if (type == "point") return Light::Kind::point;
+    if (type == "spot") return Light::Kind::spot;
+    if (type == "directional") return Light::Kind::directional;
+    place.refuse(fmt::format("\"{}\" is no light type", type),
+                 "use \"point\", \"spot\" or \"directional\"");
+}
+
+void read_cones(const Place& place, const tinygltf::SpotLight& spot, Light& light) {
+    light.inner_cone = spot.innerConeAngle;
+    light.outer_cone = spot.outerConeAngle;
+    if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone &&
+          light.outer_cone <= std::numbers::pi / 2))
+        place.refuse(fmt::format("cone angles {} and {} do not satisfy 0 <= inner < outer <= pi/2",
+                                 light.inner_cone, light.outer_cone),
+                     "mend the angles");
+}
+
+Light read_light(const Document& document, const NodeGraph& graph, const Carrier& carrier) {
+    const tinygltf::Light& source = document.model.lights[carrier.index];
+    Light light;
+    light.name = carrier.name;
+    light.kind = light_kind(carrier.place / "type", source.type);
+    if (!source.color.empty()) light.color = glm::make_vec3(source.color.data());
+    light.intensity = source.intensity;
+    if (light.intensity < 0)
+        (carrier.place / "intensity").refuse("is negative", "write candela, or lux");
+    if (light.kind == Light::Kind::spot) read_cones(carrier.place / "spot", source.spot, light);
+    const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
+    light.position = glm::dvec3(world[3]);
+    light.direction = glm::normalize(-glm::dvec3(world[2]));
+    if (light.kind != Light::Kind::point &&
+        !std::isfinite(glm::dot(light.direction, light.direction)))
+        graph.nodes[carrier.node].place.refuse("has a transform that leaves its light no direction",
+                                               "use a transform without zero scale");
+    if (light.kind == Light::Kind::point) light.direction = {0, 0, -1}; // has no meaning
+    return light;
+}
+
+} // namespace
+
+Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
+                     Scene& scene) {
+    const std::vector<Carrier> cameras = find_cameras(document, graph);
+    if (request.camera)
+        return read_camera(
+            document, graph,
+            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request);
+    if (cameras.empty()) return default_camera(request, scene);
+    const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
+        return document.model.cameras[carrier.index].type == "perspective";
+    });
+    if (first == cameras.end()) return read_camera(document, graph, cameras.front(), request);
+    if (first != cameras.begin())
+        scene.notes.push_back(fmt::format(
+            "orthographic cameras are not evaluated: {} is used",
+            described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
+    return read_camera(document, graph, *first, request);
+}
+
+void choose_light(const Document& document, const NodeGraph& graph, const SceneRequest& request,
+                  Scene& scene) {
+    const std::vector<Carrier> lights = find_lights(document, graph);
+    if (request.light)
+        scene.light = find_named(document.file, "light", lights, graph, *request.light);
+    for (const Carrier& carrier : lights) {
+        Light& light = scene.lights.emplace_back(read_light(document, graph, carrier));
+        const std::size_t number = scene.lights.size() - 1;
+        const bool is_told_by_name =
+            !light.name.empty() && place_of(lights, graph, light.name) == number;
+        light.choice = is_told_by_name ? light.name : std::to_string(number);
+    }
+    if (lights.empty()) add_default_light(scene);
+    if (lights.size() > 1 && !request.every_light)
+        scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
+                                          described("light", scene.light, lights[scene.light])));
+}
+
+} // namespace shadowproof::gltf

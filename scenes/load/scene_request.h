@@ -1,0 +1,23 @@
+// How a scene is to be loaded, whatever its file's format.
+#pragma once
+
+#include "scenes/memory_budget.h"
+
+#include <optional>
+#include <string>
+
+namespace shadowproof {
+
+/// What to take from a file that offers several.
+struct SceneRequest {
+    std::optional<std::string> camera; ///< name or index of a camera node; else the first
+    std::optional<std::string> light;  ///< name or index of a light; else the first
+    bool every_light = false;          ///< all lights are judged, each by itself: no note then says
+                                       ///< that the first was taken
+    double time = 0;                   ///< seconds: animations, skins and morphs are posed here
+    int width = 512;                   ///< pixels
+    int height = 512;                  ///< pixels
+    MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
+};
+
+} // namespace shadowproof

@@ -1,0 +1,154 @@
+// Pictures of other renderers, made here from class maps: what is right agrees, what is wrong is
+// counted and explained, what cannot be told is refused.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { grayPng, readPng } from './png.mjs';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const size = ['--size', '200x200'];
+const path = (name) => join(scratch, name);
+const [lit, shadowed] = [255, 64];
+
+/** The class map of a scene as { width, height, at(x, y) }. */
+function truthOf(scene, pixels = size) {
+  const file = path(`${scene}-${pixels[1]}.png`);
+  const run = shadowproof(['render', scene, ...pixels, '-o', file, '-q']);
+  assert.equal(run.code, 0, run.err);
+  const png = readPng(file);
+  return { ...png, at: (x, y) => png.at(x, y)[0] };
+}
+
+/** Writes a gray picture of a class map by a value for each pixel. */
+function picture(name, { width, height, at }, value) {
+  writeFileSync(path(name), grayPng(width, height, (x, y) => 257 * value(at(x, y), x, y)));
+  return name;
+}
+
+function checked(...args) {
+  const run = shadowproof(['check', ...args, '--out', 'checked']);
+  const results = run.code > 1 ? null
+    : JSON.parse(readFileSync(path('checked/results.json'), 'utf8'));
+  return { ...run, cells: results?.scenes[0].techniques };
+}
+
+const shade = { 0: 20, [shadowed]: 60, [lit]: 190 };
+
+/** The first place of 12 x 12 lit pixels, as a square of 8 x 8 in their middle. */
+function litSquare(truth) {
+  const isLit = (x, y) => Array.from({ length: 144 }, (_, i) =>
+    truth.at(x + i % 12, y + Math.floor(i / 12))).every((value) => value === lit);
+  for (let y = 0; y + 12 <= truth.height; ++y)
+    for (let x = 0; x + 12 <= truth.width; ++x) if (isLit(x, y)) return [x + 2, y + 2];
+  throw new Error('no place is lit');
+}
+
+for (const scene of ['ordinary', 'near_plane', 'sun', 'spot', 'overlapping'])
+  test(`a right picture of ${scene} agrees: alone, with its twin, and as a mask`, () => {
+    const truth = truthOf(scene);
+    const alone = picture('alone.png', truth, (value) => shade[value]);
+    const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+    const mask = picture('mask.png', truth, (value) => (value === lit ? 255 : 0));
+    for (const more of [[], ['--unlit', off], ['--mask', mask]]) {
+      const { code, out, err, cells: [cell] } = checked(scene, alone, ...more);
+      assert.equal(code, 0, out + err);
+      assert.equal(cell.family, 'picture');
+      assert.equal(cell.verdict, 'agrees');
+      assert.equal(cell.falsely_lit + cell.falsely_shadowed, 0);
+      assert.deepEqual(cell.diagnosis, []);
+    }
+  });
+
+test('a square of lit pixels that is dark is counted, and named by its first pixel', () => {
+  const truth = truthOf('ordinary');
+  const [left, top] = litSquare(truth);
+  const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+  const image = picture('square.png', truth, (value, x, y) =>
+    shade[x >= left && x < left + 8 && y >= top && y < top + 8 ? shadowed : value]);
+  const { code, out, cells: [cell] } = checked('ordinary', image, '--unlit', off);
+  assert.equal(code, 1);
+  assert.equal(cell.falsely_shadowed, 64);
+  assert.equal(cell.falsely_lit, 0);
+  assert.deepEqual(cell.first, { x: left, y: top, cause: 'unexplained' });
+  assert.match(out, new RegExp('square +ordinary +unexplained +64 of 40,000 \\(unexplained 64\\) ' +
+                               ` +first \\(${left},${top}\\)`));
+  assert.match(out, /reproduce: shadowproof check ordinary square\.png --unlit off\.png --size 200x200\n/);
+});
+
+const claimOf = (scene, technique) => {
+  const run = shadowproof(['verify', scene, ...size, '--technique', technique, '--out', 'claims', '-q']);
+  assert.ok(run.code <= 1, run.err);
+  const png = readPng(path(`claims/${scene}/${technique}/claim.png`));
+  return { ...png, at: (x, y) => png.at(x, y)[0] };
+};
+
+for (const [scene, technique, hypothesis] of [
+  ['near_plane', 'zpass', 'zpass'], ['far_plane', 'zfail', 'zfail_far'],
+  ['long_shadow', 'zfail_truncated', 'short_volumes'], ['ordinary', 'zfail_no_light_cap', 'missing_cap']])
+  test(`what ${technique} makes of ${scene} is diagnosed as ${hypothesis}, by the picture alone`, () => {
+    const image = picture('claim.png', claimOf(scene, technique), (value) => shade[value]);
+    const { code, out, cells: [cell] } = checked(scene, image);
+    assert.equal(code, 1, out);
+    const [best] = cell.diagnosis;
+    const wrong = cell.falsely_lit + cell.falsely_shadowed;
+    assert.ok(wrong > 40, `${wrong}`);
+    assert.equal(best.hypothesis, hypothesis, out);
+    assert.ok(best.explained >= 0.95 * wrong, `${best.explained} of ${wrong}`);
+    assert.ok(best.contradicted <= 0.001 * 200 * 200, `${best.contradicted}`);
+  });
+
+test('a picture without shadows, and one that ends them at a distance, are told by name', () => {
+  const truth = truthOf('ordinary');
+  const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+  const none = checked('ordinary', picture('none.png', truth, (value) => (value ? 190 : 20)),
+                       '--unlit', off);
+  assert.equal(none.code, 1);
+  assert.equal(none.cells[0].diagnosis[0].hypothesis, 'no_shadow');
+  assert.equal(none.cells[0].falsely_shadowed, 0);
+});
+
+test('an antialiased picture differs at edges alone, and a shifted one does not pass', () => {
+  const fine = truthOf('ordinary', ['--size', '400x400']);
+  const mean = (x, y) => [0, 1, 2, 3].reduce(
+    (sum, i) => sum + shade[fine.at(Math.min(2 * x + (i & 1), 399), Math.min(2 * y + (i >> 1), 399))], 0) / 4;
+  const off = picture('off.png', truthOf('ordinary'), (value) => (value ? 60 : 20));
+  const at = { width: 200, height: 200, at: () => 0 };
+  const smooth = checked('ordinary', picture('smooth.png', at, (_, x, y) => Math.round(mean(x, y))),
+                         '--unlit', off);
+  assert.equal(smooth.code, 0, smooth.out);
+  const moved = checked('ordinary', picture('moved.png', at, (_, x, y) =>
+    Math.round(mean(Math.min(x + 2, 199), y))), '--unlit', off);
+  assert.equal(moved.code, 1);
+});
+
+test('several pictures of one scene make one report, which merges', () => {
+  const truth = truthOf('ordinary');
+  const first = picture('engine a.png', truth, (value) => shade[value]);
+  const second = picture('engine-b.png', truth, (value) => 2 * shade[value] / 2 + 10);
+  const { code, cells } = checked('ordinary', first, second);
+  assert.equal(code, 0);
+  assert.deepEqual(cells.map(({ name }) => name), ['engine_a', 'engine-b']);
+  const merged = shadowproof(['merge', 'checked', '--out', 'merged', '-q']);
+  assert.equal(merged.code, 0, merged.err);
+});
+
+test('what tells nothing is refused, with a sentence', () => {
+  const truth = truthOf('ordinary');
+  const good = picture('good.png', truth, (value) => shade[value]);
+  const flat = picture('flat.png', truth, () => 90);
+  const small = picture('small.png', { width: 50, height: 40, at: () => 0 }, (_, x) => x);
+  const refused = (args, words) => {
+    const { code, out, err } = checked(...args);
+    assert.equal(code, 3, `${args}: ${code} ${out} ${err}`);
+    assert.match(out + err, words);
+  };
+  refused(['ordinary', flat], /flat\.png: is of one colour, and shows no scene; render it again/);
+  refused(['ordinary', good, '--unlit', small], /small\.png: is 50x40, where 200x200 belongs; /);
+  refused(['ordinary', good, '--size', '100x100'], /good\.png: is 200x200, where 100x100 belongs; /);
+  refused(['ordinary', 'missing.png'], /missing\.png: does not exist; /);
+  refused(['missing.gltf', good], /missing\.gltf: /);
+  assert.equal(shadowproof(['check', 'ordinary', good, good, '--unlit', flat]).code, 2);
+  assert.equal(shadowproof(['check', 'ordinary']).code, 2);
+  assert.equal(shadowproof(['check', 'ordinary', good, '--unlit', flat, '--mask', flat]).code, 2);
+});

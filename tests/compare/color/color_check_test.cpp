@@ -1,0 +1,247 @@
+// Colours are judged by intervals that are derived, pixel by pixel: what a technique computes is
+// predicted, what it rounds is within its bound, and what nobody predicts is told.
+#include "compare/verdict.h"
+#include "scenes/load/catalog.h"
+#include "tests/compare/traced_scene.h"
+#include "tests/raster/faulty_lighting.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowproof {
+namespace {
+
+using tests::TracedScene;
+
+std::vector<std::string> bump_lit_scenes() {
+    std::vector<std::string> names;
+    for (const BundledScene& bundled : bundled_scenes())
+        if (is_bump_lit(load_scene(std::string(bundled.name), {})))
+            names.emplace_back(bundled.name);
+    return names;
+}
+
+/// Kept for all tests that ask for it.
+const TracedScene& traced(const std::string& name, int side) {
+    static std::map<std::pair<std::string, int>, std::unique_ptr<TracedScene>> scenes;
+    std::unique_ptr<TracedScene>& scene = scenes[{name, side}];
+    if (!scene) {
+        SceneRequest request;
+        request.width = side;
+        request.height = side;
+        scene = std::make_unique<TracedScene>(load_scene(name, request));
+    }
+    return *scene;
+}
+
+std::vector<const Technique*> techniques_for(const Scene& scene) {
+    std::vector<const Technique*> techniques;
+    for (const Technique& technique : all_techniques())
+        if (technique.needs_bump_maps && suits(technique, scene)) techniques.push_back(&technique);
+    return techniques;
+}
+
+ColorCheck colors_of(const TracedScene& scene, const Technique& technique,
+                     const LightingSettings& settings, Gpu& gpu) {
+    Plan plan = scene.plan;
+    plan.lighting = settings;
+    return check_colors(scene.tracer, scene.truth, render(technique, scene.scene, plan, gpu));
+}
+
+class ColorsOfScene : public testing::TestWithParam<std::string> {
+protected:
+    Gpu gpu_{GlPlatform::osmesa};
+};
+
+TEST_P(ColorsOfScene, every_pixel_of_every_technique_is_predicted_and_floats_are_within_a_step) {
+    const TracedScene& scene = traced(GetParam(), 512);
+    for (const Technique* technique : techniques_for(scene.scene)) {
+        SCOPED_TRACE(technique->name);
+        const Frame frame = render(*technique, scene.scene, scene.plan, gpu_);
+        const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+        EXPECT_EQ(colors.unpredicted, 0U)
+            << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+        EXPECT_GT(colors.judged, 100000U);
+        if (frame.color_model.arithmetic != ColorModel::Arithmetic::floating) {
+            EXPECT_GT(colors.largest, 1);
+            continue;
+        }
+        EXPECT_LT(colors.largest, 1) << "at " << colors.largest_x << "," << colors.largest_y;
+        EXPECT_EQ(colors.beyond, 0U);
+        EXPECT_EQ(colors.moved, 0U);
+        EXPECT_LE(colors.bound_width.widest, 2.001); // 1/255 to either side
+    }
+}
+
+TEST_P(ColorsOfScene, every_pixel_is_predicted_under_every_setting) {
+    const TracedScene& scene = traced(GetParam(), 160);
+    const bool heights =
+        std::any_of(scene.scene.materials.begin(), scene.scene.materials.end(),
+                    [](const Material& material) { return material.bump == Bump::height_field; });
+    std::vector<LightingSettings> all;
+    for (const Normalisation normalisation : all_normalisations)
+        all.push_back({.normalisation = normalisation});
+    for (const BumpForm form : all_bump_forms)
+        if (form != BumpForm::height_field || heights) all.push_back({.bump_form = form});
+    for (const Technique* technique : techniques_for(scene.scene))
+        for (const LightingSettings& settings : all) {
+            SCOPED_TRACE(technique->name);
+            SCOPED_TRACE(settings.normalisation ? name_of(*settings.normalisation)
+                                                : name_of(*settings.bump_form));
+            const ColorCheck colors = colors_of(scene, *technique, settings, gpu_);
+            EXPECT_EQ(colors.unpredicted, 0U)
+                << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(BumpLit, ColorsOfScene, testing::ValuesIn(bump_lit_scenes()),
+                         [](const auto& instance) { return instance.param; });
+
+/// Of a technique at its own settings on a bundled scene.
+ColorCheck colors_of(const char* scene, const char* technique) {
+    Gpu gpu(GlPlatform::osmesa);
+    return colors_of(traced(scene, 256), *find_technique(technique), {}, gpu);
+}
+
+TEST(Colors, one_pass_dims_highlights_near_the_terminator_and_three_passes_do_not) {
+    EXPECT_GT(colors_of("terminator_highlight", "bump_one_pass").beyond, 1000U);
+    EXPECT_EQ(colors_of("terminator_highlight", "bump_three_pass").beyond, 0U);
+}
+
+TEST(Colors, three_passes_clamp_bright_light_before_the_decal_and_one_pass_hardly_does) {
+    const ColorCheck three = colors_of("bright_light", "bump_three_pass");
+    const ColorCheck one = colors_of("bright_light", "bump_one_pass");
+    EXPECT_GT(three.beyond, 100 * one.beyond);
+}
+
+TEST(Colors, a_pixel_of_the_terminator_owes_most_of_its_difference_to_the_dimmed_highlight) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("terminator_highlight", 256);
+    const Frame frame = render(*find_technique("bump_one_pass"), scene.scene, scene.plan, gpu);
+    const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+    const ColorAccount account =
+        account_for_color(scene.tracer, scene.truth, frame, colors.largest_x, colors.largest_y);
+    EXPECT_EQ(account.verdict, ColorVerdict::beyond);
+    const auto heaviest = std::max_element(account.weights.begin(), account.weights.end());
+    EXPECT_EQ(heaviest - account.weights.begin(),
+              static_cast<std::ptrdiff_t>(ColorTerm::self_shadow));
+}
+
+/// Mixing normals of unit length leaves them shorter where they point apart: by as much as this
+/// relief is steep. Its bound held that once, as it was the hull with the technique's own bumps.
+TEST(Colors, of_a_normal_that_mixing_leaves_too_short_are_shading) {
+    const ColorCheck colors = colors_of("height_field", "bump_one_pass");
+    EXPECT_GT(colors.largest, 100);
+    EXPECT_EQ(colors.verdict.at(colors.largest_x, colors.largest_y), ColorVerdict::beyond);
+    EXPECT_EQ(colors.unpredicted, 0U);
+    const auto by = std::max_element(colors.beyond_by.begin(), colors.beyond_by.end());
+    EXPECT_EQ(by - colors.beyond_by.begin(), static_cast<std::ptrdiff_t>(ColorTerm::bump_length));
+}
+
+/// What a pixel shows instead of its colour, in the channel 0.
+ColorVerdict verdict_with(const TracedScene& scene, Frame frame, int x, int y, double red) {
+    frame.color.at(x, y).r = static_cast<float>(red);
+    return check_colors(scene.tracer, scene.truth, frame).verdict.at(x, y);
+}
+
+/// Of bytes and of floats, at a pixel in the light.
+TEST(Colors, just_outside_of_the_bound_are_caught_and_just_inside_pass) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("bumpy_sphere", 64);
+    for (const char* name : {"bump_tangent_space", "bump_eye_space", "bump_three_pass"}) {
+        SCOPED_TRACE(name);
+        const Frame frame = render(*find_technique(name), scene.scene, scene.plan, gpu);
+        int tried = 0;
+        for (int y = 0; y < 64 && tried < 20; ++y)
+            for (int x = y % 7; x < 64; x += 7) {
+                const ColorAccount own = account_for_color(scene.tracer, scene.truth, frame, x, y);
+                if (own.verdict != ColorVerdict::within || own.truth.diffuse < 0.1) continue;
+                // Of a colour that is nowhere near, all that may be right is asked for.
+                Frame red = frame;
+                red.color.at(x, y).r = 5;
+                const ColorAccount account =
+                    account_for_color(scene.tracer, scene.truth, red, x, y);
+                EXPECT_EQ(account.verdict, ColorVerdict::unexplained);
+                const Interval& bound = account.bound[0];
+                const Interval& predicted = account.predicted[0];
+                const double low = std::max(bound.low, predicted.low);
+                const double high = std::min(bound.high, predicted.high);
+                constexpr double little = 0.001 / 255; // a thousandth of a step
+                EXPECT_NE(verdict_with(scene, frame, x, y, high + little), ColorVerdict::within);
+                EXPECT_NE(verdict_with(scene, frame, x, y, low - little), ColorVerdict::within);
+                EXPECT_EQ(verdict_with(scene, frame, x, y, 0.5 * (low + high)),
+                          ColorVerdict::within);
+                ++tried;
+            }
+        EXPECT_GT(tried, 5);
+    }
+}
+
+TEST(Colors, of_floats_that_are_off_by_two_steps_are_never_right) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"bumpy_sphere", "fine_relief", "height_field"}) {
+        SCOPED_TRACE(name);
+        const TracedScene& scene = traced(name, 128);
+        for (const char* technique : {"bump_tangent_space", "bump_eye_space"}) {
+            Frame frame = render(*find_technique(technique), scene.scene, scene.plan, gpu);
+            for (glm::vec3& color : frame.color.pixels) color += 2.F / 255;
+            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            EXPECT_EQ(std::count(colors.verdict.pixels.begin(), colors.verdict.pixels.end(),
+                                 ColorVerdict::within),
+                      0);
+            EXPECT_GT(colors.unpredicted, colors.judged / 2);
+        }
+    }
+}
+
+TEST(Colors, tell_how_wide_their_bounds_are_and_which_needed_the_rasterizers_spread) {
+    const ColorCheck floats = colors_of("bumpy_torus", "bump_tangent_space");
+    const ColorCheck bytes = colors_of("bumpy_torus", "bump_one_pass");
+    EXPECT_LT(floats.bound_width.median, 0.01); // nothing but the roundings of floats
+    EXPECT_LE(floats.bound_width.widest, 2.001);
+    EXPECT_GT(bytes.bound_width.median, 1); // half a step to either side at the least
+    EXPECT_LT(bytes.bound_width.median, bytes.bound_width.percentile999);
+    EXPECT_LE(bytes.bound_width.percentile999, bytes.bound_width.widest);
+    EXPECT_GT(floats.interpolated, 0U);
+    EXPECT_LT(floats.interpolated, floats.judged / 4);
+}
+
+TEST(Colors, are_the_same_for_any_number_of_threads) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("bumpy_torus", 256);
+    const Frame frame = render(*find_technique("bump_one_pass"), scene.scene, scene.plan, gpu);
+    const ColorCheck many = check_colors(scene.tracer, scene.truth, frame);
+    const Tracer tracer(scene.scene, 1);
+    const ColorCheck one = check_colors(tracer, scene.truth, frame);
+    EXPECT_EQ(one.error.pixels, many.error.pixels);
+    EXPECT_EQ(one.verdict.pixels, many.verdict.pixels);
+    EXPECT_EQ(one.rmse, many.rmse);
+    EXPECT_EQ(one.beyond_by, many.beyond_by);
+    EXPECT_EQ(one.interpolated, many.interpolated);
+}
+
+class FaultInLighting : public testing::TestWithParam<tests::LightingFault> {};
+
+/// Its right twin is predicted to the last pixel (ColorsOfScene).
+TEST_P(FaultInLighting, is_caught_on_a_bundled_scene) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced(GetParam().scene, 256);
+    const Comparison comparison =
+        tests::compared(scene, tests::draw_faulty(gpu, scene.scene, scene.plan, GetParam()));
+    EXPECT_GT(comparison.colors->unpredicted, 100U);
+    EXPECT_EQ(judge(scene.scene, {}, {}, comparison), Verdict::unexplained);
+}
+
+INSTANTIATE_TEST_SUITE_P(Injected, FaultInLighting,
+                         testing::ValuesIn(tests::lighting_faults().begin(),
+                                           tests::lighting_faults().end()),
+                         [](const auto& fault) { return std::string(fault.param.name); });
+
+} // namespace
+} // namespace shadowproof

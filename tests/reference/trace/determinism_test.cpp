@@ -1,0 +1,71 @@
+#include "reference/predict/ledger.h"
+#include "reference/trace/trace.h"
+#include "tests/reference/hard_scenes.h"
+
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+namespace shadowproof {
+namespace {
+
+class DeterminismTest : public testing::TestWithParam<HardScene> {};
+
+void expect_same(const GroundTruth& one, const GroundTruth& other) {
+    EXPECT_EQ(one.visibility.pixels, other.visibility.pixels);
+    EXPECT_EQ(one.triangle.pixels, other.triangle.pixels);
+    EXPECT_EQ(one.depth.pixels, other.depth.pixels);
+    EXPECT_EQ(one.exactness.pixels, other.exactness.pixels);
+    EXPECT_EQ(one.statistics.exact_decisions, other.statistics.exact_decisions);
+}
+
+TEST_P(DeterminismTest, one_thread_and_five_find_the_same_bits) {
+    const Scene scene = GetParam().make();
+    const GroundTruth one = trace(Tracer(scene, 1));
+    const GroundTruth five = trace(Tracer(scene, 5));
+    expect_same(one, five);
+}
+
+TEST_P(DeterminismTest, every_instruction_set_finds_the_same_bits) {
+    const Scene scene = GetParam().make();
+    const GroundTruth widest = trace(Tracer(scene, 1));
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        expect_same(trace(Tracer(scene, 1)), widest);
+        hwy::SetSupportedTargetsForTest(0);
+    }
+}
+
+/// The exact signs must really be asked for, or the tests of hard scenes test floats.
+TEST(Exactness, degenerate_scenes_are_decided_by_exact_arithmetic_and_say_so) {
+    for (const HardScene& hard : hard_scenes()) {
+        if (hard.name != "rays_through_vertices_and_edges" && hard.name != "coinciding_triangles" &&
+            hard.name != "sun_along_edges")
+            continue;
+        const Scene scene = hard.make();
+        const GroundTruth truth = trace(Tracer(scene));
+        EXPECT_GT(truth.statistics.degenerate, 10U) << hard.name;
+        EXPECT_GT(truth.statistics.exact_decisions, 10U) << hard.name;
+    }
+}
+
+TEST(Exactness, an_ordinary_scene_is_decided_by_floats_nearly_everywhere) {
+    for (const HardScene& hard : hard_scenes()) {
+        if (hard.name != "soup_1" && hard.name != "sun_on_a_soup") continue;
+        const Scene scene = hard.make();
+        const GroundTruth truth = trace(Tracer(scene));
+        EXPECT_EQ(truth.statistics.degenerate, 0U) << hard.name;
+        EXPECT_LT(truth.statistics.exact_decisions, 10U) << hard.name;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, DeterminismTest, testing::ValuesIn(hard_scenes()),
+                         [](const testing::TestParamInfo<HardScene>& scene) {
+                             std::string name = scene.param.name;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+} // namespace
+} // namespace shadowproof

@@ -1,0 +1,58 @@
+#include "reference/trace/view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace shadowproof {
+namespace {
+
+/// A row of 64 triangles of size 1 around the origin, and one with a corner at `far`.
+Scene row_with_a_far_corner(float far) {
+    Scene scene;
+    const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+        const auto first = static_cast<std::uint32_t>(scene.positions.size());
+        scene.positions.insert(scene.positions.end(), {a, b, c});
+        scene.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    for (int i = 0; i < 64; ++i) {
+        const auto x = static_cast<float>(i - 32);
+        add({x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0.5F});
+    }
+    add({0, 0, 1}, {1, 0, 1}, {0, far, 1});
+    return scene;
+}
+
+bool has_box_everywhere(const OriginView& view) {
+    for (const Entry& entry : view.entries)
+        if (entry.count == 0 && std::isinf(entry.lower[0]) && std::isinf(entry.upper[2]))
+            return true;
+    return false;
+}
+
+class FarCorner : public testing::TestWithParam<glm::dvec4> {};
+
+TEST_P(FarCorner, takes_nothing_from_what_floats_see_of_the_others) {
+    for (const float far : {1e12F, 1e18F}) {
+        const Scene scene = row_with_a_far_corner(far);
+        const Hierarchy hierarchy = build_hierarchy(scene, 1);
+        const OriginView view = view_from(GetParam(), scene, hierarchy, {}, 1);
+        EXPECT_GE(view.scale * 64, 0.125);
+        EXPECT_TRUE(has_box_everywhere(view));
+    }
+}
+
+TEST_P(FarCorner, that_is_not_far_is_scaled_like_the_others) {
+    const Scene scene = row_with_a_far_corner(1000);
+    const Hierarchy hierarchy = build_hierarchy(scene, 1);
+    const OriginView view = view_from(GetParam(), scene, hierarchy, {}, 1);
+    EXPECT_LE(view.scale * 1000, 1);
+    EXPECT_FALSE(has_box_everywhere(view));
+}
+
+INSTANTIATE_TEST_SUITE_P(SeenFrom, FarCorner,
+                         testing::Values(glm::dvec4(0, 0, 10, 1), glm::dvec4(0.5, 1, 0.25, 0)));
+
+} // namespace
+} // namespace shadowproof
