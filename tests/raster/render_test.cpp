@@ -174,7 +174,7 @@ TEST(Render, refuses_a_picture_larger_than_the_driver_can_draw) {
 Frame broken_frame(const Scene& scene) {
     Frame frame;
     frame.claim = {scene.camera.width, scene.camera.height};
-    frame.counted->counter = {scene.camera.width, scene.camera.height};
+    frame.counted.emplace().counter = {scene.camera.width, scene.camera.height};
     frame.depth = {scene.camera.width, scene.camera.height};
     frame.triangle = {scene.camera.width, scene.camera.height, no_triangle};
     return frame;
