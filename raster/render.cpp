@@ -50,6 +50,10 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 [[noreturn]] void refuse_scene(const Technique& technique, const Scene& scene) {
     const std::string file = scene.file.empty() ? scene.name : scene.file.string();
     const std::string name(technique.name);
+    const std::vector<Light::Kind>& lights = technique.lights;
+    if (!lights.empty() && std::ranges::find(lights, chosen_light(scene).kind) == lights.end())
+        throw Error(file, "has a light that is not one for " + name,
+                    "leave the technique out; it needs " + std::string(technique.needs));
     if (!is_bump_lit(scene))
         throw Error(file, "has no bump map, and " + name + " is for those that do",
                     "leave the technique out, or give a material a normalTexture");

@@ -7,6 +7,7 @@
 #include "scenes/plan/plan.h"
 #include "scenes/scene.h"
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,11 +32,16 @@ struct Technique {
     /// It reflects one. A technique that lights bumps and does not reflect is only for scenes
     /// without one.
     bool needs_environment = false;
+    std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 
 /// Whether a technique is for such a scene; if not, it is left out unless requested by name.
 inline bool suits(const Technique& technique, const Scene& scene) {
+    const std::vector<Light::Kind>& lights = technique.lights;
+    if (!lights.empty() &&
+        std::find(lights.begin(), lights.end(), chosen_light(scene).kind) == lights.end())
+        return false;
     return !technique.needs_bump_maps ||
            (is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value());
 }

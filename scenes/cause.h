@@ -19,6 +19,10 @@ enum class Cause : std::uint8_t {
     parity,       ///< overlapping volumes of even depth, counted by inverting
     open_mesh,    ///< the caster does not enclose a volume towards the light
     light_inside, ///< a closed caster holds the light, and perhaps none of its triangles faces it
+    resolution,   ///< the texel's ray from the light does not go through the pixel's point
+    acne,         ///< the texel shows the receiver itself, in front of its own point
+    leak,         ///< an occluder lies within the bias
+    range,        ///< outside of what the light's camera keeps
     precision,    ///< disappears when the surface moves by one quantum of the depth format
     shading,      ///< colour beyond its derived bound
     unexplained,  ///< no prediction matches: always a failure
@@ -31,7 +35,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 13> all_causes{{
+inline constexpr std::array<CauseWords, 17> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -42,6 +46,10 @@ inline constexpr std::array<CauseWords, 13> all_causes{{
     {Cause::parity, "parity", "overlapping volumes of even depth"},
     {Cause::open_mesh, "open_mesh", "the caster encloses no volume towards the light"},
     {Cause::light_inside, "light_inside", "the light is inside a closed caster"},
+    {Cause::resolution, "resolution", "the map is too coarse"},
+    {Cause::acne, "acne", "the receiver shadows itself"},
+    {Cause::leak, "leak", "an occluder lies within the bias"},
+    {Cause::range, "range", "outside the light's near and far plane"},
     {Cause::precision, "precision", "within the rounding of depths"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},

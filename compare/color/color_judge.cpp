@@ -90,7 +90,7 @@ double ColorJudge::share(int x, int y) const {
     const SeenPoint seen = point(x, y);
     return attribute_error(
         scene_, seen.triangle,
-        {seen.direction, lateral(x, y), drawing_of(scene_, frame_, scene_.camera.far)});
+        {seen.direction, lateral(x, y), drawing_of(scene_, frame_.depth_model, scene_.camera.far)});
 }
 
 double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) const {

@@ -92,6 +92,49 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
         ->type_name("FORM");
 }
 
+/// A length in the file's units.
+void add_length_flag(CLI::App& command, const char* flag, std::optional<double>& value,
+                     const std::string& words) {
+    command
+        .add_option_function<std::string>(
+            flag,
+            [&value, flag](const std::string& text) {
+                value = parse_number(text);
+                if (!value)
+                    throw CLI::ValidationError(
+                        flag, "'" + text + "' is not a length; give a number, as 0.15");
+            },
+            words)
+        ->type_name("LENGTH");
+}
+
+void add_map_flags(CLI::App& command, MapSettings& settings) {
+    command.add_option("--map-size", settings.size, "Texels a side of shadow maps (1024)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 16384));
+    add_length_flag(command, "--map-bias", settings.bias,
+                    "How much farther than its texel a point may be and still be lit (0.15)");
+    const auto add_choice = [&](const char* flag, const auto& all, auto& value,
+                                const std::string& words) {
+        command
+            .add_option_function<std::string>(
+                flag,
+                [&all, &value, flag](const std::string& text) {
+                    value = parse_setting(all, flag, text);
+                },
+                words + ": " + names_of(all) + " (each technique's own)")
+            ->type_name("HOW");
+    };
+    add_choice("--map-value", all_map_values, settings.value, "What shadow maps hold");
+    add_choice("--map-format", all_map_formats, settings.format, "How they store it");
+    add_choice("--map-culling", all_map_cullings, settings.culling,
+               "Which sides of casters they leave out");
+    add_length_flag(command, "--map-near", settings.near,
+                    "Near plane of the light's camera (a thousandth of its far plane)");
+    add_length_flag(command, "--map-far", settings.far,
+                    "Far plane of the light's camera (just beyond the farthest caster)");
+}
+
 } // namespace
 
 SceneRequest SceneOptions::request() const {
@@ -205,6 +248,7 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "Where OpenGL comes from: osmesa or egl (osmesa)")
         ->type_name("PLATFORM");
     add_lighting_flags(command, options.lighting);
+    add_map_flags(command, options.map);
 }
 
 CLI::Validator not_empty() {
@@ -228,6 +272,14 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     const LightingSettings& lighting = technique.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
+    const MapSettings& map = technique.map;
+    if (map.size) add("--map-size", fmt::format("{}", *map.size));
+    if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
+    if (map.value) add("--map-value", std::string(name_of(*map.value)));
+    if (map.format) add("--map-format", std::string(name_of(*map.format)));
+    if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
+    if (map.near) add("--map-near", fmt::format("{}", *map.near));
+    if (map.far) add("--map-far", fmt::format("{}", *map.far));
     return words;
 }
 

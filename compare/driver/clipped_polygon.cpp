@@ -122,9 +122,8 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
     return points;
 }
 
-Drawing drawing_of(const Scene& scene, const Frame& frame, double far) {
-    const DepthModel& model = frame.depth_model;
-    return {.near = frame.depth_model.clamp ? 0 : scene.camera.near,
+Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
+    return {.near = model.clamp ? 0 : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
             .standard_near = model.reversed() ? 0 : model.near};

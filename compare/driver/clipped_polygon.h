@@ -2,7 +2,7 @@
 // clipping lies between two others; its error grows with the size of the larger one.
 #pragma once
 
-#include "scenes/frame.h"
+#include "scenes/depth_model.h"
 #include "scenes/scene.h"
 
 #include <array>
@@ -26,7 +26,7 @@ struct Drawing {
 };
 
 /// `far`: the far plane of what is drawn; infinite if none clips.
-Drawing drawing_of(const Scene& scene, const Frame& frame, double far);
+Drawing drawing_of(const Scene& scene, const DepthModel& model, double far);
 
 /// A point of the picture, in pixels, and its inverse view depth, which is linear over the picture,
 /// as window depth is.

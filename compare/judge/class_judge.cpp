@@ -48,7 +48,7 @@ bool ClassJudge::allows(PixelPlace p, const RayTruth& truth) const {
 CoarseOutlines ClassJudge::coarse_outlines() const {
     const Scene& scene = claim_.traced.scene();
     return {scene, claim_.traced.silhouette(), nullptr,
-            drawing_of(scene, claim_.frame, std::numeric_limits<double>::infinity())};
+            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
 }
 
 std::shared_ptr<const EvidenceReport>

@@ -26,6 +26,10 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
     {0xB8, 0xE0, 0xC8}, // open_mesh: pale green
     {0x00, 0x72,
      0xB2}, // light_inside: blue, as techniques whose volumes end flip casters around the light
+    {0xE6, 0x9F, 0x00}, // resolution: orange
+    {0xCC, 0x79, 0xA7}, // acne: reddish purple
+    {0x00, 0x9E, 0x73}, // leak: bluish green
+    {0xFF, 0xFF, 0xFF}, // range: white
     {0xF0, 0xE4, 0x42}, // precision: yellow
     {0xFF, 0xFF, 0xFF}, // shading: white
     {0xD5, 0x5E, 0x00}, // unexplained: vermillion

@@ -74,7 +74,8 @@ double FaceDepths::clip_depth(double depth, int move) const {
 }
 
 CoveredPixel FaceDepths::covered_pixel() const {
-    return {around_.rays.front(), around_.reach, drawing_of(scene_, frame_, clip_far())};
+    return {around_.rays.front(), around_.reach,
+            drawing_of(scene_, frame_.depth_model, clip_far())};
 }
 
 double FaceDepths::plane_error(const Crossing& side) const {

@@ -126,7 +126,7 @@ public:
                                ? claim_.traced.far()
                                : std::numeric_limits<double>::infinity();
         return {scene, claim_.traced.silhouette(), prediction_.volumes().far_ends(),
-                drawing_of(scene, claim_.frame, far)};
+                drawing_of(scene, claim_.frame.depth_model, far)};
     }
 
     EvidenceSummary summary(const EvidenceCheck& check,

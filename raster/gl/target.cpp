@@ -152,12 +152,14 @@ Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
     frame.triangle = read_picture<std::uint32_t>(gl, target, GL_RED_INTEGER, GL_UNSIGNED_INT);
     frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);
     frame.depth_format = depth_format(gl, target.depth_stencil);
-    frame.counted.emplace().counter =
-        counter == Counter::stencil
-            ? read_picture<std::uint32_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_INT)
-            : converted<std::uint32_t>(read_sum(gl, target), [](float sum) {
-                  return static_cast<std::uint32_t>(static_cast<std::int32_t>(sum)) & 0xffffffU;
-              });
+    if (counter == Counter::stencil)
+        frame.counted.emplace().counter =
+            read_picture<std::uint32_t>(gl, target, GL_STENCIL_INDEX, GL_UNSIGNED_INT);
+    if (counter == Counter::sum)
+        frame.counted.emplace().counter =
+            converted<std::uint32_t>(read_sum(gl, target), [](float sum) {
+                return static_cast<std::uint32_t>(static_cast<std::int32_t>(sum)) & 0xffffffU;
+            });
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     check(gl, "reading back");
     return frame;

@@ -34,16 +34,18 @@ void add_color(const GlFunctions& gl, Target& target, bool in_bytes);
 void begin_adding(const GlFunctions& gl, const Target& target);
 void end_adding(const GlFunctions& gl);
 
-/// Where faces are counted.
+/// Where faces are counted, and the light pass learns of shadows.
 enum class Counter : std::uint8_t {
     stencil,
-    sum, ///< in a colour, by blending; exact to 24 bits
+    sum,  ///< in a colour, by blending; exact to 24 bits
+    none, ///< faces are not counted: the light pass has a shader of its own that tells
 };
 
 /// The format that the driver reports, whatever was requested.
 DepthFormat depth_format(const GlFunctions& gl, const Texture& texture);
 
-/// The pictures, rows from the top. Counting and depth model are left to the caller.
+/// The pictures, rows from the top, and what was counted. Counting, depth model and other evidence
+/// are left to the caller.
 Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
 
 /// The sums, rows from the top.

@@ -160,8 +160,8 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
 }
 
 Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
-                   const Geometry& geometry, Between between) {
-    Program program = link_projection(gl, "light.frag", transform, geometry, between);
+                   const Geometry& geometry, Between between, std::string_view fragment) {
+    Program program = link_projection(gl, fragment, transform, geometry, between);
     const Light& light = chosen_light(scene);
     const bool spot = light.kind == Light::Kind::spot;
     const glm::vec3 axis(light.direction);

@@ -83,9 +83,10 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
 /// The stage between a program's vertex and fragment shaders.
 enum class Between : std::uint8_t { nothing, geometry_shader };
 
-/// Links project.vert and light.frag, with the cone of a spot light.
+/// Links project.vert and a shader of the light pass, with the cone of a spot light.
 Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
-                   const Geometry& geometry, Between between);
+                   const Geometry& geometry, Between between,
+                   std::string_view fragment = "light.frag");
 
 /// Links project.vert and a fragment shader, with the scene's vertices under the transform.
 Program link_projection(const GlFunctions& gl, std::string_view fragment,
@@ -119,8 +120,9 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 
-/// Draws the lit sides again, as Visibility::lit, where the depth is equal and the counter is zero,
-/// or where they receive no shadows. Writes neither stencil nor depth.
+/// Draws the lit sides again, as Visibility::lit, where the depth is equal and the counter is zero
+/// or the light's shader finds no shadow, or where they receive no shadows. Writes neither stencil
+/// nor depth.
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
                 const Geometry& geometry, Counter counter);
 

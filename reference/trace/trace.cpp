@@ -132,9 +132,13 @@ GroundTruth trace(const Tracer& tracer) {
     return truth;
 }
 
-std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
-    const Tracer::State& state = tracer.state();
-    std::vector<RayTruth> truths(directions.size());
+namespace {
+
+/// Calls work(prober, packet, lanes, first) for sixteen rays at a time, on all threads; `first`:
+/// the index of the packet's first ray.
+template <class Work>
+void for_packets(const Tracer::State& state, std::span<const glm::dvec3> directions,
+                 const Work& work) {
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
     constexpr std::size_t piece_size = std::size_t{64} * packet_size;
     const auto pieces = static_cast<int>((directions.size() + piece_size - 1) / piece_size);
@@ -148,21 +152,45 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
             Lanes<glm::dvec3> packet{};
             std::copy_n(directions.begin() + static_cast<std::ptrdiff_t>(first), count,
                         packet.begin());
-            const std::uint32_t lanes = (1U << count) - 1;
-            Lanes<Seen> seen;
-            Lanes<Lighting> lighting;
-            prober->see(packet, lanes, seen);
-            prober->light(packet, lanes, seen, lighting);
-            for (std::size_t lane = 0; lane < count; ++lane)
-                truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
-                                        seen[lane].triangle,
-                                        seen[lane].depth,
-                                        lighting[lane].occluder,
-                                        std::max(seen[lane].exactness, lighting[lane].exactness),
-                                        lighting[lane].in_cone};
+            work(*prober, packet, (1U << count) - 1, first);
         }
     });
+}
+
+} // namespace
+
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+    std::vector<RayTruth> truths(directions.size());
+    for_packets(tracer.state(), directions,
+                [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+                    std::size_t first) {
+                    Lanes<Seen> seen;
+                    Lanes<Lighting> lighting;
+                    prober.see(packet, lanes, seen);
+                    prober.light(packet, lanes, seen, lighting);
+                    for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
+                        truths[first + lane] = {
+                            visibility_of(seen[lane], lighting[lane]),
+                            seen[lane].triangle,
+                            seen[lane].depth,
+                            lighting[lane].occluder,
+                            std::max(seen[lane].exactness, lighting[lane].exactness),
+                            lighting[lane].in_cone};
+                });
     return truths;
+}
+
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+    std::vector<SeenSurface> surfaces(directions.size());
+    for_packets(tracer.state(), directions,
+                [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+                    std::size_t first) {
+                    Lanes<Seen> seen;
+                    prober.see(packet, lanes, seen);
+                    for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
+                        surfaces[first + lane] = {seen[lane].triangle, seen[lane].depth};
+                });
+    return surfaces;
 }
 
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {

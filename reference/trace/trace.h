@@ -76,6 +76,14 @@ RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
 /// The same for many rays, on all threads.
 std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
 
+/// What is seen along each ray, whether or not it is lit: the nearest triangle and its view depth,
+/// no_triangle and infinity where there is none.
+struct SeenSurface {
+    std::uint32_t triangle = no_triangle;
+    double depth = 0;
+};
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+
 /// Which sides of a triangle the eye and the light see, exactly: a sign of zero is neither.
 struct TriangleSides {
     bool front_to_eye = false;

@@ -31,7 +31,7 @@ PictureMaking making_of(const DrawnPicture& picture) {
     const Frame& frame = picture.frame;
     const bool clips = frame.depth_model.clips_at_far();
     return {picture.casters.camera,
-            drawing_of(picture.casters, frame, clips ? picture.far : infinity),
+            drawing_of(picture.casters, frame.depth_model, clips ? picture.far : infinity),
             half_snapping_step(frame.depth_model.subpixel_bits)};
 }
 

@@ -24,7 +24,7 @@ Scene box_over_wide_floor(float half_width) {
 
 CoarseOutlines outlines_of(const TracedScene& traced, const Frame& frame) {
     return {traced.scene, traced.silhouette, nullptr,
-            drawing_of(traced.scene, frame, std::numeric_limits<double>::infinity())};
+            drawing_of(traced.scene, frame.depth_model, std::numeric_limits<double>::infinity())};
 }
 
 TEST(CoarseOutlines, are_moved_by_three_roundings_of_the_far_corner) {

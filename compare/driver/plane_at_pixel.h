@@ -1,0 +1,65 @@
+// The plane of a triangle at a pixel: the inverse view depth there, window depths made of it, and
+// how far off a rasterizer may make them.
+#pragma once
+
+#include "compare/driver/clipped_polygon.h"
+#include "scenes/depth_model.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace shadowproof {
+
+/// Window depth is `at_infinity` + `slope` times the inverse view depth.
+struct WindowDepth {
+    double at_infinity = 0;
+    double slope = 0;
+
+    double at(double inverse_depth) const { return at_infinity + slope * inverse_depth; }
+};
+WindowDepth window_depth_of(const DepthModel& model);
+
+/// Keeps a reference to the scene.
+class PlaneAtPixel {
+public:
+    /// `far`: the depth beyond which nothing is seen. `drawing`: how the triangle is clipped.
+    PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing, double far,
+                 std::uint32_t triangle, int x, int y);
+
+    /// False if the eye lies in the plane: the triangle has no area in the picture, and any depth
+    /// may come out.
+    bool has_depth() const;
+    double inverse_depth() const { return inverse_; }
+    /// Of the pixel's centre.
+    const glm::dvec3& direction() const { return centre_; }
+
+    /// Half a step of the snapping grid and the roundings of a depth are part of any pixel's
+    /// bounds, and nearly always enough.
+    double least_error(double window_depth) const;
+    /// Of the inverse depth: moving the pixel's centre changes it by the slope. depth_error is for
+    /// two depths that are compared; this is one depth.
+    double error() const;
+    /// Largest error of a direction's component at the picture's corners.
+    double spread() const;
+    /// How far aside the triangle may be drawn, in pixels.
+    double lateral() const;
+
+    /// Whether a window depth that was read back may be the plane's.
+    bool is_depth(double read) const;
+
+private:
+    const Scene& scene_;
+    DepthModel model_;
+    Drawing drawing_;
+    double far_;
+    std::uint32_t triangle_;
+    glm::dvec3 centre_;
+    glm::dvec3 plane_;
+    double inverse_;
+    double slope_ = 0;       ///< change of the inverse depth, the largest over a pixel's step
+    glm::dvec2 pixel_{0, 0}; ///< its sides at depth 1
+};
+
+} // namespace shadowproof

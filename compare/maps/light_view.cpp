@@ -1,0 +1,183 @@
+#include "compare/maps/light_view.h"
+
+#include "compare/driver/error_bounds.h"
+#include "compare/driver/neighbourhood.h"
+#include "compare/driver/setup_error.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The casters before the face's camera, each drawn from the sides that the model does not cull.
+Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
+                 std::vector<std::uint32_t>& of_scene) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    Scene casters;
+    casters.name = scene.name;
+    casters.positions = scene.positions;
+    of_scene.clear();
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        const glm::uvec3 corners = scene.triangles[triangle];
+        casters.triangles.push_back(model.culling == MapCulling::front
+                                        ? glm::uvec3(corners.x, corners.z, corners.y)
+                                        : corners);
+        of_scene.push_back(triangle);
+    }
+    casters.materials = {{.name = "caster", .double_sided = model.culling == MapCulling::none}};
+    casters.meshes = {{.name = "casters",
+                       .triangle_count = static_cast<std::uint32_t>(casters.triangles.size())}};
+    casters.lights = {chosen_light(scene)};
+    casters.camera = map_camera(chosen_light(scene), model, face);
+    return casters;
+}
+
+} // namespace
+
+LightView::LightView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads)
+    : map_(map), depth_model_(map_depth_model(map.model)) {
+    depth_model_.subpixel_bits = subpixel_bits;
+    for (std::size_t face = 0; face < map.model.faces(); ++face)
+        faces_.push_back(casters_of(scene, map.model, face, of_scene_));
+    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(faces_.front(), threads);
+}
+
+std::vector<FromLight> LightView::trace(std::span<const Texel> texels) const {
+    std::vector<FromLight> found(texels.size(), {no_triangle, infinity});
+    if (!tracer_) return found;
+    std::vector<glm::dvec3> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels)
+        rays.push_back(ray_direction(camera(texel.face), texel.x + 0.5, texel.y + 0.5));
+    const std::vector<SeenSurface> seen = see_rays(*tracer_, rays);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (seen[i].triangle != no_triangle)
+            found[i] = {of_scene_[seen[i].triangle], seen[i].depth};
+    return found;
+}
+
+FromLight LightView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
+    const double depth = glm::dot(from_light, camera(face).forward);
+    if (!tracer_ || !(depth > 0)) return {no_triangle, infinity};
+    const glm::dvec3 ray = from_light / depth;
+    const SeenSurface seen = see_rays(*tracer_, std::span(&ray, 1)).front();
+    if (seen.triangle == no_triangle) return {no_triangle, infinity};
+    return {of_scene_[seen.triangle], seen.depth};
+}
+
+PlaneAtPixel LightView::plane(const Texel& texel, std::uint32_t caster) const {
+    const Scene& scene = faces_[texel.face];
+    return {scene,          depth_model_, drawing_of(scene, depth_model_, map_.model.far),
+            map_.model.far, caster,       texel.x,
+            texel.y};
+}
+
+double LightView::value(const PlaneAtPixel& plane) const {
+    const double depth = 1 / plane.inverse_depth();
+    return map_.model.value == MapValue::depth ? depth : depth * glm::length(plane.direction());
+}
+
+// A distance is the length of a vector that is interpolated over the triangle: off by the lateral
+// error of the place, as the plane's depth is, by the interpolation's share of the largest corner's
+// components, and by the roundings of a length, a quotient and the format: 8 v.
+bool LightView::may_store(const Texel& texel, std::uint32_t caster) const {
+    const PlaneAtPixel at = plane(texel, caster);
+    if (!at.has_depth()) return true; // seen edge-on: any depth may come out
+    const double read = stored(texel);
+    if (map_.model.value == MapValue::depth) {
+        const double step = map_.model.format == MapFormat::d16 ? 0.5 / 0xffff : 0;
+        const WindowDepth window = window_depth_of(depth_model_);
+        if (at.is_depth(read)) return true;
+        return step > 0 && std::abs(read - window.at(at.inverse_depth())) <=
+                               step + std::abs(window.slope) * at.error();
+    }
+    const double inverse = at.inverse_depth();
+    const double length = glm::length(at.direction());
+    const double far = map_.model.far;
+    const double half_step = map_.model.format == MapFormat::d32f  ? 0
+                             : map_.model.format == MapFormat::d24 ? 0.5 / 0xffffff
+                                                                   : 0.5 / 0xffff;
+    const auto within = [&](double low, double high, double more) {
+        const double roundings = 8 * v * high + more + half_step * far;
+        return read * far >= std::min(low - roundings, far) && read * far <= high + roundings;
+    };
+    const auto off_by = [&](double error_of_inverse, double error_of_direction, double more) {
+        const double high = inverse > error_of_inverse
+                                ? (length + error_of_direction) / (inverse - error_of_inverse)
+                                : infinity;
+        return within((length - error_of_direction) / (inverse + error_of_inverse), high, more);
+    };
+    if (off_by(0, 0, 0)) return true;
+    const Scene& scene = faces_[texel.face];
+    double largest_corner = 0;
+    for (int k = 0; k < 3; ++k)
+        largest_corner =
+            std::max(largest_corner, glm::distance(corner(scene, caster, k), scene.camera.eye));
+    const CoveredPixel pixel{at.direction(), at.lateral(),
+                             drawing_of(scene, depth_model_, map_.model.far)};
+    const double interpolated =
+        std::sqrt(3.0) * attribute_error(scene, caster, pixel) * largest_corner;
+    return off_by(at.error(), std::sqrt(2.0) * at.spread(), interpolated);
+}
+
+bool LightView::is_in_format(float stored) const {
+    if (map_.model.format == MapFormat::d32f) return stored >= 0 && stored <= 1;
+    const double most = map_.model.format == MapFormat::d24 ? 0xffffff : 0xffff;
+    const double steps = double{stored} * most;
+    const double half_place = 0.5 * (std::nextafter(stored, 2.0F) - double{stored}) * most;
+    return std::abs(steps - std::round(steps)) <= half_place;
+}
+
+LightView::Shown LightView::showing(const Texel& texel, std::uint32_t caster) const {
+    return {true, of_scene_[caster], value(plane(texel, caster))};
+}
+
+LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre) const {
+    if (!is_in_format(stored(texel))) return {};
+    if (at_centre.triangle == no_triangle && stored(texel) == 1)
+        return {true, no_triangle, infinity};
+    if (at_centre.triangle != no_triangle) {
+        const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), at_centre.triangle);
+        const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+        if (may_store(texel, caster)) return showing(texel, caster);
+    }
+    return shown_around(texel);
+}
+
+// Next to an outline any triangle that may cover the centre may be stored, none farther than what
+// is seen all around.
+LightView::Shown LightView::shown_around(const Texel& texel) const {
+    if (!tracer_) return {};
+    const Scene& scene = faces_[texel.face];
+    const glm::dvec3 centre = ray_direction(scene.camera, texel.x + 0.5, texel.y + 0.5);
+    const double reach =
+        lateral_error(scene, depth_model_, scene.camera.eye + map_.model.near * centre);
+    const Neighbourhood around =
+        neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
+    double farthest = 0;
+    for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
+        farthest = std::max(farthest, seen.depth);
+        if (seen.triangle == no_triangle && stored(texel) == 1)
+            return {true, no_triangle, infinity};
+    }
+    const double error = spread(around);
+    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
+        if (!may_cover(scene, caster, centre, error)) continue;
+        const double inverse = plane(texel, caster).inverse_depth();
+        const bool hidden = inverse * farthest * (1 + 0x1p-10) < 1;
+        if (!hidden && may_store(texel, caster)) return showing(texel, caster);
+    }
+    return {};
+}
+
+} // namespace shadowproof

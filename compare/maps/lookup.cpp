@@ -1,0 +1,141 @@
+#include "compare/maps/lookup.h"
+
+#include "compare/driver/plane_at_pixel.h"
+#include "scenes/cube_map.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+
+double value_of(const MapModel& model, const glm::dvec3& from_light, double depth) {
+    return model.value == MapValue::depth ? depth : glm::length(from_light);
+}
+
+int clamped(const MapModel& model, double place) {
+    return static_cast<int>(std::clamp(std::floor(place), 0.0, model.size - 1.0));
+}
+
+/// Where a vector from the light pierces the face camera's picture, in texels.
+glm::dvec2 place_of(const Camera& camera, const glm::dvec3& from_light) {
+    return project(camera, camera.eye + from_light);
+}
+
+/// A vector's error: of the matrix that turns it to a spot's axes, an entry, a product and the
+/// sums; a cube asks with the vector itself.
+glm::dvec3 turned_error(const LightView& light, const UncertainPoint& point) {
+    if (light.model().shape == MapModel::Shape::cube) return point.error;
+    const glm::dvec3 size = glm::abs(point.from_light) + point.error;
+    return point.error + 4 * v * (size.x + size.y + size.z);
+}
+
+/// The eight corners of the box in which the vector lies.
+std::array<glm::dvec3, 8> corners_of(const glm::dvec3& vector, const glm::dvec3& error) {
+    std::array<glm::dvec3, 8> corners{};
+    for (unsigned i = 0; i < 8; ++i)
+        corners[i] = vector + error * glm::dvec3((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1,
+                                                 (i & 4U) != 0 ? 1 : -1);
+    return corners;
+}
+
+/// Whether a vector in the box may be asked of the face: no other axis is certainly larger.
+bool may_pierce(const LightView& light, std::size_t face, const UncertainPoint& point) {
+    const glm::dvec3& axis = light.camera(face).forward;
+    const double most = glm::dot(point.from_light, axis) + glm::dot(point.error, glm::abs(axis));
+    if (!(most > 0)) return false;
+    if (light.model().shape == MapModel::Shape::spot) return true;
+    const glm::dvec3 least = glm::max(glm::abs(point.from_light) - point.error, glm::dvec3(0));
+    return most >= std::max({least.x, least.y, least.z});
+}
+
+} // namespace
+
+Lookup lookup(const LightView& light, const glm::dvec3& from_light) {
+    const MapModel& model = light.model();
+    const std::size_t face = model.shape == MapModel::Shape::cube ? face_of(from_light) : 0;
+    const Camera& camera = light.camera(face);
+    Lookup found;
+    found.depth = glm::dot(from_light, camera.forward);
+    found.value = value_of(model, from_light, found.depth);
+    found.in_map = found.depth > 0;
+    if (!found.in_map) return found;
+    const glm::dvec2 place = place_of(camera, from_light);
+    found.texel = {static_cast<std::uint32_t>(face), clamped(model, place.x),
+                   clamped(model, place.y)};
+    return found;
+}
+
+// Seen from a face, a box's picture is within the rectangle of its corners' as long as all lie
+// before the camera. The division, the halving, the sum and the product with the size round by v
+// of at most the map's size each: 4 v, of which the quotient's counts twice.
+std::vector<PossibleLookup> possible_lookups(const LightView& light, const UncertainPoint& point) {
+    const MapModel& model = light.model();
+    std::vector<PossibleLookup> found;
+    const glm::dvec3 error = turned_error(light, point);
+    const std::array<glm::dvec3, 8> corners = corners_of(point.from_light, error);
+    for (std::size_t face = 0; face < model.faces(); ++face) {
+        if (!may_pierce(light, face, {point.from_light, error})) continue;
+        const Camera& camera = light.camera(face);
+        glm::dvec2 low(model.size, model.size);
+        glm::dvec2 high(0, 0);
+        double least = std::numeric_limits<double>::infinity();
+        double most = 0;
+        for (const glm::dvec3& corner : corners) {
+            const double depth = glm::dot(corner, camera.forward);
+            const double value = value_of(model, corner, depth);
+            least = std::min(least, value);
+            most = std::max(most, value);
+            if (!(depth > 0)) { // the light itself lies in the box
+                low = {0, 0};
+                high = {model.size, model.size};
+                continue;
+            }
+            const glm::dvec2 place = place_of(camera, corner);
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+        const double rounding = 5 * v * model.size;
+        for (int y = clamped(model, low.y - rounding); y <= clamped(model, high.y + rounding); ++y)
+            for (int x = clamped(model, low.x - rounding); x <= clamped(model, high.x + rounding);
+                 ++x)
+                found.push_back({{static_cast<std::uint32_t>(face), x, y}, least, most});
+    }
+    return found;
+}
+
+// Distances: a product, a sum, and a length of three products, two sums and a root. Depths: the
+// difference, and the projection's quotient, difference, product and constant, the last of which
+// rounds twice.
+Answers compare(const MapModel& model, double stored, double low, double high) {
+    const double b = model.bias;
+    if (model.value == MapValue::distance) {
+        const double map = stored * model.far;
+        const double error = 2 * v * (map + std::abs(b)) + 4 * v * high;
+        return {map + b < high + error, map + b >= low - error};
+    }
+    const auto window = [&](double nearer) {
+        return model.far / (model.far - model.near) * (1 - model.near / nearer);
+    };
+    const double shift = v * (high + std::abs(b));
+    const bool may_be_beyond = high - b + shift > model.near;
+    const bool may_be_before = low - b - shift <= model.near;
+    return {may_be_beyond && stored < window(high - b + shift) + 5 * v,
+            may_be_before || stored >= window(low - b - shift) - 5 * v};
+}
+
+bool is_shadowed(const MapModel& model, double stored, double value) {
+    if (model.value == MapValue::distance) return stored * model.far + model.bias < value;
+    const double nearer = value - model.bias;
+    if (nearer <= model.near) return false;
+    return stored < model.far / (model.far - model.near) * (1 - model.near / nearer);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,54 @@
+#include "compare/maps/map_cause.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+bool are_joined(const Scene& scene, std::uint32_t one, std::uint32_t other) {
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            if (corner(scene, one, i) == corner(scene, other, k)) return true;
+    return false;
+}
+
+bool is_in_range(const MapModel& model, const Lookup& lookup) {
+    return lookup.in_map && lookup.depth >= model.near && lookup.depth <= model.far &&
+           lookup.value <= model.far;
+}
+
+PixelCause of_false_shadow(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
+    const MapModel& model = light.model();
+    if (wrong.shown.triangle == no_triangle || !is_in_range(model, wrong.lookup))
+        return {Cause::range, {}};
+    if (!(wrong.shown.value + model.bias < wrong.lookup.value)) return {Cause::precision, {}};
+    return {are_joined(scene, wrong.shown.triangle, wrong.receiver) ? Cause::acne
+                                                                    : Cause::resolution,
+            {}};
+}
+
+PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
+    const MapModel& model = light.model();
+    const double own = wrong.lookup.value;
+    if (wrong.lookup.in_map && wrong.shown.value + model.bias < own) return {Cause::precision, {}};
+    const FromLight met = wrong.lookup.in_map
+                              ? light.trace_to(wrong.lookup.texel.face, wrong.from_light)
+                              : FromLight{no_triangle, 0};
+    if (met.triangle == no_triangle || met.triangle == wrong.receiver)
+        return {model.culling != MapCulling::none ? Cause::open_mesh : Cause::range, {}};
+    const double met_value = own * met.depth / wrong.lookup.depth;
+    if (met_value + model.bias < own) return {Cause::resolution, {}};
+    PixelCause cause{Cause::leak, {}};
+    if (!(wrong.shown.value < own)) cause.also.add(Cause::resolution);
+    return cause;
+}
+
+} // namespace
+
+PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
+    return wrong.claims_light ? of_false_light(light, wrong) : of_false_shadow(light, scene, wrong);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,360 @@
+#include "compare/driver/error_bounds.h"
+#include "compare/driver/setup_error.h"
+#include "compare/judge/judge.h"
+#include "compare/maps/map_cause.h"
+#include "compare/words.h"
+#include "reference/parallel.h"
+#include "reference/trace/faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+/// A pixel's question, where its surface receives shadows and faces the light.
+struct Asked {
+    bool asks = false;
+    glm::dvec3 from_light{0, 0, 0};
+    Lookup lookup;
+};
+
+class MapJudge final : public Judge {
+public:
+    MapJudge(const TracedScene& traced, const Frame& frame)
+        : claim_{traced, frame}, receives_(receiving_triangles(traced.scene())),
+          light_(traced.scene(), *frame.mapped, frame.depth_model.subpixel_bits,
+                 traced.tracer().threads()) {
+        trace_texels();
+    }
+
+    std::string_view evidence() const override { return "map"; }
+
+    bool settles(PixelPlace p, std::optional<PixelCause>& cause) const override {
+        if (!claim_.surface_as_true(p)) return false;
+        const std::uint32_t triangle = claim_.traced.truth().triangle.at(p.x, p.y);
+        if (triangle == no_triangle) return !claim_.differs(p);
+        const Asked asked = asked_at(p);
+        if (!asked.asks) return !claim_.differs(p);
+        const LightView::Shown shown = shown_by(asked.lookup.texel);
+        if (asked.lookup.in_map && !shown.shows) return false;
+        if (answer(asked) != claim_.frame.claim.at(p.x, p.y)) return false;
+        if (claim_.differs(p)) cause = cause_at(p, triangle, asked, shown);
+        return true;
+    }
+
+    std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override {
+        std::vector<BandRadius> radii;
+        for (const PixelPlace& p : places) {
+            const double error = lateral(direction_at(p), depth_at(p));
+            radii.push_back({error, error});
+        }
+        return radii;
+    }
+
+    void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+                     std::span<const RayTruth> truths) const override {
+        for (std::size_t i = 0; i < region.places.size(); ++i) {
+            const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
+            truths = truths.subspan(truth.size());
+            region.findings[i] = look_around(region.places[i], around[i], truth);
+        }
+    }
+
+    Finding look_around(PixelPlace p, const Neighbourhood& around,
+                        std::span<const RayTruth> truth) const override {
+        const Visibility claim = claim_.frame.claim.at(p.x, p.y);
+        PixelCause by_map;
+        Finding finding;
+        finding.evidence_in_band = may_claim(p, around, truth, by_map);
+        if (!claim_.differs(p)) return finding;
+        const bool is_edge = std::any_of(truth.begin(), truth.end(),
+                                         [&](const RayTruth& t) { return t.visibility == claim; });
+        finding.cause = is_edge ? PixelCause{Cause::edge, {}} : by_map;
+        return finding;
+    }
+
+    CoarseOutlines coarse_outlines() const override {
+        const Scene& scene = claim_.traced.scene();
+        return {
+            scene, claim_.traced.silhouette(), nullptr,
+            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
+    }
+
+    EvidenceSummary summary(const EvidenceCheck& check,
+                            const Image<std::uint8_t>& /*cause*/) const override {
+        const MapModel& model = light_.model();
+        std::uint64_t wrong = 0;
+        for (const LightView::Shown& shown : shown_) wrong += shown.shows ? 0 : 1;
+        EvidenceSummary summary;
+        if (wrong > 0)
+            summary.unexplained.push_back(
+                fmt::format("{} of the map unexplained", counted(wrong, "texel")));
+        const double unit = claim_.traced.scene().unit;
+        nlohmann::ordered_json map{{"size", model.size},
+                                   {"bias", model.bias * unit},
+                                   {"value", name_of(model.value)},
+                                   {"format", name_of(model.format)},
+                                   {"culling", name_of(model.culling)},
+                                   {"near", model.near * unit},
+                                   {"far", model.far * unit},
+                                   {"texels_asked", texels_.size()},
+                                   {"texels_unexplained", wrong},
+                                   {"straddling", check.in_band},
+                                   {"ms", claim_.frame.mapped->map_milliseconds}};
+        summary.results = nlohmann::ordered_json{{"map", std::move(map)}}.dump();
+        return summary;
+    }
+
+    std::shared_ptr<const EvidenceReport>
+    report(const Image<std::uint8_t>& /*cause*/) const override {
+        return nullptr;
+    }
+
+    Account account(const PixelRecord& record, double unit) const override {
+        Account account;
+        const Asked asked = asked_at({record.x, record.y});
+        const MapModel& model = light_.model();
+        nlohmann::ordered_json members;
+        if (!asked.asks || !asked.lookup.in_map) {
+            account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
+            members["map"] = nullptr;
+        } else {
+            const Texel& texel = asked.lookup.texel;
+            const double stored = world(light_.stored(texel)) * unit;
+            account.columns = {{"face", fmt::format("{}", texel.face)},
+                               {"texel", fmt::format("({},{})", texel.x, texel.y)},
+                               {"map", fmt::format("{:.6g}", stored)},
+                               {"own", fmt::format("{:.6g}", asked.lookup.value * unit)}};
+            const LightView::Shown shown = shown_by(texel);
+            members["map"] = {{"face", texel.face},
+                              {"texel", {texel.x, texel.y}},
+                              {"stored", stored},
+                              {"bias", model.bias * unit},
+                              {"own", asked.lookup.value * unit},
+                              {"triangle", shown.triangle == no_triangle
+                                               ? nlohmann::ordered_json(nullptr)
+                                               : nlohmann::ordered_json(shown.triangle)}};
+        }
+        account.members = members.dump();
+        return account;
+    }
+
+private:
+    JudgedClaim claim_;
+    std::vector<std::uint8_t> receives_;
+    LightView light_;
+    std::vector<Texel> texels_;           ///< that pixels' centres ask, in order
+    std::vector<LightView::Shown> shown_; ///< by each
+    std::vector<FromLight> traced_;       ///< at each one's centre
+
+    glm::dvec3 direction_at(PixelPlace p) const {
+        return ray_direction(claim_.traced.scene().camera, p.x + 0.5, p.y + 0.5);
+    }
+    double depth_at(PixelPlace p) const {
+        return std::min(claim_.traced.truth().depth.at(p.x, p.y), claim_.traced.far());
+    }
+    double lateral(const glm::dvec3& direction, double depth) const {
+        const Scene& scene = claim_.traced.scene();
+        return lateral_error(scene, claim_.frame.depth_model, scene.camera.eye + depth * direction);
+    }
+
+    /// A texel's value in world units.
+    double world(double stored) const {
+        const MapModel& m = light_.model();
+        if (m.value == MapValue::distance) return stored * m.far;
+        return m.near * m.far / (m.far - stored * (m.far - m.near));
+    }
+
+    bool asks(std::uint32_t triangle) const {
+        return receives_[triangle] != 0 && sides_of(claim_.traced.tracer(), triangle).faces_light();
+    }
+
+    Asked asked_at(PixelPlace p) const {
+        const GroundTruth& truth = claim_.traced.truth();
+        const std::uint32_t triangle = truth.triangle.at(p.x, p.y);
+        if (triangle == no_triangle || !asks(triangle)) return {};
+        if (!truth.in_cone.pixels.empty() && truth.in_cone.at(p.x, p.y) == 0) return {};
+        const Scene& scene = claim_.traced.scene();
+        Asked asked;
+        asked.asks = true;
+        asked.from_light = scene.camera.eye - chosen_light(scene).position +
+                           truth.depth.at(p.x, p.y) * direction_at(p);
+        asked.lookup = lookup(light_, asked.from_light);
+        return asked;
+    }
+
+    /// What the map answers at the pixel's centre, as it was read back.
+    Visibility answer(const Asked& asked) const {
+        const bool shadowed =
+            asked.lookup.in_map &&
+            is_shadowed(light_.model(), light_.stored(asked.lookup.texel), asked.lookup.value);
+        return shadowed ? Visibility::shadowed : Visibility::lit;
+    }
+
+    void trace_texels() {
+        const Image<Visibility>& claim = claim_.frame.claim;
+        std::mutex mutex;
+        parallel_for(claim.height, claim_.traced.tracer().threads(), [&](int y, int) {
+            std::vector<Texel> row;
+            for (int x = 0; x < claim.width; ++x)
+                if (const Asked asked = asked_at({x, y}); asked.asks && asked.lookup.in_map)
+                    row.push_back(asked.lookup.texel);
+            std::sort(row.begin(), row.end());
+            row.erase(std::unique(row.begin(), row.end()), row.end());
+            const std::lock_guard lock(mutex);
+            texels_.insert(texels_.end(), row.begin(), row.end());
+        });
+        std::sort(texels_.begin(), texels_.end());
+        texels_.erase(std::unique(texels_.begin(), texels_.end()), texels_.end());
+        traced_ = light_.trace(texels_);
+        shown_.resize(texels_.size());
+        constexpr std::size_t piece = 256;
+        const auto pieces = static_cast<int>((texels_.size() + piece - 1) / piece);
+        parallel_for(pieces, claim_.traced.tracer().threads(), [&](int k, int) {
+            const std::size_t first = static_cast<std::size_t>(k) * piece;
+            for (std::size_t i = first; i < std::min(first + piece, texels_.size()); ++i)
+                shown_[i] = light_.shown(texels_[i], traced_[i]);
+        });
+    }
+
+    LightView::Shown shown_by(const Texel& texel) const {
+        const auto found = std::lower_bound(texels_.begin(), texels_.end(), texel);
+        if (found != texels_.end() && *found == texel)
+            return shown_[static_cast<std::size_t>(found - texels_.begin())];
+        return light_.shown(texel, light_.trace(std::span(&texel, 1)).front());
+    }
+
+    PixelCause cause_at(PixelPlace p, std::uint32_t receiver, const Asked& asked,
+                        const LightView::Shown& shown) const {
+        return cause_of(light_, claim_.traced.scene(),
+                        {receiver, asked.from_light, asked.lookup, shown,
+                         claim_.frame.claim.at(p.x, p.y) == Visibility::lit});
+    }
+
+    /// The point of a triangle's plane at the pixel as the light pass has it: interpolated over the
+    /// triangle, which may be drawn aside.
+    UncertainPoint drawn_point(PixelPlace p, std::uint32_t triangle) const {
+        const Scene& scene = claim_.traced.scene();
+        const Camera& camera = scene.camera;
+        const glm::dvec3 to_eye = camera.eye - chosen_light(scene).position;
+        const auto at = [&](double x, double y) {
+            const glm::dvec3 direction = ray_direction(camera, x, y);
+            const double depth = depth_on_triangle(scene, triangle, direction);
+            return to_eye + (depth > 0 ? depth : claim_.traced.far()) * direction;
+        };
+        UncertainPoint point;
+        point.from_light = at(p.x + 0.5, p.y + 0.5);
+        const double depth = view_depth(camera, point.from_light + chosen_light(scene).position);
+        const double reach = lateral(direction_at(p), depth);
+        for (const double x : {-reach, reach})
+            for (const double y : {-reach, reach})
+                point.error = glm::max(
+                    point.error, glm::abs(at(p.x + 0.5 + x, p.y + 0.5 + y) - point.from_light));
+        const Drawing drawing =
+            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
+        double largest = 0;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 away =
+                glm::abs(corner(scene, triangle, k) - chosen_light(scene).position);
+            largest = std::max({largest, away.x, away.y, away.z});
+        }
+        point.error +=
+            attribute_error(scene, triangle, {direction_at(p), reach, drawing}) * largest;
+        return point;
+    }
+
+    /// Whether the claim follows from what may be drawn at the pixel. `cause`: what is then named.
+    bool may_claim(PixelPlace p, const Neighbourhood& around, std::span<const RayTruth> truth,
+                   PixelCause& cause) const {
+        const Visibility claim = claim_.frame.claim.at(p.x, p.y);
+        const std::uint32_t drawn = claim_.frame.triangle.at(p.x, p.y);
+        const auto seen = [&](std::uint32_t triangle) {
+            return std::any_of(truth.begin(), truth.end(),
+                               [&](const RayTruth& t) { return t.triangle == triangle; });
+        };
+        if (drawn == no_triangle) {
+            cause = {Cause::edge, {}};
+            return claim == Visibility::background && (seen(no_triangle) || gapes(around, truth));
+        }
+        const Scene& scene = claim_.traced.scene();
+        if (claim == Visibility::background ||
+            (!seen(drawn) && !may_cover(scene, drawn, around.rays.front(), spread(around))))
+            return false;
+        if (!sides_of(claim_.traced.tracer(), drawn).faces_light())
+            return claim == Visibility::shadowed;
+        const ConeSides cone = cone_sides(drawn, truth);
+        if (cone.outside && claim == Visibility::shadowed) {
+            cause = {Cause::edge, {}};
+            return true;
+        }
+        if (!cone.inside) return false;
+        if (receives_[drawn] == 0) return claim == Visibility::lit;
+        return map_may_answer(p, drawn, claim, cause);
+    }
+
+    bool gapes(const Neighbourhood& around, std::span<const RayTruth> truth) const {
+        std::vector<std::uint32_t> triangles;
+        for (const RayTruth& t : truth) triangles.push_back(t.triangle);
+        return may_gape(claim_.traced.scene(), std::move(triangles), around.rays);
+    }
+
+    struct ConeSides {
+        bool inside = false;
+        bool outside = false;
+    };
+    /// Where a spot's light may be: of the rays that see the triangle, or of all where none does.
+    ConeSides cone_sides(std::uint32_t triangle, std::span<const RayTruth> truth) const {
+        ConeSides own;
+        ConeSides all;
+        for (const RayTruth& t : truth) {
+            for (ConeSides* sides : {&own, &all})
+                if (sides == &all || t.triangle == triangle)
+                    (t.in_cone ? sides->inside : sides->outside) = true;
+        }
+        return own.inside || own.outside ? own : all;
+    }
+
+    bool map_may_answer(PixelPlace p, std::uint32_t drawn, Visibility claim,
+                        PixelCause& cause) const {
+        const UncertainPoint point = drawn_point(p, drawn);
+        const Lookup exact = lookup(light_, point.from_light);
+        if (!exact.in_map && claim == Visibility::lit) {
+            cause = {Cause::range, {}};
+            return true;
+        }
+        for (const PossibleLookup& possible : possible_lookups(light_, point)) {
+            const Answers answers =
+                compare(light_.model(), light_.stored(possible.texel), possible.low, possible.high);
+            if (!(claim == Visibility::lit ? answers.lit : answers.shadowed)) continue;
+            const LightView::Shown shown = shown_by(possible.texel);
+            if (!shown.shows) continue;
+            Lookup asked = exact;
+            asked.texel = possible.texel;
+            cause = cause_of(light_, claim_.traced.scene(),
+                             {drawn, point.from_light, asked, shown, claim == Visibility::lit});
+            return true;
+        }
+        return false;
+    }
+};
+
+std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
+    return std::make_unique<MapJudge>(traced, frame);
+}
+
+} // namespace
+
+Family map_family() {
+    return {.name = "map", .summary = "shadow maps, whose texels are read back", .judge = judge};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,175 @@
+#include "raster/maps/map_pass.h"
+
+#include "raster/gl/shader.h"
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+#include <string_view>
+
+namespace shadowproof {
+
+namespace {
+
+GLenum gl_format(MapFormat format) {
+    switch (format) {
+    case MapFormat::d16:
+        return GL_DEPTH_COMPONENT16;
+    case MapFormat::d24:
+        return GL_DEPTH_COMPONENT24;
+    case MapFormat::d32f:
+        break;
+    }
+    return GL_DEPTH_COMPONENT32F;
+}
+
+Texture make_texture_of(const GlFunctions& gl, const MapModel& model) {
+    const bool cube = model.shape == MapModel::Shape::cube;
+    GLint most = 0;
+    gl.GetIntegerv(cube ? GL_MAX_CUBE_MAP_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE, &most);
+    if (model.size > most)
+        throw Error(fmt::format("--map-size {}", model.size),
+                    fmt::format("is more than the driver's {} texels a side", most),
+                    "ask for a smaller map");
+    Texture texture = make_texture(gl, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
+    gl.TextureStorage2D(texture.name(), 1, gl_format(model.format), model.size, model.size);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+Framebuffer make_face(const GlFunctions& gl, const MapPass& pass, std::size_t face) {
+    Framebuffer framebuffer = make_framebuffer(gl);
+    if (pass.model.shape == MapModel::Shape::cube)
+        gl.NamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT,
+                                        pass.texture.name(), 0, static_cast<GLint>(face));
+    else
+        gl.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, pass.texture.name(), 0);
+    return framebuffer;
+}
+
+/// The light's camera at one face. Points are relative to the light.
+ClipTransform transform_of(const Scene& scene, const MapModel& model, std::size_t face) {
+    Scene seen_from_light;
+    seen_from_light.lights = {chosen_light(scene)};
+    seen_from_light.camera = map_camera(chosen_light(scene), model, face);
+    return clip_transform(seen_from_light, map_depth_model(model));
+}
+
+std::string_view fragment_of(const MapModel& model) {
+    return model.value == MapValue::distance ? "map_distance.frag" : "map_depth.frag";
+}
+
+Program link_all_faces(const GlFunctions& gl, const Scene& scene, const MapModel& model) {
+    Program program = link_files(gl, {"project.vert", "map_cube.geom", fragment_of(model)});
+    set_transform(gl, program, transform_of(scene, model, 0));
+    std::vector<glm::mat4> clip_from_light;
+    for (std::size_t face = 0; face < model.faces(); ++face)
+        clip_from_light.push_back(transform_of(scene, model, face).clip_from_relative);
+    gl.ProgramUniformMatrix4fv(program.name(), 20, 6, GL_FALSE,
+                               glm::value_ptr(clip_from_light.front()));
+    return program;
+}
+
+std::vector<SurfaceRun> casting_runs(const Scene& scene) {
+    std::vector<SurfaceRun> runs;
+    for (const Mesh& mesh : scene.meshes) {
+        if (!mesh.casts) continue;
+        const bool adjoins =
+            !runs.empty() &&
+            runs.back().first_triangle + runs.back().triangle_count == mesh.first_triangle;
+        if (adjoins)
+            runs.back().triangle_count += mesh.triangle_count;
+        else
+            runs.push_back({mesh.first_triangle, mesh.triangle_count, true});
+    }
+    return runs;
+}
+
+void set_culling(const GlFunctions& gl, MapCulling culling) {
+    set_enabled(gl, GL_CULL_FACE, culling != MapCulling::none);
+    gl.CullFace(culling == MapCulling::front ? GL_FRONT : GL_BACK);
+}
+
+} // namespace
+
+MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
+                      const MapModel& model, MapMaking making) {
+    MapPass pass{.model = model,
+                 .making = making,
+                 .texture = make_texture_of(gl, model),
+                 .casters = casting_runs(scene)};
+    for (std::size_t face = 0; face < model.faces(); ++face)
+        pass.faces.push_back(make_face(gl, pass, face));
+    if (making == MapMaking::geometry_shader) {
+        pass.all = make_framebuffer(gl);
+        gl.NamedFramebufferTexture(pass.all.name(), GL_DEPTH_ATTACHMENT, pass.texture.name(), 0);
+        pass.programs.push_back(link_all_faces(gl, scene, model));
+    } else {
+        for (std::size_t face = 0; face < model.faces(); ++face)
+            pass.programs.push_back(link_projection(gl, fragment_of(model),
+                                                    transform_of(scene, model, face), geometry));
+    }
+    for (const Program& program : pass.programs) {
+        if (model.value == MapValue::distance)
+            gl.ProgramUniform1f(program.name(), 6, static_cast<float>(model.far));
+        // No corner is moved to infinity.
+        gl.ProgramUniform1i(program.name(), 5, static_cast<GLint>(geometry.position_count));
+    }
+    check(gl, "making the shadow map");
+    return pass;
+}
+
+void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geometry) {
+    gl.Viewport(0, 0, pass.model.size, pass.model.size);
+    gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    gl.DepthRange(0, 1);
+    gl.Disable(GL_DEPTH_CLAMP);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    gl.FrontFace(GL_CCW);
+    set_culling(gl, pass.model.culling);
+    gl.BindVertexArray(geometry.vertices.name());
+    const bool at_once = pass.making == MapMaking::geometry_shader;
+    for (std::size_t i = 0; i < pass.programs.size(); ++i) {
+        const GLuint framebuffer = at_once ? pass.all.name() : pass.faces[i].name();
+        constexpr GLfloat farthest = 1;
+        gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        gl.UseProgram(pass.programs[i].name());
+        for (const SurfaceRun& run : pass.casters)
+            draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
+    }
+    gl.CullFace(GL_BACK);
+    check(gl, "drawing the shadow map");
+}
+
+std::vector<Image<float>> read_map(const GlFunctions& gl, const MapPass& pass) {
+    const int size = pass.model.size;
+    std::vector<Image<float>> faces;
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
+    for (const Framebuffer& face : pass.faces) {
+        gl.BindFramebuffer(GL_FRAMEBUFFER, face.name());
+        Image<float> bottom_up(size, size);
+        gl.ReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, bottom_up.pixels.data());
+        // OpenGL's rows run from the bottom.
+        for (int y = 0; y < size / 2; ++y) {
+            const auto row = [&](int from_top) {
+                return bottom_up.pixels.begin() + std::ptrdiff_t{from_top} * size;
+            };
+            std::swap_ranges(row(y), row(y) + size, row(size - 1 - y));
+        }
+        faces.push_back(std::move(bottom_up));
+    }
+    gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
+    check(gl, "reading the shadow map back");
+    return faces;
+}
+
+} // namespace shadowproof

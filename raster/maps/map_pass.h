@@ -1,0 +1,38 @@
+// Draws the casters as the light sees them into a texture of depths.
+#pragma once
+
+#include "raster/passes/passes.h"
+#include "scenes/shadow_map.h"
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+namespace shadowproof {
+
+/// How the faces of a cube are drawn.
+enum class MapMaking : std::uint8_t {
+    pass_per_face,
+    geometry_shader, ///< one pass, which sends each triangle to all six layers
+};
+
+struct MapPass {
+    MapModel model;
+    MapMaking making = MapMaking::pass_per_face;
+    Texture texture{};                 ///< of depths; a cube map, or a plain one
+    std::vector<Framebuffer> faces{};  ///< one for each
+    Framebuffer all{};                 ///< all faces as layers; with a geometry shader only
+    std::vector<Program> programs{};   ///< one per pass
+    std::vector<SurfaceRun> casters{}; ///< what is drawn
+};
+
+/// `geometry`: the scene's. The model's size must not exceed the driver's; throws Error.
+MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
+                      const MapModel& model, MapMaking making);
+
+/// Leaves viewport, culling, depth state and framebuffer changed.
+void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geometry);
+
+/// One picture per face, rows from the top.
+std::vector<Image<float>> read_map(const GlFunctions& gl, const MapPass& pass);
+
+} // namespace shadowproof

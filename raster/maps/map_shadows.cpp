@@ -1,0 +1,132 @@
+#include "raster/maps/map_shadows.h"
+
+#include <algorithm>
+#include <chrono>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds(Clock::duration duration) {
+    return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+DepthModel eye_depth_model(const Scene& scene) {
+    return {.projection = DepthModel::Projection::infinite_reversed,
+            .near = scene.camera.near,
+            .floating = true,
+            .eye_relative = true};
+}
+
+/// Sets how the light pass asks the map.
+void set_test(const GlFunctions& gl, const Program& light, const Scene& scene,
+              const MapModel& model) {
+    // Locations as map_test.glsl and map_light_spot.frag lay them out.
+    gl.ProgramUniform1f(light.name(), 15, static_cast<float>(model.bias));
+    gl.ProgramUniform2f(light.name(), 16, static_cast<float>(model.near),
+                        static_cast<float>(model.far));
+    gl.ProgramUniform1i(light.name(), 17, model.value == MapValue::distance ? 1 : 0);
+    if (model.shape == MapModel::Shape::cube) return;
+    const Camera camera = map_camera(chosen_light(scene), model, 0);
+    const glm::mat3 map_from_world(
+        glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
+                                  camera.up / camera.tan_half_height, camera.forward)));
+    gl.ProgramUniformMatrix3fv(light.name(), 18, 1, GL_FALSE, glm::value_ptr(map_from_world));
+}
+
+/// What is drawn with, made once.
+struct Frames {
+    const GlFunctions& gl;
+    DepthModel depth_model;
+    Target target;
+    Geometry geometry;
+    MapPass map;
+    Program surface;
+    Program light;
+    VisibleDepths visible;
+
+    Frames(Gpu& gpu, const Scene& scene, const MapModel& model, MapMaking making)
+        : gl(gpu.gl()), depth_model(eye_depth_model(scene)),
+          target(make_target(gl, scene.camera, depth_model.floating)),
+          geometry(upload(gl, scene, {})), map(make_map_pass(gl, scene, geometry, model, making)),
+          visible{static_cast<float>(scene.camera.near), static_cast<float>(scene.camera.far)} {
+        const ClipTransform transform = clip_transform(scene, depth_model);
+        surface = link_projection(gl, "surface.frag", transform, geometry);
+        light = link_light(gl, scene, transform, geometry, Between::nothing,
+                           model.shape == MapModel::Shape::cube ? "map_light_cube.frag"
+                                                                : "map_light_spot.frag");
+        set_test(gl, light, scene, model);
+        check(gl, "making the passes");
+    }
+
+    void draw() {
+        draw_map(gl, map, geometry);
+        draw_shadows();
+    }
+
+    void draw_shadows() {
+        begin_frame(gl, target, geometry, depth_model);
+        draw_surface(gl, surface, target, geometry, depth_model, visible, 0);
+        gl.BindTextureUnit(2, map.texture.name());
+        draw_light(gl, light, target, geometry, Counter::none);
+        gl.BindTextureUnit(2, 0);
+    }
+};
+
+/// Draws one frame with a single pixel, so that the driver finishes deferred compilation.
+void compile_all(Frames& frames) {
+    const GlFunctions& gl = frames.gl;
+    gl.Scissor(0, 0, 1, 1);
+    gl.Enable(GL_SCISSOR_TEST);
+    frames.draw();
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.Finish();
+}
+
+struct Times {
+    Clock::duration all = Clock::duration::max();
+    Clock::duration map{};
+};
+
+/// The quickest of up to three frames, as many as are begun within 20 ms.
+Times quickest_frame(Frames& frames) {
+    Times quickest;
+    Clock::duration spent{};
+    for (int i = 0; i < 3 && spent < std::chrono::milliseconds(20); ++i) {
+        const auto start = Clock::now();
+        draw_map(frames.gl, frames.map, frames.geometry);
+        frames.gl.Finish();
+        const Clock::duration map = Clock::now() - start;
+        frames.draw_shadows();
+        frames.gl.Finish();
+        const Clock::duration all = Clock::now() - start;
+        if (all < quickest.all) quickest = {all, map};
+        spent += all;
+    }
+    return quickest;
+}
+
+} // namespace
+
+Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
+    const MapModel model = with_settings(recipe.model, plan.map, scene);
+    Frames frames(gpu, scene, model, recipe.making);
+    const GlFunctions& gl = gpu.gl();
+    compile_all(frames);
+    const Times times = quickest_frame(frames);
+    Frame frame = read_back(gl, frames.target, Counter::none);
+    frame.family = "map";
+    frame.mapped = MapEvidence{.model = model,
+                               .faces = read_map(gl, frames.map),
+                               .map_milliseconds = milliseconds(times.map)};
+    frame.depth_model = frames.depth_model;
+    frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
+    frame.milliseconds = milliseconds(times.all);
+    end_frame(gl);
+    return frame;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,23 @@
+// Shadow maps: the passes (map, surface, light) as configured by a recipe.
+#pragma once
+
+#include "raster/gl/context.h"
+#include "raster/maps/map_pass.h"
+#include "scenes/frame.h"
+#include "scenes/plan/plan.h"
+#include "scenes/scene.h"
+
+namespace shadowproof {
+
+/// Everything in which techniques with shadow maps differ.
+struct MapRecipe {
+    MapModel model; ///< where the user asked for nothing else (with_settings)
+    MapMaking making = MapMaking::pass_per_face;
+};
+
+/// Draws the scene's surfaces as zfail_reversed does, and asks the map in the light pass. Draws
+/// once more beforehand, so that the driver finishes deferred compilation; the quickest of up to
+/// three frames is the time. Throws Error where the driver fails, or the light has no position.
+Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe);
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+#include "raster/maps/map_shadows.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// As cube_map_six_pass, but the casters are drawn once: a geometry shader sends each triangle to
+/// all six faces.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    return draw_map_shadows(gpu, scene, plan, {.model = {}, .making = MapMaking::geometry_shader});
+}
+
+} // namespace
+
+Technique cube_map_geometry_shader_technique() {
+    return {
+        .name = "cube_map_geometry_shader",
+        .summary = "a cube map of distances from the light, drawn in a single pass",
+        .source = "Omni-directional shadows with geometry shaders, method 2",
+        .needs = "a light with a position, and geometry shaders",
+        .fails_at = {Cause::precision, Cause::resolution, Cause::acne, Cause::leak, Cause::range},
+        .by_nature = {Cause::resolution, Cause::acne, Cause::leak},
+        .lights = {Light::Kind::point, Light::Kind::spot},
+        .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,28 @@
+#include "raster/maps/map_shadows.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// The casters are drawn six times, once from the light along each axis, and a point is shadowed
+/// where its texel is nearer to the light by more than the bias.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    return draw_map_shadows(gpu, scene, plan, {});
+}
+
+} // namespace
+
+Technique cube_map_six_pass_technique() {
+    return {
+        .name = "cube_map_six_pass",
+        .summary = "a cube map of distances from the light, drawn face by face",
+        .source = "Omni-directional shadows with geometry shaders, method 1",
+        .needs = "a light with a position",
+        .fails_at = {Cause::precision, Cause::resolution, Cause::acne, Cause::leak, Cause::range},
+        .by_nature = {Cause::resolution, Cause::acne, Cause::leak},
+        .lights = {Light::Kind::point, Light::Kind::spot},
+        .run = run};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,31 @@
+#include "raster/maps/map_shadows.h"
+#include "raster/technique.h"
+
+namespace shadowproof {
+
+namespace {
+
+/// The light's depths in one square that holds the cone, looked up at the point projected into it:
+/// s/r, t/r.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    return draw_map_shadows(gpu, scene, plan,
+                            {.model = {.shape = MapModel::Shape::spot,
+                                       .value = MapValue::depth,
+                                       .format = MapFormat::d24}});
+}
+
+} // namespace
+
+Technique spot_map_technique() {
+    return {
+        .name = "spot_map",
+        .summary = "a spot light's map of depths, looked up by projection",
+        .source = "Williams 1978; CS448 lecture 11, shadow maps; Kilgard 2001",
+        .needs = "a spot light with a cone narrower than 86 degrees to each side",
+        .fails_at = {Cause::precision, Cause::resolution, Cause::acne, Cause::leak, Cause::range},
+        .by_nature = {Cause::resolution, Cause::acne, Cause::leak},
+        .lights = {Light::Kind::spot},
+        .run = run};
+}
+
+} // namespace shadowproof

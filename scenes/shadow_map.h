@@ -1,0 +1,122 @@
+// Shadow maps: pictures of the casters as the light sees them. How a technique makes and asks its
+// map, which is all that is needed to predict it, and what was read back. Also THE definition of
+// which camera draws which face.
+#pragma once
+
+#include "scenes/camera.h"
+#include "scenes/cube_map.h"
+#include "scenes/depth_model.h"
+#include "scenes/image.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace shadowproof {
+
+/// What a map's texels hold.
+enum class MapValue : std::uint8_t {
+    distance, ///< from the light, over `far`; made by the fragment shader
+    depth,    ///< window depth of the light's camera
+};
+
+/// In which format they are stored.
+enum class MapFormat : std::uint8_t { d16, d24, d32f };
+
+/// Which sides of the casters are not drawn into the map.
+enum class MapCulling : std::uint8_t {
+    none,
+    front, ///< those that face the light when wound counter-clockwise
+    back,
+};
+
+inline constexpr std::array all_map_values{MapValue::distance, MapValue::depth};
+inline constexpr std::array all_map_formats{MapFormat::d16, MapFormat::d24, MapFormat::d32f};
+inline constexpr std::array all_map_cullings{MapCulling::none, MapCulling::front, MapCulling::back};
+
+constexpr std::string_view name_of(MapValue value) {
+    return value == MapValue::distance ? "distance" : "depth";
+}
+
+constexpr std::string_view name_of(MapFormat format) {
+    switch (format) {
+    case MapFormat::d16:
+        return "d16";
+    case MapFormat::d24:
+        return "d24";
+    case MapFormat::d32f:
+        break;
+    }
+    return "d32f";
+}
+
+constexpr std::string_view name_of(MapCulling culling) {
+    switch (culling) {
+    case MapCulling::none:
+        return "none";
+    case MapCulling::front:
+        return "front";
+    case MapCulling::back:
+        break;
+    }
+    return "back";
+}
+
+/// What the user asked for; where nothing is set, each technique uses its own.
+struct MapSettings {
+    std::optional<int> size{};    ///< texels a side
+    std::optional<double> bias{}; ///< in the file's units of length
+    std::optional<MapValue> value{};
+    std::optional<MapFormat> format{};
+    std::optional<MapCulling> culling{};
+    std::optional<double> near{}; ///< in the file's units of length
+    std::optional<double> far{};  ///< likewise
+};
+
+/// How a map is made and asked. The claim is `shadowed` where value + bias < what the receiver's
+/// own point has, both in world units: its distance from the light, or its depth from it.
+struct MapModel {
+    enum class Shape : std::uint8_t {
+        cube, ///< six faces around the light
+        spot, ///< one square, which holds the cone
+    };
+    Shape shape = Shape::cube;
+    int size = 1024; ///< texels a side
+    double bias = 0; ///< world units
+    MapValue value = MapValue::distance;
+    MapFormat format = MapFormat::d32f;
+    MapCulling culling = MapCulling::none;
+    double near = 0; ///< of the light's camera, world units
+    double far = 1;
+
+    std::size_t faces() const { return shape == Shape::cube ? 6 : 1; }
+};
+
+/// The evidence of a claim made by a shadow map.
+struct MapEvidence {
+    MapModel model;
+    /// As read back, one per face, in OpenGL's order for a cube; rows from the top of the picture
+    /// that the face's camera takes.
+    std::vector<Image<float>> faces;
+    double map_milliseconds = 0; ///< of the frame's time, drawing the map
+};
+
+/// The values of the source documents where the user asked for nothing: the bias is 0.15 world
+/// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is just beyond the
+/// farthest caster's corner, and `near` a thousandth of that. The light must have a position.
+MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene);
+
+/// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its
+/// rows and columns are those of OpenGL's face, from the last row up (cube_map.h). For a spot it
+/// looks along the light's axis and holds the whole cone.
+Camera map_camera(const Light& light, const MapModel& model, std::size_t face);
+
+/// How the face's window depths are made, which clipping follows even where distances are stored.
+DepthModel map_depth_model(const MapModel& model);
+
+/// Half the side of a spot's map at depth 1; the outer cone must be narrower than a half space.
+double half_side_of_spot(const Light& light);
+
+} // namespace shadowproof
