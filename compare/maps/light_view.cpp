@@ -18,6 +18,15 @@ namespace {
 constexpr double v = float_roundoff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// How many steps a format of whole numbers has; 0 for floats.
+double steps_of(MapFormat format) {
+    if (format == MapFormat::d32f) return 0;
+    return format == MapFormat::d24 ? 0xffffff : 0xffff;
+}
+double half_step_of(MapFormat format) {
+    return format == MapFormat::d32f ? 0 : 0.5 / steps_of(format);
+}
+
 /// The casters before the face's camera, each drawn from the sides that the model does not cull.
 Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
                  std::vector<std::uint32_t>& of_scene) {
@@ -95,18 +104,16 @@ bool LightView::may_store(const Texel& texel, std::uint32_t caster) const {
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
     const double read = stored(texel);
     if (map_.model.value == MapValue::depth) {
-        const double step = map_.model.format == MapFormat::d16 ? 0.5 / 0xffff : 0;
-        const WindowDepth window = window_depth_of(depth_model_);
         if (at.is_depth(read)) return true;
-        return step > 0 && std::abs(read - window.at(at.inverse_depth())) <=
-                               step + std::abs(window.slope) * at.error();
+        if (map_.model.format != MapFormat::d16) return false; // is_depth knows the others
+        const WindowDepth window = window_depth_of(depth_model_);
+        return std::abs(read - window.at(at.inverse_depth())) <=
+               half_step_of(map_.model.format) + std::abs(window.slope) * at.error();
     }
     const double inverse = at.inverse_depth();
     const double length = glm::length(at.direction());
     const double far = map_.model.far;
-    const double half_step = map_.model.format == MapFormat::d32f  ? 0
-                             : map_.model.format == MapFormat::d24 ? 0.5 / 0xffffff
-                                                                   : 0.5 / 0xffff;
+    const double half_step = half_step_of(map_.model.format);
     const auto within = [&](double low, double high, double more) {
         const double roundings = 8 * v * high + more + half_step * far;
         return read * far >= std::min(low - roundings, far) && read * far <= high + roundings;
@@ -130,12 +137,15 @@ bool LightView::may_store(const Texel& texel, std::uint32_t caster) const {
     return off_by(at.error(), std::sqrt(2.0) * at.spread(), interpolated);
 }
 
+// A whole number of steps, which comes back as a float: off by a place where it is multiplied by a
+// rounded reciprocal, as llvmpipe does of 16 bits.
 bool LightView::is_in_format(float stored) const {
-    if (map_.model.format == MapFormat::d32f) return stored >= 0 && stored <= 1;
-    const double most = map_.model.format == MapFormat::d24 ? 0xffffff : 0xffff;
+    if (!(stored >= 0 && stored <= 1)) return false;
+    if (map_.model.format == MapFormat::d32f) return true;
+    const double most = steps_of(map_.model.format);
     const double steps = double{stored} * most;
-    const double half_place = 0.5 * (std::nextafter(stored, 2.0F) - double{stored}) * most;
-    return std::abs(steps - std::round(steps)) <= half_place;
+    const double place = (std::nextafter(stored, 2.0F) - double{stored}) * most;
+    return std::abs(steps - std::round(steps)) <= place;
 }
 
 LightView::Shown LightView::showing(const Texel& texel, std::uint32_t caster) const {
@@ -173,8 +183,8 @@ LightView::Shown LightView::shown_around(const Texel& texel) const {
     const double error = spread(around);
     for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
         if (!may_cover(scene, caster, centre, error)) continue;
-        const double inverse = plane(texel, caster).inverse_depth();
-        const bool hidden = inverse * farthest * (1 + 0x1p-10) < 1;
+        const PlaneAtPixel at = plane(texel, caster);
+        const bool hidden = (at.inverse_depth() + at.error()) * farthest < 1;
         if (!hidden && may_store(texel, caster)) return showing(texel, caster);
     }
     return {};
