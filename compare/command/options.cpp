@@ -130,7 +130,7 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
     add_choice("--map-culling", all_map_cullings, settings.culling,
                "Which sides of casters they leave out");
     add_length_flag(command, "--map-near", settings.near,
-                    "Near plane of the light's camera (a thousandth of its far plane)");
+                    "Near plane of the light's camera (close to the light)");
     add_length_flag(command, "--map-far", settings.far,
                     "Far plane of the light's camera (just beyond the farthest caster)");
 }

@@ -2,7 +2,7 @@
 #include "compare/driver/setup_error.h"
 #include "compare/judge/judge.h"
 #include "compare/maps/map_cause.h"
-#include "compare/words.h"
+#include "compare/maps/map_report.h"
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
 
@@ -91,58 +91,45 @@ public:
 
     EvidenceSummary summary(const EvidenceCheck& check,
                             const Image<std::uint8_t>& /*cause*/) const override {
-        const MapModel& model = light_.model();
-        std::uint64_t wrong = 0;
-        for (const LightView::Shown& shown : shown_) wrong += shown.shows ? 0 : 1;
-        EvidenceSummary summary;
-        if (wrong > 0)
-            summary.unexplained.push_back(
-                fmt::format("{} of the map unexplained", counted(wrong, "texel")));
-        const double unit = claim_.traced.scene().unit;
-        nlohmann::ordered_json map{{"size", model.size},
-                                   {"bias", model.bias * unit},
-                                   {"value", name_of(model.value)},
-                                   {"format", name_of(model.format)},
-                                   {"culling", name_of(model.culling)},
-                                   {"near", model.near * unit},
-                                   {"far", model.far * unit},
-                                   {"texels_asked", texels_.size()},
-                                   {"texels_unexplained", wrong},
-                                   {"straddling", check.in_band},
-                                   {"ms", claim_.frame.mapped->map_milliseconds}};
-        summary.results = nlohmann::ordered_json{{"map", std::move(map)}}.dump();
-        return summary;
+        const auto wrong = std::count_if(shown_.begin(), shown_.end(),
+                                         [](const auto& shown) { return !shown.shows; });
+        return summary_of_map(*claim_.frame.mapped, check.in_band, texels_.size(),
+                              static_cast<std::size_t>(wrong), claim_.traced.scene().unit);
     }
 
-    std::shared_ptr<const EvidenceReport>
-    report(const Image<std::uint8_t>& /*cause*/) const override {
-        return nullptr;
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
+        std::vector<std::optional<PixelLookup>> at(cause.pixels.size());
+        parallel_for(cause.height, claim_.traced.tracer().threads(), [&](int y, int) {
+            for (int x = 0; x < cause.width; ++x) at[cause.index(x, y)] = lookup_at({x, y});
+        });
+        return report_map(*claim_.frame.mapped, std::move(at), cause, claim_.traced.scene().unit);
     }
 
     Account account(const PixelRecord& record, double unit) const override {
         Account account;
-        const Asked asked = asked_at({record.x, record.y});
-        const MapModel& model = light_.model();
         nlohmann::ordered_json members;
-        if (!asked.asks || !asked.lookup.in_map) {
+        const std::optional<PixelLookup> pixel = lookup_at({record.x, record.y});
+        if (!pixel) {
             account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
+            account.remark = {"shows", "not asked"};
             members["map"] = nullptr;
         } else {
-            const Texel& texel = asked.lookup.texel;
-            const double stored = world(light_.stored(texel)) * unit;
+            const Texel& texel = pixel->lookup.texel;
             account.columns = {{"face", fmt::format("{}", texel.face)},
                                {"texel", fmt::format("({},{})", texel.x, texel.y)},
-                               {"map", fmt::format("{:.6g}", stored)},
-                               {"own", fmt::format("{:.6g}", asked.lookup.value * unit)}};
-            const LightView::Shown shown = shown_by(texel);
+                               {"map", fmt::format("{:.6g}", pixel->stored * unit)},
+                               {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
+            account.remark = {"shows", pixel->shown == no_triangle
+                                           ? std::string("nothing")
+                                           : fmt::format("triangle {}", pixel->shown)};
             members["map"] = {{"face", texel.face},
                               {"texel", {texel.x, texel.y}},
-                              {"stored", stored},
-                              {"bias", model.bias * unit},
-                              {"own", asked.lookup.value * unit},
-                              {"triangle", shown.triangle == no_triangle
-                                               ? nlohmann::ordered_json(nullptr)
-                                               : nlohmann::ordered_json(shown.triangle)}};
+                              {"stored", pixel->stored * unit},
+                              {"bias", light_.model().bias * unit},
+                              {"own", pixel->lookup.value * unit},
+                              {"shows", pixel->shown == no_triangle
+                                            ? nlohmann::ordered_json(nullptr)
+                                            : nlohmann::ordered_json(pixel->shown)}};
         }
         account.members = members.dump();
         return account;
@@ -198,6 +185,13 @@ private:
             asked.lookup.in_map &&
             is_shadowed(light_.model(), light_.stored(asked.lookup.texel), asked.lookup.value);
         return shadowed ? Visibility::shadowed : Visibility::lit;
+    }
+
+    std::optional<PixelLookup> lookup_at(PixelPlace p) const {
+        const Asked asked = asked_at(p);
+        if (!asked.asks || !asked.lookup.in_map) return std::nullopt;
+        const Texel& texel = asked.lookup.texel;
+        return PixelLookup{asked.lookup, world(light_.stored(texel)), shown_by(texel).triangle};
     }
 
     void trace_texels() {

@@ -218,6 +218,7 @@ void cell_images(const Place& place) {
                    {"difference", text},
                    {"cause", text},
                    {"volumes", text, Need::optional},
+                   {"texels", text, Need::optional},
                    {"color", text, Need::optional},
                    {"color_error", text, Need::optional}});
 }
@@ -274,6 +275,20 @@ void volumes(const Place& place) {
                    {"words", some_text, Need::optional}});
 }
 
+void map(const Place& place) {
+    object(place, {{"size", size},
+                   {"bias", number},
+                   {"value", text},
+                   {"format", text},
+                   {"culling", text},
+                   {"near", number},
+                   {"far", number},
+                   {"texels", count},
+                   {"texels_unexplained", count},
+                   {"straddling", count},
+                   {"ms", milliseconds}});
+}
+
 void saved(const Place& place) {
     object(place, {{"against", text},
                    {"ms", number},
@@ -301,6 +316,7 @@ void cell(const Place& place) {
                    {"ms", milliseconds},
                    {"volume_fragments", count, counted},
                    {"left_out", list_of<text>, Need::optional},
+                   {"map", map, Need::optional},
                    {"saved", saved, Need::optional},
                    {"verdict", verdict},
                    {"pixels", size},

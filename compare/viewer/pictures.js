@@ -7,7 +7,8 @@ const colorPictureNames = ['true_color', 'claimed_color', 'color_error'];
 const pictureTitles = { true_color: 'True colour', claimed_color: 'Claimed colour',
                         color_error: 'Colour error', truth: 'Truth', claim: 'Claim',
                         difference: 'Difference', cause: 'Cause', predicted: 'Counter predicted',
-                        read_back: 'Counter read back', volumes: 'Volumes' };
+                        read_back: 'Counter read back', volumes: 'Volumes',
+                        texels: 'Texels asked' };
 
 /** The names of a cell's pictures, colours first. */
 const picturesOf = (cell) =>
@@ -70,6 +71,7 @@ function pixelWord(opened, name, pixel) {
   case 'predicted': return predicted ? String(predicted[pixel]) : '';
   case 'read_back': return readBack ? String(readBack[pixel]) : '';
   case 'volumes': return faces ? String(faces[pixel]) : '';
+  case 'texels': return '';
   case 'cause': return !causes || causes[pixel] === noDifference ? ''
     : received.legend.causes[causes[pixel]].name;
   default: return !visibility || !claim || claim[pixel] === visibility[pixel] ? ''
@@ -93,6 +95,7 @@ function pixelInk(opened, name, pixel) {
     claim: () => [claim[pixel], claim[pixel], claim[pixel]],
     predicted: () => counterColor(asCount(predicted[pixel], bits)),
     read_back: () => counterColor(asCount(readBack[pixel], bits)),
+    texels: () => [40, 40, 44],
     volumes: () => (faces[pixel] > 2 ? [255, 192, 64] : [40, 40, 44]),
     cause: () => colorBytes(received.legend.causes[causes[pixel]].color),
     difference: () => colorBytes(

@@ -39,14 +39,15 @@ struct Switched {
 /// How far a faulty frame is from the right one.
 struct Effect {
     std::uint64_t claims = 0;
-    std::uint64_t counters = 0;
+    std::uint64_t evidence = 0; ///< counters, or texels of a map
     std::uint64_t surfaces = 0; ///< triangles or depths
     std::uint64_t colors = 0;
     double largest_color = 0; ///< of 255
+    bool of_map = false;      ///< evidence is of a map
     bool figures = false;     ///< fragments, or the picture of the volumes
 
-    bool any() const { return claims > 0 || counters > 0 || surfaces > 0 || colors > 0 || figures; }
-    std::uint64_t size() const { return 1000 * claims + counters + surfaces + colors; }
+    bool any() const { return claims > 0 || evidence > 0 || surfaces > 0 || colors > 0 || figures; }
+    std::uint64_t size() const { return 1000 * claims + evidence + surfaces + colors; }
 };
 
 template <class Value>
@@ -58,8 +59,11 @@ std::uint64_t differing(const Image<Value>& a, const Image<Value>& b) {
 
 Effect effect_of(const Frame& right, const Frame& faulty) {
     Effect effect;
+    effect.of_map = right.mapped.has_value();
     effect.claims = differing(right.claim, faulty.claim);
-    effect.counters = differing(right.counted->counter, faulty.counted->counter);
+    if (right.counted) effect.evidence = differing(right.counted->counter, faulty.counted->counter);
+    for (std::size_t face = 0; right.mapped && face < right.mapped->faces.size(); ++face)
+        effect.evidence += differing(right.mapped->faces[face], faulty.mapped->faces[face]);
     effect.surfaces =
         std::max(differing(right.triangle, faulty.triangle), differing(right.depth, faulty.depth));
     effect.colors = differing(right.color, faulty.color);
@@ -68,6 +72,7 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
             effect.largest_color =
                 std::max(effect.largest_color, 255.0 * std::abs(double{right.color.pixels[i][k]} -
                                                                 faulty.color.pixels[i][k]));
+    if (!right.counted) return effect;
     const auto saved = [](const Frame& frame) {
         return frame.counted->saved ? frame.counted->saved->volume_fragments : 0;
     };
@@ -78,8 +83,8 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
 }
 
 std::string words_of(const Effect& effect) {
-    std::string words = fmt::format("{} claims, {} counters, {} surfaces", effect.claims,
-                                    effect.counters, effect.surfaces);
+    std::string words = fmt::format("{} claims, {} {}, {} surfaces", effect.claims, effect.evidence,
+                                    effect.of_map ? "texels" : "counters", effect.surfaces);
     if (effect.colors > 0)
         words +=
             fmt::format(", {} colours by up to {:.2f}/255", effect.colors, effect.largest_color);

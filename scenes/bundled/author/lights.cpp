@@ -143,7 +143,7 @@ Stage light_on_edge() {
     Stage stage = looking_along_floor("light_on_edge",
                                       "The light lies on an edge of a closed board, as near as "
                                       "floats tell, and the eye is in the dark behind it.",
-                                      {"eye_inside", "extrusion"});
+                                      {"eye_inside", "extrusion", "range"});
     const Placed thing = board({0.05, 0.17, 0.97});
     stage.light.position = placed(thing, {0.313, -board_size.y - 4e-7, -board_size.z + 3e-7});
     add(stage, {thing});

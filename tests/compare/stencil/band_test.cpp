@@ -63,6 +63,7 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
         if (!suits(technique, scene)) continue;
         SCOPED_TRACE(technique.name);
         const Frame frame = render(technique, scene, plan, gpu);
+        if (!frame.counted) continue;
         const Prediction prediction(tracer, silhouette, truth, depths, frame.counted->counting,
                                     frame.depth_model);
         std::vector<Crossing> crossings;

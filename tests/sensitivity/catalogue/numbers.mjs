@@ -51,7 +51,7 @@ export const faults = [
   { name: 'depth_offset_1e-4', file: passes, right: 'transform.light = split(light);', wrong: 'transform.light = split(light); for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += 1e-4F * transform.clip_from_relative[k][3];' },
   { name: 'light_low_dropped', file: 'raster/glsl/project.vert', right: '(light_w * position - light_high) - light_low', wrong: '(light_w * position - light_high)', why: 'The lights of the bundled scenes are floats.' },
   { name: 'finite_ends_for_infinite', file: 'raster/glsl/project.vert', right: 'vec4(away, 0)', wrong: 'vec4(relative + 10 * away, 1)' },
-  { name: 'seen_triangle_not_asked', file: 'raster/glsl/light.frag', right: 'if (seen != triangle_drawn[first_side + gl_PrimitiveID]) discard;', wrong: '' },
+  { name: 'seen_triangle_not_asked', file: 'raster/glsl/lit_side.glsl', right: 'if (seen != triangle_drawn[first_side + gl_PrimitiveID]) return false;', wrong: '' },
   { name: 'volume_fragments_doubled', ...fragments('2 * fragments') },
   { name: 'volume_fragments_halved', ...fragments('fragments / 2') },
   { name: 'volume_fragments_10_percent_more', ...fragments('fragments + fragments / 10') },

@@ -1,0 +1,32 @@
+// A shadow map's evidence for results and report.
+#pragma once
+
+#include "compare/judge/evidence_report.h"
+#include "compare/maps/lookup.h"
+#include "compare/report/png.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace shadowproof {
+
+/// What a pixel's centre asks of the map, and what the map shows there.
+struct PixelLookup {
+    Lookup lookup;
+    double stored = 0; ///< in the terms of Lookup::value
+    std::uint32_t shown = no_triangle;
+};
+
+/// Members of the cell in results.json. `straddling`: pixels that another texel than the centre's
+/// explains; `asked`, `unexplained`: texels. Lengths are multiplied by `unit` (Scene::unit).
+EvidenceSummary summary_of_map(const MapEvidence& map, std::uint64_t straddling, std::size_t asked,
+                               std::size_t unexplained, double unit);
+
+/// `at`: one for each pixel, in rows from the top; none where the map is not asked.
+std::shared_ptr<const EvidenceReport> report_map(const MapEvidence& map,
+                                                 std::vector<std::optional<PixelLookup>> at,
+                                                 const Image<std::uint8_t>& cause, double unit);
+
+} // namespace shadowproof

@@ -1,0 +1,257 @@
+// Shadow maps against the truth: every texel is predicted, causes follow the settings, and what is
+// off by more than the bounds is not explained.
+#include "compare/evidence.h"
+#include "compare/maps/light_view.h"
+#include "compare/maps/lookup.h"
+#include "compare/verdict.h"
+#include "raster/maps/map_shadows.h"
+#include "scenes/error.h"
+#include "tests/compare/bundled_names.h"
+#include "tests/compare/traced_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+namespace {
+
+using tests::compared;
+using tests::load_named;
+using tests::pixels_of;
+using tests::TracedScene;
+
+Scene small(const std::string& name, int size = 128) {
+    Scene scene = load_named(name);
+    scene.camera.width = size;
+    scene.camera.height = size;
+    return scene;
+}
+
+Frame drawn(Gpu& gpu, const TracedScene& traced, const std::string& technique,
+            const MapSettings& settings) {
+    Plan plan = traced.plan;
+    plan.map = settings;
+    return render(*find_technique(technique), traced.scene, plan, gpu);
+}
+
+std::vector<Texel> all_texels(const MapModel& model) {
+    std::vector<Texel> texels;
+    for (std::uint32_t face = 0; face < model.faces(); ++face)
+        for (int y = 0; y < model.size; ++y)
+            for (int x = 0; x < model.size; ++x) texels.push_back({face, x, y});
+    return texels;
+}
+
+std::uint64_t texels_not_shown(const TracedScene& traced, const Frame& frame) {
+    const LightView light(traced.scene, *frame.mapped, frame.depth_model.subpixel_bits, 0);
+    const std::vector<Texel> texels = all_texels(frame.mapped->model);
+    const std::vector<FromLight> at_centres = light.trace(texels);
+    std::uint64_t wrong = 0;
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        wrong += light.shown(texels[i], at_centres[i]).shows ? 0 : 1;
+    return wrong;
+}
+
+struct Setting {
+    std::string name;
+    MapSettings settings;
+};
+
+std::vector<Setting> all_settings() {
+    std::vector<Setting> all;
+    for (const MapValue value : all_map_values)
+        for (const MapFormat format : all_map_formats)
+            for (const MapCulling culling : all_map_cullings)
+                all.push_back({std::string(name_of(value)) + "_" + std::string(name_of(format)) +
+                                   "_culling_" + std::string(name_of(culling)),
+                               {.size = 96,
+                                .bias = 0.01,
+                                .value = value,
+                                .format = format,
+                                .culling = culling}});
+    return all;
+}
+
+class MapOfScene : public testing::TestWithParam<std::string> {
+protected:
+    Gpu gpu{GlPlatform::osmesa};
+    TracedScene traced{small(GetParam())};
+
+    std::vector<std::string> techniques() const {
+        std::vector<std::string> names;
+        for (const char* name : {"cube_map_six_pass", "cube_map_geometry_shader", "spot_map"})
+            if (suits(*find_technique(name), traced.scene)) names.emplace_back(name);
+        return names;
+    }
+};
+
+TEST_P(MapOfScene, every_texel_is_as_predicted) {
+    for (const std::string& technique : techniques())
+        EXPECT_EQ(texels_not_shown(traced, drawn(gpu, traced, technique, {.size = 256})), 0U)
+            << technique;
+}
+
+TEST_P(MapOfScene, no_setting_leaves_a_pixel_unexplained) {
+    for (const std::string& technique : techniques())
+        for (const Setting& setting : all_settings()) {
+            const Comparison comparison =
+                compared(traced, drawn(gpu, traced, technique, setting.settings));
+            EXPECT_TRUE(is_explained(comparison)) << technique << " " << setting.name;
+            EXPECT_LT(comparison.evidence.in_band, comparison.cause.pixels.size() / 50)
+                << technique << " " << setting.name;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, MapOfScene, testing::ValuesIn(tests::bundled_names()),
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
+class Maps : public testing::Test {
+protected:
+    Gpu gpu{GlPlatform::osmesa};
+    TracedScene ordinary{small("ordinary")};
+
+    Comparison judged(const MapSettings& settings, const std::string& name = "cube_map_six_pass") {
+        return compared(ordinary, drawn(gpu, ordinary, name, settings));
+    }
+};
+
+TEST_F(Maps, err_less_the_more_texels_they_have) {
+    std::uint64_t before = ordinary.truth.visibility.pixels.size();
+    for (const int size : {16, 64, 256, 1024}) {
+        const std::uint64_t wrong = judged({.size = size, .bias = 0.05}).differing;
+        EXPECT_LT(wrong, before) << size;
+        before = wrong;
+    }
+}
+
+TEST_F(Maps, without_bias_show_acne_and_no_leak_and_with_a_large_one_the_reverse) {
+    const Comparison none = judged({.bias = 0});
+    EXPECT_GT(pixels_of(none, Cause::acne), 1000U);
+    EXPECT_EQ(pixels_of(none, Cause::leak), 0U);
+    const Comparison large = judged({.bias = 0.6});
+    EXPECT_EQ(pixels_of(large, Cause::acne), 0U);
+    EXPECT_GT(pixels_of(large, Cause::leak), 100U);
+    EXPECT_TRUE(is_explained(none));
+    EXPECT_TRUE(is_explained(large));
+}
+
+TEST_F(Maps, without_acne_have_bias_enough_to_mend_it) {
+    EXPECT_GT(pixels_of(judged({.size = 128, .bias = 0.01}), Cause::acne), 0U);
+    EXPECT_EQ(pixels_of(judged({.size = 128, .bias = 0.3}), Cause::acne), 0U);
+}
+
+TEST_F(Maps, show_range_where_the_far_plane_cuts_the_scene_and_nowhere_else) {
+    const Comparison all = judged({});
+    EXPECT_EQ(pixels_of(all, Cause::range), 0U);
+    const Comparison cut = judged({.bias = 0.02, .far = 3});
+    EXPECT_GT(pixels_of(cut, Cause::range), 100U);
+    EXPECT_TRUE(is_explained(cut));
+    EXPECT_EQ(judge(ordinary.scene, find_technique("cube_map_six_pass")->fails_at,
+                    find_technique("cube_map_six_pass")->by_nature, cut),
+              Verdict::defect);
+}
+
+TEST_F(Maps, of_one_pass_are_those_of_six) {
+    const Frame six = drawn(gpu, ordinary, "cube_map_six_pass", {});
+    const Frame one = drawn(gpu, ordinary, "cube_map_geometry_shader", {});
+    ASSERT_EQ(six.mapped->faces.size(), 6U);
+    for (std::size_t face = 0; face < 6; ++face)
+        EXPECT_EQ(six.mapped->faces[face].pixels, one.mapped->faces[face].pixels) << face;
+}
+
+TEST_F(Maps, with_a_texel_a_little_beyond_its_bound_are_unexplained_and_within_it_are_not) {
+    Frame frame = drawn(gpu, ordinary, "cube_map_six_pass", {.size = 64});
+    const LightView light(ordinary.scene, *frame.mapped, 8, 0);
+    const std::vector<Texel> texels = all_texels(frame.mapped->model);
+    const std::vector<FromLight> at_centres = light.trace(texels);
+    int tried = 0;
+    for (std::size_t i = 0; i < texels.size(); i += 97) {
+        if (at_centres[i].triangle == no_triangle) continue;
+        float& stored = frame.mapped->faces[texels[i].face].at(texels[i].x, texels[i].y);
+        const float right = stored;
+        stored = right * 1.0000001F;
+        EXPECT_TRUE(light.shown(texels[i], at_centres[i]).shows) << i;
+        stored = right * 1.02F; // far more than snapping by 1/256 of a texel makes of these slopes
+        const bool by_another = light.shown(texels[i], at_centres[i]).shows;
+        tried += by_another ? 0 : 1;
+        stored = right;
+    }
+    EXPECT_GT(tried, 100);
+}
+
+/// What is said of the map, and what is drawn, are two things.
+class FaultyMap : public Maps {
+protected:
+    bool is_caught(const MapSettings& drawn_with, const MapSettings& said) {
+        Frame frame = drawn(gpu, ordinary, "cube_map_six_pass", drawn_with);
+        frame.mapped->model = with_settings(frame.mapped->model, said, ordinary.scene);
+        return !is_explained(compared(ordinary, frame));
+    }
+};
+
+TEST_F(FaultyMap, whose_settings_are_others_than_it_says_is_caught) {
+    const MapSettings said{.size = 256, .bias = 0.02};
+    EXPECT_FALSE(is_caught(said, said));
+    const auto changed = [&](auto change) {
+        MapSettings other = said;
+        change(other);
+        return is_caught(other, said);
+    };
+    EXPECT_TRUE(changed([](MapSettings& s) { s.bias = 0.021; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.bias = 0; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.value = MapValue::depth; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.far = 100; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.far = 3; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.culling = MapCulling::front; }));
+    EXPECT_TRUE(changed([](MapSettings& s) { s.format = MapFormat::d16; }));
+}
+
+TEST_F(Maps, are_not_for_lights_without_a_position) {
+    EXPECT_FALSE(suits(*find_technique("cube_map_six_pass"), load_named("sun")));
+    EXPECT_FALSE(suits(*find_technique("spot_map"), ordinary.scene));
+    EXPECT_TRUE(suits(*find_technique("spot_map"), load_named("spot")));
+    const TracedScene sun(small("sun"));
+    EXPECT_THROW(drawn(gpu, sun, "cube_map_six_pass", {}), Error);
+}
+
+TEST_F(Maps, refuse_planes_that_are_no_range_and_more_texels_than_the_driver_has) {
+    EXPECT_THROW(judged({.near = 2, .far = 1}), Error);
+    EXPECT_THROW(judged({.near = -1}), Error);
+    EXPECT_THROW(judged({.size = 1 << 20}), Error);
+}
+
+TEST(Compare, answers_both_ways_only_within_rounding) {
+    const MapModel distances{.bias = 0.1, .value = MapValue::distance, .near = 0.01, .far = 8};
+    const auto answers = [&](const MapModel& model, double stored, double own) {
+        const Answers both = compare(model, stored, own, own);
+        EXPECT_EQ(both.shadowed && !both.lit, is_shadowed(model, stored, own) && !both.lit);
+        return both;
+    };
+    // 8 * 0.25 + 0.1 against 2.1, and a thousandth of that more and less.
+    const Answers tie = answers(distances, 0.25, 2.1);
+    EXPECT_TRUE(tie.shadowed && tie.lit);
+    const Answers beyond = answers(distances, 0.25, 2.1 * (1 + 1e-5));
+    EXPECT_TRUE(beyond.shadowed && !beyond.lit);
+    const Answers before = answers(distances, 0.25, 2.1 * (1 - 1e-5));
+    EXPECT_TRUE(!before.shadowed && before.lit);
+    MapModel depths = distances;
+    depths.value = MapValue::depth;
+    // The window depth of 2 between these planes, with a point at 2.1.
+    const double stored = 8 / 7.99 * (1 - 0.01 / 2);
+    EXPECT_TRUE(answers(depths, stored, 2.1).lit);
+    EXPECT_FALSE(answers(depths, stored, 2.2).lit);
+    EXPECT_FALSE(answers(depths, stored, 2.0).shadowed);
+    // Nothing before the near plane is shadowed.
+    EXPECT_FALSE(answers(depths, 0, 0.1).shadowed);
+}
+
+} // namespace
+} // namespace shadowproof

@@ -1,0 +1,71 @@
+// Shadow maps: how they are drawn, stored, looked up and compared.
+const pass = 'raster/maps/map_pass.cpp';
+const shadows = 'raster/maps/map_shadows.cpp';
+const test = 'raster/glsl/map_test.glsl';
+const cube = 'raster/glsl/map_light_cube.frag';
+const spot = 'raster/glsl/map_light_spot.frag';
+const camera = (change) => ({ file: pass, right: 'seen_from_light.camera = map_camera(chosen_light(scene), model, face);', wrong: `seen_from_light.camera = map_camera(chosen_light(scene), model, face); Camera& c = seen_from_light.camera; ${change};` });
+const asked = (wrong) => ({ file: cube, right: 'texture(map, surface.from_light).r', wrong });
+const placed = (wrong) => ({ file: spot, right: 'vec3(0.5 * (place.xy + place.z), place.z)', wrong });
+const compared = (wrong) => ({ file: test, right: 'stored * planes.y + bias < length(surface.from_light)', wrong });
+const nearer = (wrong) => ({ file: test, right: 'float nearer = depth - bias;', wrong });
+const stored = (wrong) => ({ file: 'raster/glsl/map_distance.frag', right: 'length(surface.from_light) / far', wrong });
+export const faults = [
+  // The map.
+  { name: 'map_not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);', wrong: '' },
+  { name: 'map_cleared_to_half', file: pass, right: 'constexpr GLfloat farthest = 1;', wrong: 'GLfloat farthest = 0.5F;' },
+  { name: 'map_keeps_the_farthest', file: pass, right: 'gl.DepthFunc(GL_LESS);', wrong: 'gl.DepthFunc(GL_GREATER);' },
+  { name: 'map_keeps_the_last', file: pass, right: 'gl.DepthFunc(GL_LESS);', wrong: 'gl.DepthFunc(GL_ALWAYS);' },
+  { name: 'map_culls_backs', file: pass, right: 'set_culling(gl, pass.model.culling);', wrong: 'set_culling(gl, MapCulling::back);' },
+  { name: 'map_culls_fronts', file: pass, right: 'set_culling(gl, pass.model.culling);', wrong: 'set_culling(gl, MapCulling::front);' },
+  { name: 'map_faces_in_another_order', ...camera('c = map_camera(chosen_light(scene), model, face ^ 1U)') },
+  { name: 'map_faces_rotated', ...camera('std::swap(c.right, c.up); c.right = -c.right') },
+  { name: 'map_face_mirrored', ...camera('if (face == 3 || model.faces() == 1) c.right = -c.right') },
+  { name: 'map_face_upside_down', ...camera('if (face == 3 || model.faces() == 1) c.up = -c.up') },
+  { name: 'map_light_moved_1e-2', ...camera('seen_from_light.lights.front().position += glm::dvec3(1e-2 * model.far, 0, 0); c.eye = seen_from_light.lights.front().position') },
+  { name: 'map_light_moved_1e-4', ...camera('seen_from_light.lights.front().position += glm::dvec3(1e-4 * model.far, 0, 0); c.eye = seen_from_light.lights.front().position') },
+  { name: 'map_wider_by_a_percent', ...camera('c.tan_half_height *= 1.01') },
+  { name: 'map_wider_by_a_thousandth', ...camera('c.tan_half_height *= 1.001') },
+  { name: 'map_half_a_texel_aside', ...camera('c.forward += c.right * (c.tan_half_height / model.size)') },
+  { name: 'map_turned_1e-3', ...camera('c.forward = glm::normalize(c.forward + 1e-3 * c.up); c.up = glm::cross(c.right, c.forward)') },
+  { name: 'map_casters_all_but_one', file: pass, right: 'if (!mesh.casts) continue;', wrong: 'if (!mesh.casts || &mesh == &scene.meshes.back()) continue;' },
+  { name: 'map_of_all_meshes', file: pass, right: 'if (!mesh.casts) continue;', wrong: '' },
+  { name: 'map_a_triangle_lost', file: pass, right: 'runs.push_back({mesh.first_triangle, mesh.triangle_count, true});', wrong: 'runs.push_back({mesh.first_triangle, mesh.triangle_count - 1, true});' },
+  { name: 'map_of_32_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT32F;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'cube_map_six_pass' },
+  { name: 'map_of_24_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT24;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'spot_map' },
+  { name: 'map_linear_filter', file: pass, right: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);', wrong: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR); gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);' },
+  { name: 'map_viewport_of_half_the_size', file: pass, right: 'gl.Viewport(0, 0, pass.model.size, pass.model.size);', wrong: 'gl.Viewport(0, 0, pass.model.size / 2, pass.model.size / 2);' },
+  { name: 'map_viewport_a_texel_short', file: pass, right: 'gl.Viewport(0, 0, pass.model.size, pass.model.size);', wrong: 'gl.Viewport(0, 0, pass.model.size - 1, pass.model.size - 1);' },
+  { name: 'map_depths_clamped', file: pass, right: 'gl.Disable(GL_DEPTH_CLAMP);', wrong: 'gl.Enable(GL_DEPTH_CLAMP);', why: 'Only what lies before the near or beyond the far plane is kept besides, and nothing does: the far plane is beyond all casters.' },
+  { name: 'map_distances_in_world_units', ...stored('length(surface.from_light)') },
+  { name: 'map_distances_squared', ...stored('dot(surface.from_light, surface.from_light) / (far * far)') },
+  { name: 'map_distances_along_an_axis', ...stored('max(max(abs(surface.from_light.x), abs(surface.from_light.y)), abs(surface.from_light.z)) / far') },
+  { name: 'map_distances_a_thousandth_off', ...stored('length(surface.from_light) * 1.001 / far') },
+  { name: 'map_distances_1e-5_off', ...stored('length(surface.from_light) * 1.00001 / far') },
+  { name: 'map_one_layer_missing', file: 'raster/glsl/map_cube.geom', right: 'face < 6', wrong: 'face < 5' },
+  { name: 'map_layers_exchanged', file: 'raster/glsl/map_cube.geom', right: 'gl_Layer = face;', wrong: 'gl_Layer = face ^ 1;' },
+  { name: 'map_vertices_of_one_corner', file: 'raster/glsl/map_cube.geom', right: 'clip_from_light[face] * vec4(corner[k].from_light, 1)', wrong: 'clip_from_light[face] * vec4(corner[k].from_light, 1.001)' },
+  // The question.
+  { name: 'map_asked_the_other_way', ...asked('texture(map, -surface.from_light).r') },
+  { name: 'map_asked_with_z_mirrored', ...asked('texture(map, surface.from_light * vec3(1, 1, -1)).r') },
+  { name: 'map_asked_a_hundredth_aside', ...asked('texture(map, surface.from_light + vec3(0.01 * length(surface.from_light), 0, 0)).r') },
+  { name: 'map_asked_a_thousandth_aside', ...asked('texture(map, surface.from_light + vec3(0, 0.001 * length(surface.from_light), 0)).r') },
+  { name: 'map_asked_1e-5_aside', ...asked('texture(map, surface.from_light * vec3(1.00001, 1, 0.99999)).r') },
+  { name: 'spot_asked_without_division', ...placed('vec3(0.5 * (place.xy + 1), 1)') },
+  { name: 'spot_asked_upside_down', ...placed('vec3(0.5 * (vec2(place.x, -place.y) + place.z), place.z)') },
+  { name: 'spot_asked_half_a_texel_aside', ...placed('vec3(0.5 * (place.xy + place.z) + 0.5 / 1024 * place.z, place.z)') },
+  { name: 'spot_asked_1_64_of_a_texel_aside', ...placed('vec3(0.5 * (place.xy + place.z) + 0.015625 / 1024 * place.z, place.z)') },
+  // The comparison.
+  { name: 'map_bias_left_out', ...compared('stored * planes.y < length(surface.from_light)') },
+  { name: 'map_bias_doubled', ...compared('stored * planes.y + 2 * bias < length(surface.from_light)') },
+  { name: 'map_bias_with_the_other_sign', ...compared('stored * planes.y - bias < length(surface.from_light)') },
+  { name: 'map_bias_a_hundredth_off', ...compared('stored * planes.y + 1.01 * bias < length(surface.from_light)') },
+  { name: 'map_bias_not_in_world_units', ...compared('(stored + bias) * planes.y < length(surface.from_light)') },
+  { name: 'map_compared_the_other_way', ...compared('stored * planes.y + bias > length(surface.from_light)') },
+  { name: 'map_compared_with_near', ...compared('stored * planes.x + bias < length(surface.from_light)') },
+  { name: 'depth_bias_left_out', ...nearer('float nearer = depth;') },
+  { name: 'depth_bias_a_hundredth_off', ...nearer('float nearer = depth - 1.01 * bias;') },
+  { name: 'depth_not_made_a_window_depth', file: test, right: 'planes.y / (planes.y - planes.x) * (1 - planes.x / nearer)', wrong: 'nearer / planes.y' },
+  { name: 'map_not_asked', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'false && is_shadowed' },
+  { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed' },
+];
