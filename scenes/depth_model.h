@@ -34,6 +34,7 @@ struct DepthModel {
 struct DepthFormat {
     int bits = 0;
     bool floating = false;
+    friend bool operator==(const DepthFormat&, const DepthFormat&) = default;
 };
 
 } // namespace shadowproof

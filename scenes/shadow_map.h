@@ -64,6 +64,11 @@ constexpr std::string_view name_of(MapCulling culling) {
     return "back";
 }
 
+constexpr DepthFormat depth_format_of(MapFormat format) {
+    if (format == MapFormat::d32f) return {32, true};
+    return {format == MapFormat::d24 ? 24 : 16, false};
+}
+
 /// What the user asked for; where nothing is set, each technique uses its own.
 struct MapSettings {
     std::optional<int> size{};    ///< texels a side
@@ -100,6 +105,7 @@ struct MapEvidence {
     /// As read back, one per face, in OpenGL's order for a cube; rows from the top of the picture
     /// that the face's camera takes.
     std::vector<Image<float>> faces;
+    DepthFormat format{};        ///< of the texture, as the driver names it
     double map_milliseconds = 0; ///< of the frame's time, drawing the map
 };
 

@@ -68,7 +68,7 @@ double PlaneAtPixel::least_error(double window_depth) const {
 double PlaneAtPixel::error() const {
     const double depth = inverse_ > 0 ? std::min(1 / inverse_, far_) : far_;
     const CoveredPixel pixel{centre_, lateral(), drawing_};
-    return lateral() * slope_ + setup_error(scene_, triangle_, pixel) +
+    return error_of_place() + setup_error(scene_, triangle_, pixel) +
            0.5 * depth_error(scene_, model_, scene_.camera.eye + depth * centre_) / (depth * depth);
 }
 

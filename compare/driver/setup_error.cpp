@@ -89,13 +89,19 @@ Plane plane_of_depths(const PicturePoint& first, const PicturePoint& second,
             glm::abs(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area};
 }
 
-/// The steepest plane of a value over depth whose value is nowhere larger than 1.
+/// The steepest plane of a value over depth, q r, whose value q is nowhere larger than 1 and
+/// differs by at most `variation` between corners: q0 r0 - q1 r1 = q0 (r0 - r1) + (q0 - q1) r1.
 Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
-                     const PicturePoint& third) {
+                     const PicturePoint& third, double variation) {
+    const auto rise = [&](const PicturePoint& a, const PicturePoint& b) {
+        return std::min(a.inverse_depth + b.inverse_depth,
+                        std::abs(a.inverse_depth - b.inverse_depth) +
+                            variation * std::min(a.inverse_depth, b.inverse_depth));
+    };
     const glm::dvec2 d01 = glm::abs(first.place - second.place);
     const glm::dvec2 d20 = glm::abs(third.place - first.place);
-    const double z01 = first.inverse_depth + second.inverse_depth;
-    const double z20 = third.inverse_depth + first.inverse_depth;
+    const double z01 = rise(first, second);
+    const double z20 = rise(third, first);
     const double area = std::abs(cross(first.place - second.place, third.place - first.place));
     return {z01, z20, glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area};
 }
@@ -129,14 +135,16 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
 
 /// For a value over depth whose value is nowhere larger than 1: corners are off by their quotient's
 /// and product's roundings, and those of the shader that made them, 8 v in all.
-double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel) {
+double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel,
+                          double variation) {
     const auto& [a, b, c] = triangle;
     const double area = std::abs(cross(b.place - a.place, c.place - a.place));
     if (!(area > 0)) return std::numeric_limits<double>::infinity();
     const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
-    return 8 * v * largest + std::max({error_from(a, b, c, pixel, steepest_plane(a, b, c)),
-                                       error_from(b, c, a, pixel, steepest_plane(b, c, a)),
-                                       error_from(c, a, b, pixel, steepest_plane(c, a, b))});
+    return 8 * v * largest +
+           std::max({error_from(a, b, c, pixel, steepest_plane(a, b, c, variation)),
+                     error_from(b, c, a, pixel, steepest_plane(b, c, a, variation)),
+                     error_from(c, a, b, pixel, steepest_plane(c, a, b, variation))});
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
@@ -189,17 +197,32 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 
 // An interpolated value is q = p / r, where p is the value over depth and r the inverse depth, both
 // off by up to the share of its size: q is off by (error of p + |q| error of r) / r.
-double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
+                       double variation) {
     const double inverse_depth =
         largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
-                      [](const PictureTriangle& one, const glm::dvec2& place) {
-                          return attribute_error_of(one, place);
+                      [&](const PictureTriangle& one, const glm::dvec2& place) {
+                          return attribute_error_of(one, place, variation);
                       });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
     const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
     return 2 * inverse_depth * depth;
+}
+
+double interpolated_place_error(const Scene& scene, std::uint32_t triangle,
+                                const CoveredPixel& pixel, const glm::dvec3& origin) {
+    double largest = 0;
+    double variation = 0;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 from = corner(scene, triangle, k);
+        const glm::dvec3 away = glm::abs(from - origin);
+        const glm::dvec3 apart = glm::abs(corner(scene, triangle, (k + 1) % 3) - from);
+        largest = std::max({largest, away.x, away.y, away.z});
+        variation = std::max({variation, apart.x, apart.y, apart.z});
+    }
+    return largest > 0 ? attribute_error(scene, triangle, pixel, variation / largest) * largest : 0;
 }
 
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,

@@ -33,7 +33,13 @@ double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
 double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach);
 
 /// Error of a value interpolated over a triangle, in perspective, at a pixel: as a share of the
-/// value's size at the corner where it is largest. Infinite where the triangle is seen edge-on.
-double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
+/// value's size at the corner where it is largest. `variation`: the largest difference between
+/// corners, as a share of the same. Infinite where the triangle is seen edge-on.
+double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
+                       double variation = 2);
+
+/// Error, in each component, of a point's place relative to `origin`, interpolated like that.
+double interpolated_place_error(const Scene& scene, std::uint32_t triangle,
+                                const CoveredPixel& pixel, const glm::dvec3& origin);
 
 } // namespace shadowproof

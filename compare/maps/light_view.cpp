@@ -126,20 +126,17 @@ bool LightView::may_store(const Texel& texel, std::uint32_t caster) const {
     };
     if (off_by(0, 0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    double largest_corner = 0;
-    for (int k = 0; k < 3; ++k)
-        largest_corner =
-            std::max(largest_corner, glm::distance(corner(scene, caster, k), scene.camera.eye));
     const CoveredPixel pixel{at.direction(), at.lateral(),
                              drawing_of(scene, depth_model_, map_.model.far)};
     const double interpolated =
-        std::sqrt(3.0) * attribute_error(scene, caster, pixel) * largest_corner;
-    return off_by(at.error(), std::sqrt(2.0) * at.spread(), interpolated);
+        std::sqrt(3.0) * interpolated_place_error(scene, caster, pixel, scene.camera.eye);
+    return off_by(at.error_of_place(), std::sqrt(2.0) * at.spread(), interpolated);
 }
 
 // A whole number of steps, which comes back as a float: off by a place where it is multiplied by a
 // rounded reciprocal, as llvmpipe does of 16 bits.
 bool LightView::is_in_format(float stored) const {
+    if (map_.format != depth_format_of(map_.model.format)) return false;
     if (!(stored >= 0 && stored <= 1)) return false;
     if (map_.model.format == MapFormat::d32f) return true;
     const double most = steps_of(map_.model.format);
@@ -180,11 +177,13 @@ LightView::Shown LightView::shown_around(const Texel& texel) const {
         if (seen.triangle == no_triangle && stored(texel) == 1)
             return {true, no_triangle, infinity};
     }
-    const double error = spread(around);
+    const double reach_of_ray = spread(around);
     for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
-        if (!may_cover(scene, caster, centre, error)) continue;
+        if (!may_cover(scene, caster, centre, reach_of_ray)) continue;
         const PlaneAtPixel at = plane(texel, caster);
-        const bool hidden = (at.inverse_depth() + at.error()) * farthest < 1;
+        // Distances are compared as they are stored, so that window depth's roundings do not count.
+        const double error = map_.model.value == MapValue::depth ? at.error() : at.error_of_place();
+        const bool hidden = (at.inverse_depth() + error) * farthest * (1 + 0x1p-16) < 1;
         if (!hidden && may_store(texel, caster)) return showing(texel, caster);
     }
     return {};

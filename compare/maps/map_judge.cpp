@@ -255,14 +255,8 @@ private:
                     point.error, glm::abs(at(p.x + 0.5 + x, p.y + 0.5 + y) - point.from_light));
         const Drawing drawing =
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
-        double largest = 0;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec3 away =
-                glm::abs(corner(scene, triangle, k) - chosen_light(scene).position);
-            largest = std::max({largest, away.x, away.y, away.z});
-        }
-        point.error +=
-            attribute_error(scene, triangle, {direction_at(p), reach, drawing}) * largest;
+        point.error += interpolated_place_error(scene, triangle, {direction_at(p), reach, drawing},
+                                                chosen_light(scene).position);
         return point;
     }
 

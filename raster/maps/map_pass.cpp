@@ -13,6 +13,8 @@ namespace shadowproof {
 
 namespace {
 
+constexpr GLfloat farthest_depth = 1;
+
 GLenum gl_format(MapFormat format) {
     switch (format) {
     case MapFormat::d16:
@@ -139,8 +141,7 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
     const bool at_once = pass.making == MapMaking::geometry_shader;
     for (std::size_t i = 0; i < pass.programs.size(); ++i) {
         const GLuint framebuffer = at_once ? pass.all.name() : pass.faces[i].name();
-        constexpr GLfloat farthest = 1;
-        gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);
+        gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest_depth);
         gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         gl.UseProgram(pass.programs[i].name());
         for (const SurfaceRun& run : pass.casters)

@@ -121,6 +121,7 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     frame.family = "map";
     frame.mapped = MapEvidence{.model = model,
                                .faces = read_map(gl, frames.map),
+                               .format = depth_format(gl, frames.map.texture),
                                .map_milliseconds = milliseconds(times.map)};
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;

@@ -12,8 +12,8 @@ const nearer = (wrong) => ({ file: test, right: 'float nearer = depth - bias;', 
 const stored = (wrong) => ({ file: 'raster/glsl/map_distance.frag', right: 'length(surface.from_light) / far', wrong });
 export const faults = [
   // The map.
-  { name: 'map_not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest);', wrong: '' },
-  { name: 'map_cleared_to_half', file: pass, right: 'constexpr GLfloat farthest = 1;', wrong: 'GLfloat farthest = 0.5F;' },
+  { name: 'map_not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest_depth);', wrong: '' },
+  { name: 'map_cleared_to_half', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest_depth);', wrong: 'const GLfloat half = 0.5F; gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &half);' },
   { name: 'map_keeps_the_farthest', file: pass, right: 'gl.DepthFunc(GL_LESS);', wrong: 'gl.DepthFunc(GL_GREATER);' },
   { name: 'map_keeps_the_last', file: pass, right: 'gl.DepthFunc(GL_LESS);', wrong: 'gl.DepthFunc(GL_ALWAYS);' },
   { name: 'map_culls_backs', file: pass, right: 'set_culling(gl, pass.model.culling);', wrong: 'set_culling(gl, MapCulling::back);' },
