@@ -19,7 +19,11 @@ enum class Cause : std::uint8_t {
     parity,       ///< overlapping volumes of even depth, counted by inverting
     open_mesh,    ///< the caster does not enclose a volume towards the light
     light_inside, ///< a closed caster holds the light, and perhaps none of its triangles faces it
-    precision,    ///< disappears when the surface moves by one quantum of the depth format
+    acne,         ///< the receiver shadows itself: the bias or epsilon is too small
+    leak,         ///< an occluder lies within the bias or epsilon, which is too large
+    missed,       ///< a float ray slipped between two triangles, or met one that it passes
+    precision,    ///< disappears when the surface moves by one quantum of the depth format, or
+                  ///< when a float ray is not rounded
     shading,      ///< colour beyond its derived bound
     unexplained,  ///< no prediction matches: always a failure
 };
@@ -31,7 +35,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 13> all_causes{{
+inline constexpr std::array<CauseWords, 16> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -42,7 +46,10 @@ inline constexpr std::array<CauseWords, 13> all_causes{{
     {Cause::parity, "parity", "overlapping volumes of even depth"},
     {Cause::open_mesh, "open_mesh", "the caster encloses no volume towards the light"},
     {Cause::light_inside, "light_inside", "the light is inside a closed caster"},
-    {Cause::precision, "precision", "within the rounding of depths"},
+    {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
+    {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
+    {Cause::missed, "missed", "a float ray slipped between triangles, or met one that it passes"},
+    {Cause::precision, "precision", "within the rounding of depths or rays"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
 }};

@@ -7,6 +7,7 @@
 #include "scenes/image.h"
 #include "scenes/lighting_settings.h"
 #include "scenes/pictured.h"
+#include "scenes/traced_rays.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -36,6 +37,7 @@ struct Frame {
     ColorModel color_model{};                ///< how they were made
     std::optional<CounterEvidence> counted;  ///< where shadow volumes were counted
     std::optional<PicturedShadows> pictured; ///< where pictures tell the claim
+    std::optional<TracedRays> rays;          ///< where rays were traced in float
     double milliseconds = 0; ///< making the evidence, drawing and finishing, without the read-back
     std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
 

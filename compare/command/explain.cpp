@@ -271,6 +271,7 @@ int explain(const ExplainOptions& options) {
     require_scene(memory, scene, Workload::comparison);
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
+    plan.rays = options.technique.rays;
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const TracedScene traced(tracer, truth);

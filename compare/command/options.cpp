@@ -92,6 +92,30 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
         ->type_name("FORM");
 }
 
+/// A length in the file's units, 0 or more.
+double parse_distance(const char* flag, const std::string& text) {
+    const std::optional<double> length = parse_number(text);
+    if (!length || *length < 0)
+        throw CLI::ValidationError(flag, "'" + text + "' is no distance; give 0 or more, as " +
+                                             fmt::format("{}", customary_epsilon));
+    return *length;
+}
+
+void add_ray_flags(CLI::App& command, RaySettings& settings) {
+    const auto add = [&](const char* flag, std::optional<double>& setting, const char* words) {
+        command
+            .add_option_function<std::string>(
+                flag,
+                [&setting, flag](const std::string& text) { setting = parse_distance(flag, text); },
+                fmt::format("{} ({})", words, customary_epsilon))
+            ->type_name("LENGTH");
+    };
+    add("--ray-epsilon", settings.epsilon,
+        "traced_epsilon: hits of shadow rays nearer than this do not count");
+    add("--ray-offset", settings.offset,
+        "traced_offset: how far off the surface shadow rays start");
+}
+
 } // namespace
 
 SceneRequest SceneOptions::request() const {
@@ -205,6 +229,7 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "Where OpenGL comes from: osmesa or egl (osmesa)")
         ->type_name("PLATFORM");
     add_lighting_flags(command, options.lighting);
+    add_ray_flags(command, options.rays);
 }
 
 CLI::Validator not_empty() {
@@ -228,6 +253,9 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     const LightingSettings& lighting = technique.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
+    const RaySettings& rays = technique.rays;
+    if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
+    if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));
     return words;
 }
 

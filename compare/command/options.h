@@ -7,6 +7,7 @@
 #include "scenes/lighting_settings.h"
 #include "scenes/load/scene_request.h"
 #include "scenes/memory_budget.h"
+#include "scenes/traced_rays.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -51,6 +52,7 @@ struct TechniqueOptions {
     std::vector<const Technique*> techniques; ///< empty: all
     GlPlatform platform = GlPlatform::osmesa;
     LightingSettings lighting{};
+    RaySettings rays{};
 
     std::vector<const Technique*> chosen() const;
 };

@@ -26,6 +26,9 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
     {0xB8, 0xE0, 0xC8}, // open_mesh: pale green
     {0x00, 0x72,
      0xB2}, // light_inside: blue, as techniques whose volumes end flip casters around the light
+    {0x00, 0x9E, 0x73}, // acne: bluish green, as techniques with an epsilon have no far plane
+    {0xCC, 0x79, 0xA7}, // leak: reddish purple, as they have no volume around the eye
+    {0x00, 0x72, 0xB2}, // missed: blue, as they have no volume that ends
     {0xF0, 0xE4, 0x42}, // precision: yellow
     {0xFF, 0xFF, 0xFF}, // shading: white
     {0xD5, 0x5E, 0x00}, // unexplained: vermillion

@@ -129,6 +129,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
     describe(result, scene);
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
+    plan.rays = options.technique.rays;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
     if (!begun) announce(run.setup.console, result);
