@@ -20,10 +20,12 @@ enum class Cause : std::uint8_t {
     open_mesh,    ///< the caster does not enclose a volume towards the light
     light_inside, ///< a closed caster holds the light, and perhaps none of its triangles faces it
     resolution,   ///< the texel's ray from the light does not go through the pixel's point
-    acne,         ///< the texel shows the receiver itself, in front of its own point
-    leak,         ///< an occluder lies within the bias
+    acne,         ///< the receiver shadows itself: the bias or epsilon is too small
+    leak,         ///< an occluder lies within the bias or epsilon, which is too large
     range,        ///< outside of what the light's camera keeps
-    precision,    ///< disappears when the surface moves by one quantum of the depth format
+    missed,       ///< a float ray slipped between two triangles, or met one that it passes
+    precision,    ///< disappears when the surface moves by one quantum of the depth format, or
+                  ///< when a float ray is not rounded
     shading,      ///< colour beyond its derived bound
     unexplained,  ///< no prediction matches: always a failure
 };
@@ -35,7 +37,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 17> all_causes{{
+inline constexpr std::array<CauseWords, 18> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -47,10 +49,11 @@ inline constexpr std::array<CauseWords, 17> all_causes{{
     {Cause::open_mesh, "open_mesh", "the caster encloses no volume towards the light"},
     {Cause::light_inside, "light_inside", "the light is inside a closed caster"},
     {Cause::resolution, "resolution", "the map is too coarse"},
-    {Cause::acne, "acne", "the receiver shadows itself"},
-    {Cause::leak, "leak", "an occluder lies within the bias"},
+    {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
+    {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
     {Cause::range, "range", "outside the light's near and far plane"},
-    {Cause::precision, "precision", "within the rounding of depths"},
+    {Cause::missed, "missed", "a float ray slipped between triangles, or met one that it passes"},
+    {Cause::precision, "precision", "within the rounding of depths or rays"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
 }};

@@ -8,6 +8,7 @@
 #include "scenes/lighting_settings.h"
 #include "scenes/pictured.h"
 #include "scenes/shadow_map.h"
+#include "scenes/traced_rays.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -38,6 +39,7 @@ struct Frame {
     std::optional<CounterEvidence> counted;  ///< where shadow volumes were counted
     std::optional<PicturedShadows> pictured; ///< where pictures tell the claim
     std::optional<MapEvidence> mapped;       ///< where a shadow map was asked
+    std::optional<TracedRays> rays;          ///< where rays were traced in float
     double milliseconds = 0; ///< making the evidence, drawing and finishing, without the read-back
     std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
 

@@ -272,6 +272,7 @@ int explain(const ExplainOptions& options) {
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
     plan.map = options.technique.map;
+    plan.rays = options.technique.rays;
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const TracedScene traced(tracer, truth);

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace shadowproof {
 
@@ -92,17 +93,19 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
         ->type_name("FORM");
 }
 
-/// A length in the file's units.
+/// A length in the file's units, `least` or more.
 void add_length_flag(CLI::App& command, const char* flag, std::optional<double>& value,
-                     const std::string& words) {
+                     double least, const std::string& words) {
     command
         .add_option_function<std::string>(
             flag,
-            [&value, flag](const std::string& text) {
+            [&value, flag, least](const std::string& text) {
                 value = parse_number(text);
-                if (!value)
+                if (!value || *value < least)
                     throw CLI::ValidationError(
-                        flag, "'" + text + "' is not a length; give a number, as 0.15");
+                        flag, "'" + text + "' is no length here; give a number" +
+                                  (least < 0 ? "" : fmt::format(", {} or more", least)) +
+                                  ", as 0.15");
             },
             words)
         ->type_name("LENGTH");
@@ -112,7 +115,7 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
     command.add_option("--map-size", settings.size, "Texels a side of shadow maps (1024)")
         ->type_name("N")
         ->check(CLI::Range(1, 16384));
-    add_length_flag(command, "--map-bias", settings.bias,
+    add_length_flag(command, "--map-bias", settings.bias, std::numeric_limits<double>::lowest(),
                     "How much farther than its texel a point may be and still be lit (0.15)");
     const auto add_choice = [&](const char* flag, const auto& all, auto& value,
                                 const std::string& words) {
@@ -129,10 +132,20 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
     add_choice("--map-format", all_map_formats, settings.format, "How they store it");
     add_choice("--map-culling", all_map_cullings, settings.culling,
                "Which sides of casters they leave out");
-    add_length_flag(command, "--map-near", settings.near,
+    add_length_flag(command, "--map-near", settings.near, 0,
                     "Near plane of the light's camera (close to the light)");
-    add_length_flag(command, "--map-far", settings.far,
+    add_length_flag(command, "--map-far", settings.far, 0,
                     "Far plane of the light's camera (just beyond the farthest caster)");
+}
+
+void add_ray_flags(CLI::App& command, RaySettings& settings) {
+    add_length_flag(command, "--ray-epsilon", settings.epsilon, 0,
+                    fmt::format("traced_epsilon: hits of shadow rays nearer than this do not "
+                                "count ({})",
+                                customary_epsilon));
+    add_length_flag(command, "--ray-offset", settings.offset, 0,
+                    fmt::format("traced_offset: how far off the surface shadow rays start ({})",
+                                customary_epsilon));
 }
 
 } // namespace
@@ -249,6 +262,7 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
         ->type_name("PLATFORM");
     add_lighting_flags(command, options.lighting);
     add_map_flags(command, options.map);
+    add_ray_flags(command, options.rays);
 }
 
 CLI::Validator not_empty() {
@@ -280,6 +294,9 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
     if (map.near) add("--map-near", fmt::format("{}", *map.near));
     if (map.far) add("--map-far", fmt::format("{}", *map.far));
+    const RaySettings& rays = technique.rays;
+    if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
+    if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));
     return words;
 }
 

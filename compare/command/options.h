@@ -8,6 +8,7 @@
 #include "scenes/load/scene_request.h"
 #include "scenes/memory_budget.h"
 #include "scenes/shadow_map.h"
+#include "scenes/traced_rays.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -53,6 +54,7 @@ struct TechniqueOptions {
     GlPlatform platform = GlPlatform::osmesa;
     LightingSettings lighting{};
     MapSettings map{};
+    RaySettings rays{};
 
     std::vector<const Technique*> chosen() const;
 };

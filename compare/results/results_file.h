@@ -15,7 +15,7 @@ namespace shadowproof {
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.
-inline constexpr int results_format = 4;
+inline constexpr int results_format = 5;
 
 using ResultsJson = nlohmann::ordered_json; ///< members in the order of the file
 

@@ -57,6 +57,9 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"fine_relief", "a height field as fine as pixels; the light fades with distance"},
         {"bright_light", "ambient and diffuse light add up to more than 1 before the decal"},
         {"walking_figure", "a figure in motion by morph targets and a skin, chosen by --time"},
+        {"in_metres", "small things in metres: an epsilon of 1e-3 is a millimetre"},
+        {"in_millimetres", "a room in millimetres: floats are further apart than 1e-3"},
+        {"slivers", "slivers so thin that float rays slip through between them"},
     };
     return scenes;
 }

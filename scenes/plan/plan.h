@@ -5,6 +5,7 @@
 #include "scenes/lighting_settings.h"
 #include "scenes/scene.h"
 #include "scenes/shadow_map.h"
+#include "scenes/traced_rays.h"
 
 #include <cstdint>
 #include <string>
@@ -22,6 +23,7 @@ struct Plan {
     std::vector<std::uint8_t> around_light{};
     LightingSettings lighting{};       ///< what the user asked for; empty: left to the techniques
     MapSettings map{};                 ///< likewise
+    RaySettings rays{};                ///< the same of traced shadows
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
     std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line per faulty caster
 };

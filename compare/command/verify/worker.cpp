@@ -130,6 +130,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
     Plan plan = make_plan(scene);
     plan.lighting = options.technique.lighting;
     plan.map = options.technique.map;
+    plan.rays = options.technique.rays;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
     if (!begun) announce(run.setup.console, result);

@@ -1,0 +1,36 @@
+// What Embree's float arithmetic may make of one ray and one triangle. Its answer differs from the
+// exact one only where a number that it compares is nearer to zero than its rounding errors.
+#pragma once
+
+#include "reference/trace/any_rays.h"
+#include "reference/trace/view.h"
+
+#include <cstdint>
+
+namespace shadowproof {
+
+/// Whether Embree reports that a ray meets a triangle.
+enum class Meeting : std::uint8_t {
+    never,
+    perhaps, ///< its rounding decides
+    always,
+};
+
+struct FloatMeeting {
+    Meeting meeting = Meeting::never;
+    double t = 0;       ///< where; of a meeting that is not ruled out
+    double t_error = 0; ///< within which Embree's t lies
+};
+
+/// By how much Embree's traversal may misplace the sides of boxes, as a share of the coordinates
+/// there (find_nearby). A side at b is met at (b - o) / d, computed as fl(b r - fl(o r)) or
+/// fl(fl(b - o) r), with r a reciprocal. With u = 2^-24, r is off by at most 3.3 u, |b - o| times
+/// that; fl(o r) by u |o|; the last operation by u |b - o|: together less than 5.3 u (|b| + |o|).
+/// What the rounding of components below 1e-18 adds is less than 2^-53 of the largest coordinate.
+inline constexpr double traversal_share = 8 * 0x1p-24;
+
+/// `ray`: of floats. `enlargement`: by traversal_share. Neither never nor always where a product
+/// may overflow.
+FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement);
+
+} // namespace shadowproof

@@ -1,0 +1,187 @@
+#include "reference/trace/any_rays.h"
+
+#include "reference/exact/norms.h"
+#include "reference/trace/state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shadowproof {
+
+void AnyRays::set(int lane, const AnyRay& ray) {
+    const auto l = static_cast<std::size_t>(lane);
+    for (int axis = 0; axis < 3; ++axis) {
+        origin[static_cast<std::size_t>(axis)][l] = ray.origin[axis];
+        direction[static_cast<std::size_t>(axis)][l] = ray.direction[axis];
+    }
+    near[l] = ray.near;
+    far[l] = ray.far;
+    lanes |= 1U << l;
+}
+
+AnyRay AnyRays::ray(int lane) const {
+    const auto l = static_cast<std::size_t>(lane);
+    return {{origin[0][l], origin[1][l], origin[2][l]},
+            {direction[0][l], direction[1][l], direction[2][l]},
+            near[l],
+            far[l]};
+}
+
+namespace {
+
+/// As little as directions are told apart (find_nearby).
+constexpr double least_component = 1e-18;
+
+/// The largest coordinate on each axis.
+glm::dvec3 reach_of(const Hierarchy& hierarchy) {
+    const Entry& root = hierarchy.entries.front();
+    glm::dvec3 reach{0, 0, 0};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        reach[static_cast<int>(axis)] =
+            std::max(std::abs(double{root.lower[axis]}), std::abs(double{root.upper[axis]}));
+    return reach;
+}
+
+glm::dvec3 enlargement_of(const glm::dvec3& reach, double share, const glm::dvec3& origin) {
+    const glm::dvec3 sizes = glm::abs(origin) + reach;
+    return share * (sizes + 0x1p-32 * largest(sizes));
+}
+
+/// The rays as boxes see them: a plane at b is met at t = (b - origin) * inverse, give or take
+/// margin. All components of directions are at least least_component.
+struct Slabs {
+    alignas(64) std::array<Lanes<double>, 3> inverse{};
+    alignas(64) std::array<Lanes<double>, 3> margin{};
+};
+
+Slabs slabs_of(const AnyRays& rays, const glm::dvec3& reach, double share) {
+    Slabs slabs;
+    for (std::uint32_t left = rays.lanes; left != 0; left &= left - 1) {
+        const auto l = static_cast<std::size_t>(__builtin_ctz(left));
+        const glm::dvec3 margin =
+            enlargement_of(reach, share, {rays.origin[0][l], rays.origin[1][l], rays.origin[2][l]});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double d = rays.direction[axis][l];
+            const double inverse = std::abs(d) < least_component ? 1 / least_component : 1 / d;
+            slabs.inverse[axis][l] = inverse;
+            slabs.margin[axis][l] = margin[static_cast<int>(axis)] * std::abs(inverse);
+        }
+    }
+    return slabs;
+}
+
+/// One bit per lane whose ray comes near the box. Plain loops over sixteen lanes, which compilers
+/// turn into vectors.
+std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Entry& box) {
+    alignas(64) Lanes<double> enter = rays.near;
+    alignas(64) Lanes<double> leave = rays.far;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double lower = box.lower[axis];
+        const double upper = box.upper[axis];
+        const Lanes<double>& origin = rays.origin[axis];
+        const Lanes<double>& inverse = slabs.inverse[axis];
+        const Lanes<double>& margin = slabs.margin[axis];
+        for (std::size_t l = 0; l < packet_size; ++l) {
+            const double a = (lower - origin[l]) * inverse[l];
+            const double b = (upper - origin[l]) * inverse[l];
+            const double first = (a < b ? a : b) - margin[l];
+            const double last = (a < b ? b : a) + margin[l];
+            enter[l] = first > enter[l] ? first : enter[l];
+            leave[l] = last < leave[l] ? last : leave[l];
+        }
+    }
+    std::uint32_t met = 0;
+    for (std::size_t l = 0; l < packet_size; ++l)
+        met |= static_cast<std::uint32_t>(enter[l] <= leave[l]) << l;
+    return met & rays.lanes;
+}
+
+} // namespace
+
+glm::dvec3 enlargement(const Tracer& tracer, double share, const glm::dvec3& origin) {
+    return enlargement_of(reach_of(tracer.state().hierarchy), share, origin);
+}
+
+void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found) {
+    const Hierarchy& hierarchy = tracer.state().hierarchy;
+    const Slabs slabs = slabs_of(rays, reach_of(hierarchy), share);
+    // Two children an entry: one waits on each level.
+    std::array<std::uint32_t, 2 * deepest_level> waiting{};
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0 && rays.lanes != 0) {
+        const Entry& entry = hierarchy.entries[waiting[--count]];
+        const std::uint32_t lanes = lanes_near(rays, slabs, entry);
+        if (lanes == 0) continue;
+        if (entry.count > 0) {
+            for (std::uint32_t i = 0; i < entry.count; ++i) waiting[count++] = entry.first + i;
+            continue;
+        }
+        const Cluster& cluster = hierarchy.clusters[entry.first];
+        for (std::uint32_t i = 0; i < cluster.count && (lanes & rays.lanes) != 0; ++i)
+            found.visit(rays, cluster.triangles[i], lanes & rays.lanes);
+    }
+}
+
+namespace {
+
+EyeRay exact_ray(const AnyRay& ray, const glm::dvec4& light) {
+    return {ray.origin, ray.direction, light};
+}
+
+RayPoint surface_point(const Tracer& tracer, std::uint32_t seen) {
+    return {.kind = RayPoint::Kind::surface, .surface = corners(tracer.scene(), seen)};
+}
+
+} // namespace
+
+// The edges' planes of an oriented triangle add up to its normal: if the ray passes all on one
+// side, it runs that way through the triangle. A ray in the plane has three signs of zero.
+bool meets(const AnyRay& given, const Corners& t) {
+    const EyeRay ray = exact_ray(given, {});
+    const Predicates predicates;
+    const int signs[]{predicates.edge(ray, t.a, t.b).sign, predicates.edge(ray, t.b, t.c).sign,
+                      predicates.edge(ray, t.c, t.a).sign};
+    const bool some_above = std::ranges::any_of(signs, [](int sign) { return sign > 0; });
+    const bool some_below = std::ranges::any_of(signs, [](int sign) { return sign < 0; });
+    if (some_above == some_below) return false;
+    return predicates.depth_against(ray, t, given.near).sign > 0 &&
+           (std::isinf(given.far) || predicates.depth_against(ray, t, given.far).sign <= 0);
+}
+
+int order_along(const AnyRay& ray, const Corners& t, const Corners& u) {
+    return Predicates{}.depth_order(exact_ray(ray, {}), t, u).sign;
+}
+
+bool stands_between(const Tracer& tracer, const AnyRay& given, std::uint32_t seen,
+                    std::uint32_t triangle) {
+    const Tracer::State& state = tracer.state();
+    const int orientation = state.from_light.side[triangle];
+    if (orientation == 0 || triangle == seen) return false;
+    const EyeRay ray = exact_ray(given, state.light);
+    const RayPoint q = surface_point(tracer, seen);
+    const Corners t = corners(*state.scene, triangle);
+    const Predicates& predicates = state.predicates;
+    const auto holds = [&](const Decision& decision) { return decision.sign * orientation >= 0; };
+    const Decision beyond = predicates.side_of_point(ray, q, t);
+    return beyond.sign * orientation > 0 && holds(predicates.shadow_edge(ray, q, t.a, t.b)) &&
+           holds(predicates.shadow_edge(ray, q, t.b, t.c)) &&
+           holds(predicates.shadow_edge(ray, q, t.c, t.a));
+}
+
+bool within_cone(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen) {
+    const Tracer::State& state = tracer.state();
+    if (!state.cone) return true;
+    return state.predicates
+               .within_cone(exact_ray(ray, state.light), surface_point(tracer, seen), *state.cone)
+               .sign >= 0;
+}
+
+bool faces_light(const Tracer& tracer, std::uint32_t triangle) {
+    return tracer.state().faces_light(triangle);
+}
+bool receives_shadows(const Tracer& tracer, std::uint32_t triangle) {
+    return tracer.state().receives[triangle] != 0;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,75 @@
+// Rays from anywhere to anywhere: which triangles they may meet, and which they meet exactly. For
+// the rays that a float tracer shot, whose floats are taken as exact.
+#pragma once
+
+#include "reference/exact/predicates.h"
+#include "reference/trace/packet.h"
+#include "reference/trace/trace.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+/// origin + t direction, near < t <= far.
+struct AnyRay {
+    glm::dvec3 origin{0, 0, 0};
+    glm::dvec3 direction{0, 0, 0};
+    double near = 0;
+    double far = std::numeric_limits<double>::infinity();
+};
+
+/// Up to sixteen rays that go through the hierarchy together.
+struct AnyRays {
+    alignas(64) std::array<Lanes<double>, 3> origin{};
+    alignas(64) std::array<Lanes<double>, 3> direction{};
+    alignas(64) Lanes<double> near{};
+    alignas(64) Lanes<double> far{}; ///< what lies beyond is not looked for
+    std::uint32_t lanes = 0;         ///< one bit per ray that is still looking
+
+    void set(int lane, const AnyRay& ray);
+    AnyRay ray(int lane) const;
+};
+
+/// Is told of the triangles that rays come near. It may lower AnyRays::far, and clear bits of
+/// AnyRays::lanes.
+class NearbyTriangles {
+public:
+    NearbyTriangles() = default;
+    NearbyTriangles(const NearbyTriangles&) = delete;
+    NearbyTriangles& operator=(const NearbyTriangles&) = delete;
+    virtual ~NearbyTriangles() = default;
+    /// `lanes`: the rays that come near a box around the triangle, and perhaps others.
+    virtual void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) = 0;
+};
+
+/// Visits at least all triangles whose own box a ray meets when it is enlarged, on each axis, by
+/// `share` of the largest coordinate there (of ray origin and scene) and by `share` of 2^-32 of the
+/// largest of all, and directions with components below 1e-18 are taken for any such.
+void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found);
+
+/// How much find_nearby enlarges boxes for a ray.
+glm::dvec3 enlargement(const Tracer& tracer, double share, const glm::dvec3& origin);
+
+/// Whether the ray meets the closed triangle within its limits, exactly; never where it runs in the
+/// triangle's plane.
+bool meets(const AnyRay& ray, const Corners& t);
+
+/// Sign of t(T) - t(U), the places at which the ray meets their planes; neither may hold it.
+int order_along(const AnyRay& ray, const Corners& t, const Corners& u);
+
+/// Whether the light, seen from the exact point where the ray meets the plane of `seen`, is behind
+/// the triangle: as the truth decides it (Visibility).
+bool stands_between(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen,
+                    std::uint32_t triangle);
+
+/// Whether that point lies in the light's cone; true where the light has none.
+bool within_cone(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen);
+
+/// Whether the light is on that side of the triangle's plane that the scene's eye sees.
+bool faces_light(const Tracer& tracer, std::uint32_t triangle);
+/// Whether shadows fall on it.
+bool receives_shadows(const Tracer& tracer, std::uint32_t triangle);
+
+} // namespace shadowproof

@@ -1,0 +1,114 @@
+// Rays from anywhere: geometry whose answer is known by hand, and candidates against all triangles.
+#include "reference/trace/any_rays.h"
+#include "reference/trace/view.h"
+#include "scenes/load/catalog.h"
+#include "tests/dice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <set>
+
+namespace shadowproof {
+namespace {
+
+const Corners triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+AnyRay down(double x, double y) {
+    return {{x, y, 1}, {0, 0, -1}};
+}
+
+TEST(AnyRays, a_triangle_is_closed_and_the_limits_are_open_and_closed) {
+    EXPECT_TRUE(meets(down(0.25, 0.25), triangle));
+    EXPECT_TRUE(meets(down(0.5, 0.5), triangle)) << "on an edge";
+    EXPECT_TRUE(meets(down(0, 0), triangle)) << "on a corner";
+    EXPECT_FALSE(meets(down(std::nextafter(0.5, 1), 0.5), triangle));
+    EXPECT_FALSE(meets(down(-1e-300, 0.5), triangle));
+    EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, 1}}, triangle)) << "behind";
+    EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 1}, triangle)) << "t must exceed near";
+    EXPECT_TRUE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 0, 1}, triangle)) << "t may be far";
+    EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 0, std::nextafter(1, 0)}, triangle));
+}
+
+TEST(AnyRays, a_ray_in_the_plane_meets_nothing) {
+    EXPECT_FALSE(meets({{-1, 0.25, 0}, {1, 0, 0}}, triangle));
+    EXPECT_FALSE(meets({{-1, 0, 0}, {1, 0, 0}}, triangle)) << "along an edge";
+    EXPECT_FALSE(meets(down(0.25, 0.25), {{0, 0, 0}, {1, 1, 0}, {0.5, 0.5, 0}})) << "no area";
+}
+
+TEST(AnyRays, the_nearer_plane_is_told) {
+    const Corners further{{0, 0, -1e-300}, {1, 0, -1e-300}, {0, 1, -1e-300}};
+    EXPECT_LT(order_along(down(0.25, 0.25), triangle, further), 0);
+    EXPECT_GT(order_along(down(0.25, 0.25), further, triangle), 0);
+    EXPECT_EQ(order_along(down(0.25, 0.25), triangle, triangle), 0);
+}
+
+class Visited final : public NearbyTriangles {
+public:
+    std::array<std::set<std::uint32_t>, packet_size> triangles;
+    void visit(AnyRays& /*rays*/, std::uint32_t index, std::uint32_t lanes) override {
+        for (std::size_t l = 0; l < triangles.size(); ++l)
+            if ((lanes >> l & 1U) != 0) triangles[l].insert(index);
+    }
+};
+
+TEST(AnyRays, every_triangle_that_a_ray_meets_is_visited_and_most_others_are_not) {
+    const Scene scene = load_scene("ordinary", {});
+    const Tracer tracer(scene);
+    Dice dice(7);
+    std::size_t met = 0;
+    std::size_t visited = 0;
+    for (int packet = 0; packet < 8; ++packet) {
+        AnyRays rays;
+        std::array<AnyRay, packet_size> each;
+        for (int lane = 0; lane < packet_size; ++lane) {
+            const auto vector = [&] {
+                return glm::dvec3(dice.between(-3, 3), dice.between(-1, 3), dice.between(-3, 3));
+            };
+            AnyRay& ray = each[static_cast<std::size_t>(lane)];
+            ray.origin = vector();
+            ray.direction = vector() - ray.origin;
+            if (dice.one_in(4)) ray.direction[static_cast<int>(dice.below(3))] = 0;
+            if (dice.one_in(4)) ray.far = 1;
+            rays.set(lane, ray);
+        }
+        Visited found;
+        find_nearby(tracer, 0x1p-21, rays, found);
+        for (std::size_t l = 0; l < each.size(); ++l) {
+            for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+                if (meets(each[l], corners(scene, i))) {
+                    ++met;
+                    EXPECT_TRUE(found.triangles[l].contains(i));
+                }
+            visited += found.triangles[l].size();
+        }
+    }
+    EXPECT_GT(met, 100U);
+    EXPECT_LT(visited, 8 * packet_size * scene.triangles.size() / 20);
+}
+
+/// The same questions as the truth asks of the camera's own rays.
+TEST(AnyRays, from_the_eye_they_say_what_the_truth_says) {
+    SceneRequest request;
+    request.width = request.height = 32;
+    for (const char* name : {"ordinary", "spot", "sun"}) {
+        const Scene scene = load_scene(name, request);
+        const Tracer tracer(scene);
+        const GroundTruth truth = trace(tracer);
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 32; ++x) {
+                const AnyRay ray{scene.camera.eye, ray_direction(scene.camera, x + 0.5, y + 0.5)};
+                const std::uint32_t seen = truth.triangle.at(x, y);
+                if (seen == no_triangle) continue;
+                bool lit = faces_light(tracer, seen) && within_cone(tracer, ray, seen);
+                for (std::uint32_t i = 0; lit && i < scene.triangles.size(); ++i)
+                    lit = !receives_shadows(tracer, seen) || !stands_between(tracer, ray, seen, i);
+                EXPECT_EQ(lit, truth.visibility.at(x, y) == Visibility::lit)
+                    << name << " " << x << "," << y;
+            }
+    }
+}
+
+} // namespace
+} // namespace shadowproof
