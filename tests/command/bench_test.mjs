@@ -1,0 +1,98 @@
+// `shadowproof bench` as its users meet it. No test holds a time: what is judged is recorded, or
+// does not depend on the clock.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import Ajv from 'ajv/dist/2020.js';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const schema = JSON.parse(readFileSync(new URL('../../docs/bench.schema.json', import.meta.url)));
+const validate = new Ajv({ strict: true, allErrors: true }).compile(schema);
+const assertValid = (run) => assert.ok(validate(run), JSON.stringify(validate.errors, null, 1));
+const written = (name) => JSON.parse(readFileSync(join(scratch, name), 'utf8'));
+const write = (name, json) => writeFileSync(join(scratch, name), JSON.stringify(json));
+
+/** As little measuring as there can be: one sample of each point. */
+const least = ['--size', '48x48', '--repeats', '1', '-q'];
+
+function benched(name, args) {
+  const run = shadowproof(['bench', ...args, ...least, '--json', name]);
+  assert.equal(run.code, 0, run.out + run.err);
+  return written(name);
+}
+
+const shadows = benched('shadows.json', ['near_plane', '--csv', 'shadows.csv']);
+const colors = benched('colors.json', ['bumpy_torus', '--technique', 'bump_one_pass,zfail']);
+
+test('what it writes is valid by its schema', () => {
+  assertValid(shadows);
+  assertValid(colors);
+});
+
+test('every technique that suits the scene is there, and the truth', () => {
+  const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
+  const plain = techniques.map(({ name }) => name).filter((name) => !name.startsWith('bump_'));
+  assert.deepEqual(shadows.points.map(({ technique }) => technique), ['truth', ...plain]);
+  assert.equal(shadows.points[0].differing, 0);
+});
+
+test('its errors are those of verify', () => {
+  shadowproof(['verify', 'near_plane', '--size', '48x48', '--json', 'verified.json', '-q']);
+  const [scene] = written('verified.json').scenes;
+  for (const cell of scene.techniques) {
+    const point = shadows.points.find(({ technique }) => technique === cell.name);
+    assert.deepEqual(point.causes, cell.causes, cell.name);
+    assert.equal(point.differing, cell.differing, cell.name);
+  }
+});
+
+test('settings are swept one at a time, each but the technique\'s own', () => {
+  const swept = colors.points.filter(({ technique }) => technique === 'bump_one_pass');
+  const [own, ...others] = swept;
+  assert.deepEqual(own.settings, {});
+  assert.deepEqual(Object.keys(own.own), ['normalise', 'bumps']);
+  assert.ok(others.length >= 4);
+  for (const { settings, own: made } of others) {
+    const [[name, value], ...more] = Object.entries(settings);
+    assert.equal(more.length, 0);
+    assert.notEqual(value, own.own[name]);
+    assert.equal(made[name], value);
+  }
+  // A normal map is no height field: that is said, and is no failure.
+  assert.deepEqual(colors.left_out.map(({ settings }) => settings), [{ bumps: 'height-field' }]);
+  assert.ok(colors.points.every(({ technique, color }) =>
+    Boolean(color) === (technique === 'bump_one_pass')));
+});
+
+test('each point has the command that measures it again', () => {
+  for (const { technique, settings, command } of colors.points) {
+    assert.match(command, /^shadowproof bench bumpy_torus/);
+    if (technique === 'truth') continue;
+    const args = command.split(' ').slice(1);
+    const run = shadowproof([...args, '--repeats', '1', '-q', '--json', 'again.json']);
+    assert.equal(run.code, 0, run.err);
+    const again = written('again.json').points.find((point) => point.technique === technique &&
+      JSON.stringify(point.settings) === JSON.stringify(settings));
+    assert.ok(again, command);
+  }
+});
+
+test('the CSV has a line for each point', () => {
+  const lines = readFileSync(join(scratch, 'shadows.csv'), 'utf8').trim().split('\r\n');
+  assert.equal(lines.length, shadows.points.length + 1);
+});
+
+test('wrong usage and bad input are named, with a remedy', () => {
+  const fails = (args, code, words) => {
+    const run = shadowproof(['bench', ...args]);
+    assert.equal(run.code, code, run.out + run.err);
+    assert.match(run.err, words);
+  };
+  fails(['ordinary', '--repeats', '0'], 2, /--repeats/);
+  fails(['ordinary', '--technique', 'zwrong'], 2, /there is no technique 'zwrong'; there are/);
+  fails(['nowhere.gltf', ...least], 3, /nowhere\.gltf/);
+  fails(['ordinary', ...least, '--technique', 'zfail', '--json', 'none/x.json'], 3, /none\/x\.json/);
+  fails(['ordinary', ...least, '--json', 'same', '--csv', 'same'], 3, /named for two outputs/);
+  fails(['ordinary', ...least, '--technique', 'bump_one_pass'], 3, /ordinary\.gltf: has no bump map/);
+});
