@@ -51,10 +51,11 @@ const BenchPoint* find_point(const BenchRun& run, const BenchPoint& like) {
 }
 
 bool is_on_front(const BenchRun& run, const BenchPoint& point) {
+    if (point.technique == truth_point) return false;
     const double ms = median_interval(point.samples).median;
     const std::uint64_t wrong = wrong_pixels(point.error);
     return std::none_of(run.points.begin(), run.points.end(), [&](const BenchPoint& other) {
-        if (other.scene != point.scene) return false;
+        if (other.scene != point.scene || other.technique == truth_point) return false;
         const double other_ms = median_interval(other.samples).median;
         const std::uint64_t other_wrong = wrong_pixels(other.error);
         return other_ms <= ms && other_wrong <= wrong && (other_ms < ms || other_wrong < wrong);

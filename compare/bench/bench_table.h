@@ -15,8 +15,9 @@ std::vector<std::string> bench_table(const BenchRun& run, const std::string& sce
 /// A line for each growth, with its exponent and where it breaks; a head line before.
 std::vector<std::string> growth_table(const BenchRun& run);
 
-/// Whether no other point of the same scene is at most as slow and at most as wrong, and better in
-/// one of both: by median times and wrong pixels.
+/// Whether no other technique's point of the same scene is at most as slow and at most as wrong,
+/// and better in one of both: by median times and wrong pixels. The truth is their yardstick, and
+/// never on the front.
 bool is_on_front(const BenchRun& run, const BenchPoint& point);
 
 } // namespace shadowproof

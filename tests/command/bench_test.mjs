@@ -96,3 +96,104 @@ test('wrong usage and bad input are named, with a remedy', () => {
   fails(['ordinary', ...least, '--json', 'same', '--csv', 'same'], 3, /named for two outputs/);
   fails(['ordinary', ...least, '--technique', 'bump_one_pass'], 3, /ordinary\.gltf: has no bump map/);
 });
+
+test('a run redraws its plot without measuring, and its folder gives the same again', () => {
+  const redraw = (from, out) => {
+    const run = shadowproof(['bench', '--from', from, '--out', out, '--json', `${out}.json`]);
+    assert.equal(run.code, 0, run.err);
+    return readFileSync(join(scratch, `${out}.json`), 'utf8');
+  };
+  const first = redraw('shadows.json', 'plot');
+  assert.equal(first, readFileSync(join(scratch, 'shadows.json'), 'utf8'));
+  assert.equal(redraw('plot', 'plot'), first);
+  for (const file of ['index.html', 'results.js', 'results.json', 'manifest.json'])
+    assert.ok(existsSync(join(scratch, 'plot', file)), file);
+});
+
+test('a folder keeps what the program did not write', () => {
+  writeFileSync(join(scratch, 'plot', 'notes.txt'), 'mine');
+  const run = shadowproof(['bench', '--from', 'colors.json', '--out', 'plot']);
+  assert.equal(run.code, 0, run.err);
+  assert.match(run.out, /kept notes\.txt/);
+  assert.equal(readFileSync(join(scratch, 'plot', 'notes.txt'), 'utf8'), 'mine');
+  writeFileSync(join(scratch, 'foreign.txt'), '');
+  const refused = shadowproof(['bench', '--from', 'colors.json', '--out', '.']);
+  assert.equal(refused.code, 3);
+});
+
+/** `shadows` with every time of one technique multiplied. */
+function changedRun(technique, factor, more = () => {}) {
+  const run = structuredClone(shadows);
+  const point = run.points.find((each) => each.technique === technique);
+  const ms = factor * point.ms.median;
+  point.ms = { median: ms, low: ms, high: ms, settled: false, samples: [ms] };
+  more(point);
+  return run;
+}
+
+test('a loss beyond both intervals exits with 1 and is named; a gain does not', () => {
+  const against = (run) => {
+    write('older.json', run);
+    return shadowproof(['bench', '--from', 'shadows.json', '--against', 'older.json', '--out', 'plot']);
+  };
+  const same = against(shadows);
+  assert.equal(same.code, 0, same.out + same.err);
+  const slower = against(changedRun('zfail', 0.5));
+  assert.equal(slower.code, 1);
+  assert.match(slower.out, /^loss: near_plane zfail: .* ms/m);
+  const quicker = against(changedRun('zfail', 2));
+  assert.equal(quicker.code, 0);
+  assert.match(quicker.out, /^gain: near_plane zfail: .* ms/m);
+  const wrong = against(changedRun('zpass', 1, (point) => {
+    point.causes.near_plane -= 1;
+    point.differing -= 1;
+    point.falsely_lit = Math.max(0, point.falsely_lit - 1);
+    point.falsely_shadowed = Math.max(0, point.falsely_shadowed - 1);
+  }));
+  assert.equal(wrong.code, 1);
+  assert.match(wrong.out, /^loss: near_plane zpass: [\d,]+ pixels wrong, was /m);
+});
+
+test('a run that was stopped goes on: what is finished is not measured again', () => {
+  const half = structuredClone(shadows);
+  half.finished = false;
+  half.scenes[0].finished = false;
+  half.points = half.points.filter(({ technique }) => technique !== 'auto');
+  write('half.json', half);
+  const args = ['bench', 'near_plane', ...least, '--json', 'half.json', '--resume'];
+  assert.equal(shadowproof(args).code, 0);
+  const whole = written('half.json');
+  assertValid(whole);
+  assert.ok(whole.finished);
+  assert.equal(whole.points.length, shadows.points.length);
+  // One sample is all that was allowed, and all but one point had it.
+  for (const point of half.points)
+    assert.deepEqual(whole.points.find(({ technique }) => technique === point.technique), point);
+  // Finished: nothing is measured at all.
+  assert.equal(shadowproof(args).code, 0);
+  assert.deepEqual(written('half.json'), whole);
+});
+
+test('another run is not gone on with', () => {
+  write('other.json', { ...shadows, version: '0' });
+  const run = shadowproof(['bench', 'near_plane', ...least, '--json', 'other.json', '--resume']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /other\.json: cannot be gone on with: its version is 0, and now/);
+});
+
+test('damaged files are refused with the place and a remedy', () => {
+  const refused = (text, words) => {
+    writeFileSync(join(scratch, 'damaged.json'), text);
+    const run = shadowproof(['bench', '--from', 'damaged.json', '--out', 'plot']);
+    assert.equal(run.code, 3);
+    assert.match(run.err, words);
+  };
+  refused('', /damaged\.json: is empty; give the whole file that bench --json wrote/);
+  refused('{"schema"', /damaged\.json: is cut off after byte 9/);
+  refused('{"schema":"shadowproof/results/1"}', /\/schema must be "shadowproof\/bench\/1"/);
+  refused(JSON.stringify({ ...shadows, points: [{}] }), /\/points\/0 lacks "scene"/);
+  const usage = shadowproof(['bench', 'ordinary', '--from', 'shadows.json']);
+  assert.equal(usage.code, 2);
+  assert.equal(shadowproof(['bench', 'ordinary', '--resume']).code, 2);
+  assert.match(shadowproof(['bench', '--from', 'nothing.json']).err, /there is no such file/);
+});

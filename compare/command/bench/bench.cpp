@@ -1,5 +1,9 @@
+#include "compare/bench/against.h"
 #include "compare/bench/bench_csv.h"
+#include "compare/bench/bench_file.h"
 #include "compare/bench/bench_json.h"
+#include "compare/bench/bench_page.h"
+#include "compare/bench/bench_table.h"
 #include "compare/command/bench/machine.h"
 #include "compare/command/bench/measure.h"
 #include "compare/command/bench/sweep.h"
@@ -7,8 +11,10 @@
 #include "compare/command/console.h"
 #include "compare/command/guard.h"
 #include "compare/command/output_files.h"
+#include "compare/command/rebuild.h"
 #include "compare/command/standard_output.h"
 #include "compare/memory.h"
+#include "compare/output/replaced_folder.h"
 #include "compare/output/write_file.h"
 #include "reference/trace/trace.h"
 #include "scenes/error.h"
@@ -17,6 +23,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <new>
 
@@ -68,6 +75,15 @@ bool measure_scenes(const BenchWork& work) {
     return complete;
 }
 
+/// The tables of a run that was not measured now.
+void print_run(const BenchRun& run, Console& console) {
+    for (const BenchScene& scene : run.scenes) {
+        console.heading(scene.name);
+        for (const std::string& line : bench_table(run, scene.name)) console.line(line);
+    }
+    for (const std::string& line : growth_table(run)) console.line(line);
+}
+
 bool has_unexplained(const BenchRun& run) {
     return std::any_of(run.points.begin(), run.points.end(), [](const BenchPoint& point) {
         return std::any_of(point.error.causes.begin(), point.error.causes.end(),
@@ -85,7 +101,8 @@ Outcome measured(const BenchOptions& options, Console& console) {
     Outcome outcome{begin_run(options, gpu)};
     std::optional<BenchRun> kept;
     if (options.resume) kept = kept_run(options.json, outcome.run);
-    BenchKeeper keeper(options.json);
+    const bool in_folder = name_in_report(options.json, options.out).has_value();
+    BenchKeeper keeper(in_folder ? std::string() : options.json);
     const BenchWork work{.options = options,
                          .gpu = gpu,
                          .console = console,
@@ -97,33 +114,110 @@ Outcome measured(const BenchOptions& options, Console& console) {
     return outcome;
 }
 
-int bench(const BenchOptions& options) {
-    Console console(options.quiet);
+/// Measures, or takes over what was measured.
+Outcome outcome_of(const BenchOptions& options, Console& console) {
+    if (options.from.empty()) return measured(options, console);
+    Outcome outcome{read_bench(options.from)};
+    refuse_to_lose(std::filesystem::is_directory(options.from)
+                       ? std::filesystem::path(options.from) / results_name
+                       : std::filesystem::path(options.from),
+                   options.out);
+    print_run(outcome.run, console);
+    return outcome;
+}
+
+/// What cannot be read or written is refused before the work.
+void check_files(const BenchOptions& options) {
     std::vector<std::string> read = options.scenes;
     read.insert(read.end(), {options.from, options.against});
     check_apart(std::vector<std::string>{options.json, options.csv}, read);
-    for (const std::string& file : {options.json, options.csv})
-        if (!file.empty()) check_writable(file);
+    check_output(options.json, options.out, Output::results);
+    check_output(options.csv, options.out, Output::other);
+    if (options.resume && name_in_report(options.json, options.out))
+        throw Error(options.json, "lies in the folder of the plot, which is written at the end",
+                    "name a file elsewhere with --json");
     require_picture(options.scene.memory, options.scene.size.width, options.scene.size.height,
                     Workload::comparison);
-    const auto [run, complete] = measured(options, console);
-    if (!options.json.empty()) write_file(options.json, results_text(bench_json(run)));
-    if (!options.csv.empty()) write_file(options.csv, bench_csv(run));
+}
+
+/// Writes a file beside the plot, or in its folder.
+void write_beside(ReplacedFolder& folder, const BenchOptions& options, const std::string& file,
+                  const std::string& text) {
+    if (file.empty()) return;
+    const std::optional<std::string> inside = name_in_report(file, options.out);
+    if (!inside) return write_file(file, text);
+    if (*inside != results_name) folder.add_requested(*inside, text);
+}
+
+void write_outputs(ReplacedFolder& folder, const BenchOptions& options, const BenchRun& run,
+                   const std::optional<BenchRun>& older) {
+    const std::string text = results_text(bench_json(run));
+    write_beside(folder, options, options.json, text);
+    write_beside(folder, options, options.csv, bench_csv(run));
+    folder.add(page_name, bench_page());
+    folder.add(results_name, text);
+    folder.add(results_script_name,
+               bench_script(text, older ? results_text(bench_json(*older)) : std::string()));
+    folder.finish();
+}
+
+/// Whether nothing was lost.
+bool print_changes(const BenchRun& older, const BenchRun& run, Console& console) {
+    const BenchChanges changes = changes_between(older, run);
+    for (const std::string& note : changes.notes) console.line("note: " + note);
+    for (const std::string& gain : changes.gains) console.line("gain: " + gain);
+    for (const std::string& loss : changes.losses) console.always("loss: " + loss);
+    console.always(fmt::format("compared {}: {} lost, {} gained",
+                               counted(changes.compared, "point"), changes.losses.size(),
+                               changes.gains.size()));
+    return changes.losses.empty();
+}
+
+int bench(const BenchOptions& options) {
+    Console console(options.quiet);
+    check_files(options);
+    std::optional<BenchRun> older;
+    if (!options.against.empty()) older = read_bench(options.against);
+    ReplacedFolder folder(options.out, {page_name, results_name, results_script_name});
+    const auto [run, complete] = outcome_of(options, console);
+    write_outputs(folder, options, run, older);
+    for (const std::string& note : folder.notes()) console.always(note);
+    const bool nothing_lost = !older || print_changes(*older, run, console);
     const bool unexplained = has_unexplained(run);
     if (unexplained) console.always("failed: a point has unexplained pixels");
-    console.always(fmt::format("measured {} on {}, {}", counted(run.points.size(), "point"),
-                               counted(run.scenes.size(), "scene"), run.gl.renderer));
+    console.always(
+        fmt::format("{} {} on {}, {}; plot in {}", options.from.empty() ? "measured" : "took over",
+                    counted(run.points.size(), "point"), counted(run.scenes.size(), "scene"),
+                    run.gl.renderer, (std::filesystem::path(options.out) / page_name).string()));
     if (!complete) return exit_could_not;
-    return unexplained ? exit_failed : exit_passed;
+    return unexplained || !nothing_lost ? exit_failed : exit_passed;
 }
 
 void add_bench_flags(CLI::App& command, BenchOptions& options) {
-    command.add_option("--json", options.json, "Write the points here, as shadowproof/bench/1")
-        ->type_name("FILE")
+    command.add_option("--out", options.out, "Folder of the plot (report)")
+        ->type_name("DIR")
         ->check(not_empty());
+    CLI::Option* json =
+        command.add_option("--json", options.json, "Write the points here, as shadowproof/bench/1")
+            ->type_name("FILE")
+            ->check(not_empty());
     command.add_option("--csv", options.csv, "Write the points here, as CSV")
         ->type_name("FILE")
         ->check(not_empty());
+    command
+        .add_option("--against", options.against,
+                    "An earlier run: show it in the plot, and fail where a point became slower "
+                    "beyond both intervals, or more wrong")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        .add_option("--from", options.from,
+                    "Measure nothing: take over what bench --json wrote, or the folder of a plot")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        .add_flag("--resume", options.resume, "Go on with the run that was stopped, from --json")
+        ->needs(json);
     command.add_flag("--quick", options.quick,
                      "At most a minute for a scene: 256x256 pixels, fewer samples");
     command.add_option("--repeats", options.limits.repeats, "Most samples of a point (50)")
@@ -160,9 +254,12 @@ Work add_bench(CLI::App& app) {
     add_bench_flags(*command, *options);
     command->final_callback([options, command] {
         options->fixed = fixed_settings(*command);
+        if (!options->from.empty() && (!options->scenes.empty() || options->resume))
+            throw CLI::ValidationError("--from", "measures nothing; leave out the scenes and "
+                                                 "--resume, or leave out --from");
         if (options->quick) make_quick(*command, *options);
     });
-    return [options] { return guarded([&] { return bench(*options); }); };
+    return [options] { return guarded([&] { return bench(*options); }, options->out); };
 }
 
 } // namespace shadowproof

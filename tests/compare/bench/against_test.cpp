@@ -121,7 +121,7 @@ TEST(CheckBench, names_the_figure_that_contradicts_another) {
                   json["schema"] = "shadowproof/results/1";
               }).rfind("run.json: /schema must be", 0),
               0U);
-    EXPECT_NE(refusal([](Json& json) { json["points"][0]["differing"] = 9; }).find("/causes"),
+    EXPECT_NE(refusal([](Json& json) { json["points"][0]["differing"] = 9U; }).find("/causes"),
               std::string::npos);
     EXPECT_NE(refusal([](Json& json) { json["points"][0]["ms"]["low"] = 1; }).find("/points/0/ms"),
               std::string::npos);
