@@ -24,7 +24,7 @@ function growthPicture(growths, axis, ink, width) {
                words(x(size), box.bottom + 17, grouped(size), { ...quiet, 'text-anchor': 'middle' }));
   for (const ms of roundValues(low, high))
     parts.push(line([[box.left, y(ms)], [box.right, y(ms)]], grid),
-               words(box.left - 8, y(ms) + 4, String(ms), { ...quiet, 'text-anchor': 'end' }));
+               words(box.left - 8, y(ms) + 4, tickWords(ms), { ...quiet, 'text-anchor': 'end' }));
   parts.push(words((box.left + box.right) / 2, box.bottom + 36, axis,
                    { fill: ink.ink, 'text-anchor': 'middle' }),
              words(0, 0, 'milliseconds', { fill: ink.ink, 'text-anchor': 'middle',
@@ -33,12 +33,17 @@ function growthPicture(growths, axis, ink, width) {
     places: growth.points.filter(({ ms }) => ms.median > 0)
       .map(({ size, ms }) => [x(size), y(ms.median)]) })).filter(({ places }) => places.length > 0);
   const heights = spreadOut(drawn.map(({ places }) => places.at(-1)[1]), 14, box.top, box.bottom);
+  const dashes = ['none', '7 3', '2 3', '9 3 2 3', '5 2', '12 4']; // of the lines of a group
+  const earlier = new Map();
   drawn.forEach(({ growth, group, places }, i) => {
     const color = inkOf(group, ink);
+    const before = earlier.get(group) ?? 0;
+    earlier.set(group, before + 1);
     const end = places.at(-1);
-    parts.push(line(places, { stroke: color, 'stroke-width': 1.4, opacity: 0.8 }),
+    parts.push(line(places, { stroke: color, 'stroke-width': 1.5, opacity: 0.85,
+                              'stroke-dasharray': dashes[before % dashes.length] }),
                ...places.map(([a, b]) => mark(group, a, b, ink)),
-               line([end, [box.right + 14, heights[i]]], { stroke: color, 'stroke-width': 0.7 }),
+               line([end, [box.right + 14, heights[i]]], { stroke: ink.quiet, 'stroke-width': 0.7, 'stroke-dasharray': '1 2' }),
                words(box.right + 18, heights[i] + 4, growthName(growth),
                      { 'font-family': mono, fill: ink.ink, 'font-size': 10.5 }));
     if (growth.break) {

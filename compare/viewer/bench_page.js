@@ -106,13 +106,19 @@ function pointTable() {
 /** What the arrows say, in words. */
 function changeList() {
   if (!state.older) return null;
-  const found_ = (change) => state.layout.arrows.filter((arrow) => arrow.change === change).length;
-  return `Since the older run: ${counted(found_('loss'), 'loss', 'losses')} (full arrows), ` +
-         `${counted(found_('gain'), 'gain')} (broken arrows), ` +
-         `${grouped(found_('same'))} within their intervals (thin arrows).`;
+  const many = (change) => state.layout.arrows.filter((arrow) => arrow.change === change).length;
+  return `Since the older run: ${counted(many('loss'), 'loss', 'losses')} (full arrows), ` +
+         `${counted(many('gain'), 'gain')} (broken arrows), ` +
+         `${grouped(many('same'))} within their intervals (thin arrows).`;
 }
 
-function redraw() {
+function draw() {
+  if (!state.run) return;
+  if (state.scene) drawPoints();
+  drawGrowth();
+}
+
+function drawPoints() {
   found('plot').replaceChildren(picture(isDark() ? darkInk : lightInk),
     element('div', { id: 'note', class: 'note', hidden: true, 'aria-hidden': 'true' }));
   state.at = -1;
@@ -123,7 +129,6 @@ function redraw() {
     .filter(Boolean).join(' ');
   found('table').replaceChildren(pointTable());
   found('chosen').replaceChildren();
-  drawGrowth();
 }
 
 function drawGrowth() {
@@ -165,7 +170,7 @@ function savePng() {
 
 function choice(id, label, options, chosen, choose) {
   return element('label', {}, `${label} `, element('select', {
-    id, onchange: (event) => { choose(event.target.value); redraw(); },
+    id, onchange: (event) => { choose(event.target.value); drawPoints(); },
   }, options.map(([value, text]) =>
     element('option', { value, selected: value === chosen }, text))));
 }
@@ -184,17 +189,13 @@ function leftOutList(run) {
         .join(' ')}: ${why}`))));
 }
 
-function showRun() {
-  const { run } = state;
+/** The plot of a scene at a time, with its controls. */
+function plotSection(run, scenes) {
   const kinds = errorKinds.filter((kind) => run.points.some((point) => kind.of(point) !== null));
-  const scenes = scenesOf(run);
-  [state.scene] = scenes;
-  found('main').replaceChildren(...[
-    element('h1', {}, 'Error against run time'),
+  return [
     element('p', {}, 'How wrong each technique is, and what it costs. A bar is the 95 % interval ' +
       'of the median. The broken line is the front: at each time, the least error that a technique ' +
       'has by then. Times compare points of one run with each other.'),
-    run.finished ? null : alertLine('This run was stopped before its end.'),
     element('div', { class: 'toolbar' },
       choice('scene', 'Scene', scenes.map((name) => [name, name]), state.scene,
              (name) => { state.scene = name; }),
@@ -209,14 +210,23 @@ function showRun() {
     element('section', { id: 'chosen', 'aria-live': 'polite', 'aria-label': 'Chosen point' }),
     element('details', {}, element('summary', {}, 'As a table'),
       element('div', { id: 'table', class: 'scroll', tabindex: '0', role: 'region',
-                       'aria-label': 'Points' })),
-    leftOutList(run),
+                       'aria-label': 'Points' }))];
+}
+
+function showRun() {
+  const { run, older } = state;
+  const scenes = scenesOf(run);
+  [state.scene] = scenes;
+  found('main').replaceChildren(...[
+    element('h1', {}, scenes.length > 0 ? 'Error against run time' : 'Growth of run time'),
+    run.finished ? null : alertLine('This run was stopped before its end.'),
+    ...(scenes.length > 0 ? plotSection(run, scenes) : []),
     element('div', { id: 'growth' }),
+    leftOutList(run),
     element('h2', {}, 'Measured by'), machineWords(run),
-    state.older ? element('h2', {}, 'The older run') : null,
-    state.older ? machineWords(state.older) : null].filter(Boolean));
-  if (scenes.length > 0) redraw();
-  else drawGrowth();
+    older ? element('h2', {}, 'The older run') : null,
+    older ? machineWords(older) : null].filter(Boolean));
+  draw();
 }
 
 window.shadowproofBench = (run, older) => {
@@ -226,10 +236,10 @@ window.shadowproofBench = (run, older) => {
 };
 found('theme').addEventListener('click', () => {
   document.documentElement.dataset.theme = isDark() ? 'light' : 'dark';
-  if (state.scene) redraw();
+  draw();
 });
-matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => state.scene && redraw());
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => draw());
 window.addEventListener('beforeprint', () => {
   document.documentElement.dataset.theme = 'light';
-  if (state.scene) redraw();
+  draw();
 });

@@ -37,6 +37,8 @@ function legendOf(points, width, ink) {
   });
 }
 
+const tickWords = (value) => (value >= 1000 ? grouped(value) : shortNumber(value));
+
 function axesOf({ box, band, xTicks, yTicks }, kind, ink) {
   const bottom = Math.max(box.bottom, band.bottom);
   const quiet = { fill: ink.quiet };
@@ -50,7 +52,7 @@ function axesOf({ box, band, xTicks, yTicks }, kind, ink) {
                      { ...quiet, 'text-anchor': 'end' }));
   for (const { value, at } of xTicks)
     parts.push(line([[at, box.top], [at, bottom]], grid),
-               words(at, bottom + 17, String(value), { ...quiet, 'text-anchor': 'middle' }));
+               words(at, bottom + 17, tickWords(value), { ...quiet, 'text-anchor': 'middle' }));
   for (const { value, at } of yTicks)
     parts.push(line([[box.left, at], [box.right, at]], grid),
                words(box.left - 8, at + 4, shortNumber(value), { ...quiet, 'text-anchor': 'end' }));

@@ -181,6 +181,29 @@ test('another run is not gone on with', () => {
   assert.match(run.err, /other\.json: cannot be gone on with: its version is 0, and now/);
 });
 
+test('growth has a line for each technique along pixels, triangles and volumes', () => {
+  const run = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
+                           '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth']);
+  assert.equal(run.code, 0, run.err);
+  const { scaling, points, ...rest } = written('growth.json');
+  assertValid({ scaling, points, ...rest });
+  assert.deepEqual(points, []);
+  assert.deepEqual(scaling.map(({ axis, technique }) => `${axis} ${technique}`),
+                   ['pixels', 'triangles', 'volumes'].flatMap((axis) =>
+                     [`${axis} truth`, `${axis} zfail`]));
+  for (const { axis, scene, points: sizes } of scaling) {
+    assert.equal(scene, { pixels: 'near_plane', triangles: 'dense', volumes: 'stacked' }[axis]);
+    assert.ok(sizes.every(({ size }, i) => i === 0 || size > sizes[i - 1].size));
+  }
+  // What is there is not measured again.
+  const before = readFileSync(join(scratch, 'growth.json'), 'utf8');
+  const again = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
+                             '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth',
+                             '--resume']);
+  assert.equal(again.code, 0, again.err);
+  assert.deepEqual(JSON.parse(before).scaling, written('growth.json').scaling);
+});
+
 test('damaged files are refused with the place and a remedy', () => {
   const refused = (text, words) => {
     writeFileSync(join(scratch, 'damaged.json'), text);

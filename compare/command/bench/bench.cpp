@@ -6,6 +6,7 @@
 #include "compare/bench/bench_table.h"
 #include "compare/command/bench/machine.h"
 #include "compare/command/bench/measure.h"
+#include "compare/command/bench/scaling.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/commands.h"
 #include "compare/command/console.h"
@@ -39,6 +40,7 @@ BenchRun begin_run(const BenchOptions& options, const Gpu& gpu) {
     run.embree = embree_version();
     run.machine = this_machine();
     run.arguments = settings(options.scene, options.technique);
+    if (options.scaling) run.arguments.emplace_back("--scaling");
     return run;
 }
 
@@ -109,7 +111,7 @@ Outcome measured(const BenchOptions& options, Console& console) {
                          .run = outcome.run,
                          .kept = kept ? &*kept : nullptr,
                          .keeper = keeper};
-    outcome.complete = measure_scenes(work);
+    outcome.complete = options.scaling ? measure_growth(work) : measure_scenes(work);
     outcome.run.finished = true;
     return outcome;
 }
@@ -173,6 +175,18 @@ bool print_changes(const BenchRun& older, const BenchRun& run, Console& console)
     return changes.losses.empty();
 }
 
+/// "20 points on 1 scene", "18 lines of growth"
+std::string extent_of(const BenchRun& run) {
+    std::string words;
+    if (!run.points.empty() || run.growth.empty())
+        words = fmt::format("{} on {}", counted(run.points.size(), "point"),
+                            counted(run.scenes.size(), "scene"));
+    if (!run.growth.empty())
+        words += fmt::format("{}growth of {}", words.empty() ? "" : ", and ",
+                             counted(run.growth.size(), "line"));
+    return words;
+}
+
 int bench(const BenchOptions& options) {
     Console console(options.quiet);
     check_files(options);
@@ -185,10 +199,9 @@ int bench(const BenchOptions& options) {
     const bool nothing_lost = !older || print_changes(*older, run, console);
     const bool unexplained = has_unexplained(run);
     if (unexplained) console.always("failed: a point has unexplained pixels");
-    console.always(
-        fmt::format("{} {} on {}, {}; plot in {}", options.from.empty() ? "measured" : "took over",
-                    counted(run.points.size(), "point"), counted(run.scenes.size(), "scene"),
-                    run.gl.renderer, (std::filesystem::path(options.out) / page_name).string()));
+    console.always(fmt::format(
+        "{} {}, {}; plot in {}", options.from.empty() ? "measured" : "took over", extent_of(run),
+        run.gl.renderer, (std::filesystem::path(options.out) / page_name).string()));
     if (!complete) return exit_could_not;
     return unexplained || !nothing_lost ? exit_failed : exit_passed;
 }
@@ -218,6 +231,9 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
     command
         .add_flag("--resume", options.resume, "Go on with the run that was stopped, from --json")
         ->needs(json);
+    command.add_flag("--scaling", options.scaling,
+                     "Instead: how time grows with pixels (of the first SCENE), triangles, and "
+                     "volumes crossed");
     command.add_flag("--quick", options.quick,
                      "At most a minute for a scene: 256x256 pixels, fewer samples");
     command.add_option("--repeats", options.limits.repeats, "Most samples of a point (50)")
