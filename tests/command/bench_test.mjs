@@ -1,7 +1,8 @@
 // `shadowproof bench` as its users meet it. No test holds a time: what is judged is recorded, or
 // does not depend on the clock.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import Ajv from 'ajv/dist/2020.js';
@@ -172,6 +173,29 @@ test('a run that was stopped goes on: what is finished is not measured again', (
   // Finished: nothing is measured at all.
   assert.equal(shadowproof(args).code, 0);
   assert.deepEqual(written('half.json'), whole);
+});
+
+test('a run that is interrupted keeps what it has, whole, and leaves nothing else', async () => {
+  const args = ['bench', 'near_plane', '--size', '48x48', '--json', 'stopped.json', '--out', 'stopped'];
+  const run = spawn(process.env.SHADOWPROOF,
+                    [...args, '--repeats', '10000', '--seconds', '100000', '-q'], { cwd: scratch });
+  const ended = new Promise((done) => run.on('exit', (code, signal) => done({ code, signal })));
+  const isThere = () => existsSync(join(scratch, 'stopped.json'));
+  while (!isThere() && run.exitCode === null) await new Promise((done) => setTimeout(done, 50));
+  assert.ok(isThere());
+  run.kill('SIGINT');
+  await ended;
+  const part = written('stopped.json');
+  assertValid(part);
+  assert.equal(part.finished, false);
+  assert.ok(part.points.length > 0);
+  assert.deepEqual(readdirSync(scratch).filter((name) => /^stopped/.test(name)), ['stopped.json']);
+  assert.equal(shadowproof([...args, '--repeats', '1', '--resume', '-q']).code, 0);
+  const whole = written('stopped.json');
+  assert.ok(whole.finished);
+  assert.equal(whole.points.length, shadows.points.length);
+  for (const { technique, ms } of part.points)
+    assert.deepEqual(whole.points.find((point) => point.technique === technique).ms, ms);
 });
 
 test('another run is not gone on with', () => {

@@ -51,17 +51,23 @@ std::vector<std::string> scenes_to_measure(const BenchOptions& options) {
     return all;
 }
 
+/// "scene 2 of 37, about 300 s left: "; the time is that of the earlier scenes on average.
+std::string place_of(std::size_t scene, std::size_t scenes, double seconds) {
+    if (scenes == 1) return {};
+    std::string words = fmt::format("scene {} of {}", scene + 1, scenes);
+    if (scene > 0)
+        words += fmt::format(", about {:.0f} s left", seconds / static_cast<double>(scene) *
+                                                          static_cast<double>(scenes - scene));
+    return words + ": ";
+}
+
 /// Whether all was measured. A scene that cannot be read does not end the run.
-bool measure_scenes(const BenchWork& work) {
+bool measure_scenes(BenchWork work) {
     const std::vector<std::string> scenes = scenes_to_measure(work.options);
     bool complete = true;
     const Stopwatch stopwatch;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (i > 0)
-            work.console.progress(
-                fmt::format("{} of {} scenes done, about {:.0f} s left", i, scenes.size(),
-                            stopwatch.milliseconds() / 1000 / static_cast<double>(i) *
-                                static_cast<double>(scenes.size() - i)));
+        work.place = place_of(i, scenes.size(), stopwatch.milliseconds() / 1000);
         try {
             complete = measure_scene(work, scenes[i]) && complete;
             continue;

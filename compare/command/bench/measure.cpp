@@ -172,11 +172,12 @@ void measure(Trial& trial) {
                      samples.begin(), samples.end(),
                      [&](const std::vector<double>& each) { return is_done(each, limits); });
                  const BenchPoint& point = run.points[trial.first + i];
-                 work.console.progress(fmt::format(
-                     "{}: {} of {} points done, sample {} of {} {}; at most {:.0f} s left here",
-                     trial.name, done, samples.size(), samples[i].size() + 1, point.technique,
-                     words_of(point.settings),
-                     std::max(0.0, limits.seconds - stopwatch.milliseconds() / 1000)));
+                 work.console.progress(
+                     fmt::format("{}{}: {} of {} points done, sample {} of {} {}; at most {:.0f} s "
+                                 "for the scene",
+                                 work.place, trial.name, done, samples.size(),
+                                 samples[i].size() + 1, point.technique, words_of(point.settings),
+                                 std::max(0.0, limits.seconds - stopwatch.milliseconds() / 1000)));
              },
          .after_round =
              [&] {
@@ -244,7 +245,7 @@ std::string bench_command(const BenchOptions& options, const std::string& scene,
 
 bool measure_scene(const BenchWork& work, const std::string& argument) {
     const BenchOptions& options = work.options;
-    work.console.progress(argument + ": reading");
+    work.console.progress(work.place + argument + ": reading");
     const Scene scene = load_scene(argument, options.scene.request());
     require_scene(options.scene.memory, scene, Workload::comparison);
     const std::size_t at = work.run.scenes.size();
@@ -260,7 +261,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
         print_points(work, name);
         return true;
     }
-    work.console.progress(name + ": tracing");
+    work.console.progress(work.place + name + ": tracing");
     const Tracer tracer(scene, options.scene.threads);
     const GroundTruth truth = trace(tracer);
     Trial trial{.work = work,
