@@ -22,7 +22,9 @@ install(DIRECTORY scenes/bundled/ DESTINATION ${scenes_folder}
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof)
 # Where the README and they themselves link to them.
-install(FILES docs/check.md docs/ci.md docs/claims.md docs/families.md docs/how-it-decides.md docs/lighting.md docs/reliability.md
+install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
+    docs/check.md docs/ci.md docs/claims.md docs/families.md
+    docs/how-it-decides.md docs/lighting.md docs/reliability.md
     docs/report.md docs/scenes.md docs/sensitivity.md docs/techniques.md docs/github-actions.yml
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)

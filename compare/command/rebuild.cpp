@@ -17,9 +17,9 @@
 
 namespace shadowproof {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 Matrix whole_matrix() {
     Matrix matrix;
@@ -28,16 +28,6 @@ Matrix whole_matrix() {
             {std::string(technique.name), technique.fails_at, !technique.needs_bump_maps});
     for (const BundledScene& scene : bundled_scenes()) matrix.scenes.emplace_back(scene.name);
     return matrix;
-}
-
-/// The new report replaces the folder at `out` whole. Results that lie there themselves are in the
-/// new one; others below it would be lost.
-void refuse_to_lose(const fs::path& results, const fs::path& out) {
-    const fs::path file = fs::weakly_canonical(results.parent_path()) / results.filename();
-    const fs::path relative = file.lexically_relative(fs::weakly_canonical(out / "."));
-    if (relative.empty() || *relative.begin() == ".." || relative == "results.json") return;
-    throw Error(out.string(), fmt::format("holds {}, and would be replaced", results.string()),
-                "name another folder with --out");
 }
 
 /// Copies the files that the results name. Damaged ones do not stop the report: the viewer checks
@@ -113,6 +103,14 @@ int conclude(const ResultsJson& results, const std::string& out, Console& consol
 }
 
 } // namespace
+
+void refuse_to_lose(const fs::path& results, const fs::path& out) {
+    const fs::path file = fs::weakly_canonical(results.parent_path()) / results.filename();
+    const fs::path relative = file.lexically_relative(fs::weakly_canonical(out / "."));
+    if (relative.empty() || *relative.begin() == ".." || relative == "results.json") return;
+    throw Error(out.string(), fmt::format("holds {}, and would be replaced", results.string()),
+                "name another folder with --out");
+}
 
 void add_rebuild_flags(CLI::App& command, RebuildOptions& options) {
     command.add_option("--out", options.out, "Folder of the report (report)")

@@ -5,6 +5,7 @@
 #include "scenes/memory_budget.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct RebuildOptions {
 
 /// --out, --memory and -q.
 void add_rebuild_flags(CLI::App& command, RebuildOptions& options);
+
+/// A new report replaces the folder at `out` whole. Results that lie there themselves are in the
+/// new one; others below it would be lost: throws Error naming the folder.
+void refuse_to_lose(const std::filesystem::path& results, const std::filesystem::path& out);
 
 /// In a process of its own, joins the results, takes over their pictures and data, and writes the
 /// report; says which of them are missing or damaged. Returns the exit code that the results

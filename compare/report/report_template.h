@@ -16,7 +16,7 @@ std::string fill(std::string_view text, const Gaps& values);
 /// An embedded file of compare/viewer, "page.html"; it must exist (asserted).
 std::string_view viewer_file(std::string_view name);
 
-/// All of compare/viewer's scripts, one after the other.
+/// The scripts of the report's page, one after the other.
 std::string viewer_script();
 
 } // namespace shadowproof

@@ -1,67 +1,30 @@
 #include "compare/results/results_check.h"
 
-#include "compare/results/results_place.h"
-#include "scenes/cause.h"
+#include "compare/results/json_rules.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <set>
 
 namespace shadowproof {
+
+using namespace json_rules;
 
 namespace {
 
 using Json = ResultsJson;
 
-// One rule per function, named as in the schema.
-using Rule = void (*)(const Place&);
-
-/// Integers up to here are the same in every reader of JSON (RFC 8259, 6).
-constexpr std::uint64_t largest_count = std::uint64_t{1} << 53U;
-
-bool is_count(const Json& value, std::uint64_t least) {
-    return value.is_number_unsigned() && value.get<std::uint64_t>() >= least &&
-           value.get<std::uint64_t>() <= largest_count;
-}
-
-void text(const Place& place) {
-    require(place.value.is_string(), place, "a string");
-}
-void some_text(const Place& place) {
-    require(place.value.is_string() && !place.value.get_ref<const std::string&>().empty(), place,
-            "a string that is not empty");
-}
-void boolean(const Place& place) {
-    require(place.value.is_boolean(), place, "true or false");
-}
 void always_true(const Place& place) {
     require(place.value == true, place, "true, as what could not run fails");
-}
-void count(const Place& place) {
-    require(is_count(place.value, 0), place, "a whole number from 0");
-}
-void size(const Place& place) {
-    require(is_count(place.value, 1), place, "a whole number from 1");
 }
 /// OpenGL's pictures have sides of 32 bits, so the product of two does not overflow.
 void side(const Place& place) {
     require(is_count(place.value, 1) && place.value.get<std::uint64_t>() <= 0x7fffffff, place,
             "a whole number from 1 to 2147483647");
 }
-void milliseconds(const Place& place) {
-    require(place.value.is_number() && place.value.get<double>() >= 0, place, "a number from 0");
-}
-void number(const Place& place) {
-    require(place.value.is_number(), place, "a number");
-}
 void whole_number(const Place& place) {
     require(place.value.is_number_integer(), place, "a whole number");
-}
-void cause(const Place& place) {
-    require(place.value.is_string() && cause_named(place.value.get_ref<const std::string&>()),
-            place, "the name of a cause");
 }
 void folder(const Place& place) {
     require(place.value.is_string() && is_plain_name(place.value.get_ref<const std::string&>()),
@@ -84,11 +47,6 @@ void digest(const Place& place) {
             "16 digits of 0-9 and a-f");
 }
 
-void one_of(const Place& place, std::initializer_list<std::string_view> names) {
-    const bool holds =
-        std::any_of(names.begin(), names.end(), [&](auto name) { return place.value == name; });
-    require(holds, place, fmt::format("one of {}", fmt::join(names, ", ")));
-}
 void gate(const Place& place) {
     one_of(place, {"defects", "differences"});
 }
@@ -111,52 +69,11 @@ void format(const Place& place) {
                "them");
 }
 
-template <Rule rule>
-void list_of(const Place& place) {
-    require(place.value.is_array(), place, "an array");
-    for (std::size_t i = 0; i < place.value.size(); ++i) rule(place.at(i));
-}
-
-/// Every run tries something: an empty list must not pass.
-template <Rule rule>
-void some_of(const Place& place) {
-    require(place.value.is_array() && !place.value.empty(), place, "an array that is not empty");
-    list_of<rule>(place);
-}
-
-enum class Need : std::uint8_t { required, optional };
-
-struct Member {
-    const char* name;
-    Rule rule;
-    Need need = Need::required;
-};
-
-/// Members that are not in the table are from a newer writer.
-void object(const Place& place, std::initializer_list<Member> members) {
-    require(place.value.is_object(), place, "an object");
-    for (const Member& member : members) {
-        if (place.value.contains(member.name)) {
-            member.rule(place.at(member.name));
-        } else if (member.need == Need::required) {
-            refuse(place, fmt::format("lacks \"{}\"", member.name));
-        }
-    }
-}
-
 /// Results with an error have no figures: with both they would be ambiguous.
 void nothing_beside_error(const Place& place, std::initializer_list<const char*> names) {
     for (const char* name : names)
         if (place.value.contains(name))
             refuse(place, fmt::format("has both \"error\" and \"{}\"", name));
-}
-
-void gl(const Place& place) {
-    object(place, {{"version", text},
-                   {"renderer", text},
-                   {"subpixel_bits", count},
-                   {"depth_bits", count},
-                   {"stencil_bits", count}});
 }
 
 void reference(const Place& place) {
@@ -199,15 +116,6 @@ void baseline(const Place& place) {
     object(place, {{"file", text},
                    {"passed", boolean, Need::optional},
                    {"notes", list_of<text>, Need::optional}});
-}
-
-void causes(const Place& place) {
-    require(place.value.is_object(), place, "an object");
-    for (const auto& [name, pixels] : place.value.items()) {
-        if (!cause_named(name))
-            refuse(place, fmt::format("names a cause that there is not: {}", shown(name)));
-        size(place.at(name));
-    }
 }
 
 void truth_images(const Place& place) {

@@ -21,11 +21,13 @@ constexpr int deepest = 64;
 
 constexpr std::uint64_t largest = std::uint64_t{1} << 30U; // bytes
 
-constexpr const char* give_whole = "give the whole results.json that shadowproof wrote";
+constexpr JsonRemedies of_results{"name a results.json, or the folder of a report",
+                                  "give the whole results.json that shadowproof wrote"};
 
 /// Only a regular file is opened: a FIFO would wait for a writer, and a device never ends.
-std::string text_of(const fs::path& file, const MemoryAccount* memory) {
-    const char* const remedy = "name a results.json, or the folder of a report";
+std::string text_of(const fs::path& file, const JsonRemedies& remedies,
+                    const MemoryAccount* memory) {
+    const char* const remedy = remedies.name;
     std::error_code failure;
     if (!fs::exists(file, failure))
         throw Error(file.string(),
@@ -51,8 +53,8 @@ std::string text_of(const fs::path& file, const MemoryAccount* memory) {
 }
 
 /// Where the parser stopped; past the last byte, the error is that the file ends.
-[[noreturn]] void throw_not_json(const std::string& text, const std::string& file,
-                                 std::size_t byte) {
+[[noreturn]] void throw_not_json(const std::string& text, const std::string& file, std::size_t byte,
+                                 const char* give_whole) {
     if (text.empty()) throw Error(file, "is empty", give_whole);
     if (byte > text.size())
         throw Error(file, fmt::format("is cut off after byte {}", text.size()), give_whole);
@@ -61,33 +63,41 @@ std::string text_of(const fs::path& file, const MemoryAccount* memory) {
 
 } // namespace
 
-ResultsJson parse_results(const std::string& text, const std::string& file) {
+ResultsJson parse_json(const std::string& text, const std::string& file,
+                       const JsonRemedies& remedies) {
     const auto not_too_deep = [&](int depth, ResultsJson::parse_event_t, ResultsJson&) {
         if (depth > deepest)
-            throw Error(file, fmt::format("nests deeper than {}", deepest), give_whole);
+            throw Error(file, fmt::format("nests deeper than {}", deepest), remedies.whole);
         return true;
     };
-    ResultsJson results;
     try {
-        results = ResultsJson::parse(text, not_too_deep);
+        return ResultsJson::parse(text, not_too_deep);
     } catch (const ResultsJson::parse_error& error) {
-        throw_not_json(text, file, error.byte);
+        throw_not_json(text, file, error.byte, remedies.whole);
     } catch (const ResultsJson::out_of_range&) {
-        throw Error(file, "holds a number beyond every double", give_whole);
+        throw Error(file, "holds a number beyond every double", remedies.whole);
     }
+}
+
+ResultsJson parse_results(const std::string& text, const std::string& file) {
+    ResultsJson results = parse_json(text, file, of_results);
     check_results(results, file);
     return results;
+}
+
+std::string json_text(const fs::path& file, const JsonRemedies& remedies, MemoryAccount* memory) {
+    std::string text = text_of(file, remedies, memory);
+    // Once as read, once as merged, and as text again.
+    if (memory != nullptr)
+        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest)) + 4 * text.size(),
+                      file.string(), "its values", "merge fewer runs at once"});
+    return text;
 }
 
 ResultsFile read_results(const fs::path& path, MemoryAccount* memory) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(path, ignored) ? path / "results.json" : path;
-    const std::string text = text_of(file, memory);
-    // Once as read, once as merged, and as text again.
-    if (memory != nullptr)
-        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest)) + 4 * text.size(),
-                      file.string(), "its values", "merge fewer runs at once"});
-    return {file, parse_results(text, file.string())};
+    return {file, parse_results(json_text(file, of_results, memory), file.string())};
 }
 
 std::string results_text(const ResultsJson& results) {

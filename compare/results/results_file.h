@@ -32,6 +32,19 @@ ResultsFile read_results(const std::filesystem::path& path, MemoryAccount* memor
 /// The same of a text; `file` names it in errors.
 ResultsJson parse_results(const std::string& text, const std::string& file);
 
+/// What to do about a file of JSON that is no good.
+struct JsonRemedies {
+    const char* name = "";  ///< where it is not there, or no file
+    const char* whole = ""; ///< where its text is not the whole
+};
+
+/// The text of a file of JSON, and its values, which no schema was applied to yet. Both throw Error
+/// naming the file; the first charges what the values will take to the account, if there is one.
+std::string json_text(const std::filesystem::path& file, const JsonRemedies& remedies,
+                      MemoryAccount* memory = nullptr);
+ResultsJson parse_json(const std::string& text, const std::string& file,
+                       const JsonRemedies& remedies);
+
 /// The file's text again: the same bytes for what shadowproof has written.
 std::string results_text(const ResultsJson& results);
 

@@ -15,23 +15,23 @@ struct Place {
     const std::string& file;
     std::string pointer; ///< RFC 6901; empty: the whole file
     const ResultsJson& value;
+    const char* remedy = "write the results again with shadowproof verify";
 
     Place at(const std::string& member) const {
         std::string escaped;
         for (const char c : member)
             escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-        return {file, pointer + "/" + escaped, value.at(member)};
+        return {file, pointer + "/" + escaped, value.at(member), remedy};
     }
     Place at(std::size_t index) const {
-        return {file, fmt::format("{}/{}", pointer, index), value.at(index)};
+        return {file, fmt::format("{}/{}", pointer, index), value.at(index), remedy};
     }
 };
 
-[[noreturn]] inline void
-refuse(const Place& place, const std::string& what,
-       const char* remedy = "write the results again with shadowproof verify") {
+[[noreturn]] inline void refuse(const Place& place, const std::string& what,
+                                const char* remedy = nullptr) {
     const std::string where = place.pointer.empty() ? "the whole" : place.pointer;
-    throw Error(place.file, where + " " + what, remedy);
+    throw Error(place.file, where + " " + what, remedy == nullptr ? place.remedy : remedy);
 }
 
 inline void require(bool holds, const Place& place, const std::string& what) {

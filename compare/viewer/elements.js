@@ -13,6 +13,14 @@ function element(tag, attributes = {}, ...children) {
   return node;
 }
 
+/** The same for SVG; no attribute is a listener. */
+function svgElement(tag, attributes, ...children) {
+  const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
 const found = (id) => document.getElementById(id);
 
 /** Announces something to screen readers only. */

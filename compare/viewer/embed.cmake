@@ -1,12 +1,13 @@
 # Writes OUTPUT, a C++ source whose viewer_file() returns the text of each of FILES by its name, and
-# whose viewer_script() returns those that end in .js, one after the other.
+# whose viewer_script() returns those that end in .js, one after the other, without those of the
+# benchmark's own page.
 set(cases "")
 set(scripts "")
 foreach(file ${FILES})
     get_filename_component(name ${file} NAME)
     file(READ ${file} text)
     string(APPEND cases "    if (name == \"${name}\")\n        return R\"viewer(${text})viewer\";\n")
-    if(name MATCHES "\\.js$")
+    if(name MATCHES "\\.js$" AND NOT name MATCHES "^bench_")
         string(APPEND scripts "    script += viewer_file(\"${name}\");\n")
     endif()
 endforeach()

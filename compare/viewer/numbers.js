@@ -48,3 +48,12 @@ const signed = (value) => (value > 0 ? `+${value}` : String(value));
 const asCount = (stored, bits) => (stored >= 2 ** (bits - 1) ? stored - 2 ** bits : stored);
 
 const milliseconds = (ms) => `${ms.toFixed(1)} ms`;
+
+/** 1, 2, 5, 10, ... within a range. */
+function roundValues(low, high) {
+  const values = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power)
+    for (const digit of [1, 2, 5]) values.push(digit * 10 ** power);
+  const inside = values.filter((value) => value >= low * 0.999 && value <= high * 1.001);
+  return inside.length > 8 ? inside.filter((value) => /^1/.test(value.toPrecision(1))) : inside;
+}

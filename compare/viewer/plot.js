@@ -8,13 +8,6 @@ const plotShapes = {
   unexplained: (x, y) => `M${x} ${y - 6}l6 6l-6 6l-6-6z`,
 };
 
-function svgElement(tag, attributes, ...children) {
-  const node = document.createElementNS('http://www.w3.org/2000/svg', tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
-
 const median = (values) => {
   const sorted = [...values].sort((a, b) => a - b);
   const middle = sorted.length >> 1;
@@ -33,15 +26,6 @@ function summarised(cells) {
     return { name, ms: median(own.map(({ cell }) => cell.ms)), beyond: beyondEdges(worst.cell),
              scene: worst.scene.name };
   });
-}
-
-/** 1, 2, 5, 10, ... within a range. */
-function roundValues(low, high) {
-  const values = [];
-  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); ++power)
-    for (const digit of [1, 2, 5]) values.push(digit * 10 ** power);
-  const inside = values.filter((value) => value >= low * 0.999 && value <= high * 1.001);
-  return inside.length > 8 ? inside.filter((value) => /^1/.test(value.toPrecision(1))) : inside;
 }
 
 function plotScales(cells, width, height) {

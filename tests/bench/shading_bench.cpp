@@ -4,8 +4,8 @@
 //   build/bench/tests/bench/shadowproof_shading_bench
 
 #include "reference/shade/shading.h"
+#include "scenes/generated.h"
 #include "scenes/load/catalog.h"
-#include "tests/bench/dense_scene.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 //   build/bench/tests/bench/shadowproof_trace_bench
 
 #include "reference/trace/trace.h"
-#include "tests/bench/dense_scene.h"
+#include "scenes/generated.h"
 #include "tests/bench/float_tracer.h"
 
 #include <benchmark/benchmark.h>

@@ -35,6 +35,11 @@ const commands = {
   'normal-map': (file) => ['normal-map', file, '-o', 'n.png'],
   report: (file) => ['report', '--from', file, '--out', 'again'],
   merge: (file) => ['merge', file, '--out', 'again'],
+  bench: (file) => ['bench', file, '--technique', 'zfail', '--size', '8x8', '--repeats', '1'],
+  'bench --from': (file) => ['bench', '--from', file, '--out', 'again'],
+  'bench --against': (file) => ['bench', 'ordinary', '--against', file, '--size', '8x8'],
+  'bench --resume': (file) => ['bench', 'ordinary', '--json', file, '--resume', '--size', '8x8',
+                               '--technique', 'zfail', '--repeats', '1'],
   baseline: (file) => ['verify', 'ordinary', '--baseline', file, '--size', '8x8', '--technique', 'zfail'],
 };
 

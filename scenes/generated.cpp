@@ -1,5 +1,6 @@
-#include "tests/bench/dense_scene.h"
+#include "scenes/generated.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -40,6 +41,21 @@ void add_floor(Scene& scene) {
     scene.triangles.emplace_back(first, first + 2, first + 3);
 }
 
+/// A box from one corner to the opposite one, wound to be seen from outside.
+void add_box(Scene& scene, const glm::vec3& low, const glm::vec3& high) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    for (int corner = 0; corner < 8; ++corner)
+        scene.positions.emplace_back((corner & 1) != 0 ? high.x : low.x,
+                                     (corner & 2) != 0 ? high.y : low.y,
+                                     (corner & 4) != 0 ? high.z : low.z);
+    constexpr std::array<std::array<glm::uint, 4>, 6> faces{
+        {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+    for (const auto& [a, b, c, d] : faces) {
+        scene.triangles.emplace_back(first + a, first + b, first + c);
+        scene.triangles.emplace_back(first + a, first + c, first + d);
+    }
+}
+
 } // namespace
 
 Scene dense_scene(int triangles, int width, int height) {
@@ -58,6 +74,26 @@ Scene dense_scene(int triangles, int width, int height) {
     scene.camera.height = height;
     scene.lights.emplace_back();
     scene.lights[0].position = {3.1, 5.3, -2.7};
+    return scene;
+}
+
+Scene stacked_scene(int plates, int width, int height) {
+    Scene scene;
+    scene.name = "stacked";
+    for (int i = 0; i < plates; ++i) {
+        const auto base = static_cast<float>(1.3 + 1.5 * i / plates);
+        const auto top = static_cast<float>(1.3 + 1.5 * (i + 0.5) / plates);
+        add_box(scene, {-1.2F, base, -6.2F}, {1.2F, top, -3.8F});
+    }
+    add_floor(scene);
+    scene.materials.emplace_back();
+    scene.meshes = {{"plates", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
+    scene.camera.eye = {0.137, 0.871, 1.093};
+    scene.camera.tan_half_height = 0.6;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    scene.lights.emplace_back();
+    scene.lights[0].position = {0.31, 12.3, -4.9};
     return scene;
 }
 

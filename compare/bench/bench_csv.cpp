@@ -1,0 +1,66 @@
+#include "compare/bench/bench_csv.h"
+
+#include "scenes/cause.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace shadowproof {
+
+namespace {
+
+/// In quotes where it holds what separates.
+std::string field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+std::uint64_t pixels_by(const BenchError& error, std::string_view cause) {
+    for (const auto& [name, pixels] : error.causes)
+        if (name == cause) return pixels;
+    return 0;
+}
+
+std::vector<std::string> causes_in(const BenchRun& run) {
+    std::vector<std::string> names;
+    for (const CauseWords& words : all_causes)
+        if (std::any_of(run.points.begin(), run.points.end(), [&](const BenchPoint& point) {
+                return pixels_by(point.error, words.name) > 0;
+            }))
+            names.emplace_back(words.name);
+    return names;
+}
+
+} // namespace
+
+std::string bench_csv(const BenchRun& run) {
+    const std::vector<std::string> causes = causes_in(run);
+    std::string csv = "scene,technique,settings,ms_median,ms_low,ms_high,samples,settled,pixels,"
+                      "wrong,wrong_share,falsely_lit_share,falsely_shadowed_share,color_rmse,"
+                      "color_p999,color_largest";
+    for (const std::string& cause : causes) csv += "," + cause;
+    csv += ",command\r\n";
+    for (const BenchPoint& point : run.points) {
+        const TimeInterval ms = median_interval(point.samples);
+        const BenchError& error = point.error;
+        const auto share = [&](std::uint64_t pixels) {
+            return static_cast<double>(pixels) / static_cast<double>(error.pixels);
+        };
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
+                           field(point.technique), field(words_of(point.settings)), ms.median,
+                           ms.low, ms.high, point.samples.size(), is_settled(point.samples),
+                           error.pixels, wrong_pixels(error), share(wrong_pixels(error)),
+                           share(error.falsely_lit), share(error.falsely_shadowed));
+        csv += error.color ? fmt::format(",{},{},{}", error.color->rmse, error.color->percentile999,
+                                         error.color->largest)
+                           : ",,,";
+        for (const std::string& cause : causes) csv += fmt::format(",{}", pixels_by(error, cause));
+        csv += "," + field(point.command) + "\r\n";
+    }
+    return csv;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,14 @@
+// A benchmark as CSV (RFC 4180): a line for each point, for spreadsheets and plots of others.
+#pragma once
+
+#include "compare/bench/bench_run.h"
+
+#include <string>
+
+namespace shadowproof {
+
+/// Shares are of the picture's pixels, times in milliseconds, colours in steps of 1/255. A column
+/// for each cause that some point has.
+std::string bench_csv(const BenchRun& run);
+
+} // namespace shadowproof

@@ -1,0 +1,22 @@
+#include "compare/bench/bench_page.h"
+
+#include "compare/report/report_template.h"
+
+namespace shadowproof {
+
+std::string bench_page() {
+    std::string script;
+    for (const char* name : {"elements.js", "numbers.js", "bench_figures.js", "bench_layout.js",
+                             "bench_plot.js", "bench_growth.js", "bench_page.js"})
+        script += viewer_file(name);
+    return fill(viewer_file("bench.html"), {{"style", std::string(viewer_file("style.css")) +
+                                                          std::string(viewer_file("bench.css"))},
+                                            {"script", script}});
+}
+
+std::string bench_script(const std::string& bench_json, const std::string& older_json) {
+    return "shadowproofBench(" + bench_json + ",\n" + (older_json.empty() ? "null" : older_json) +
+           ");\n";
+}
+
+} // namespace shadowproof

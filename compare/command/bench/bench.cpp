@@ -1,0 +1,287 @@
+#include "compare/bench/against.h"
+#include "compare/bench/bench_csv.h"
+#include "compare/bench/bench_file.h"
+#include "compare/bench/bench_json.h"
+#include "compare/bench/bench_page.h"
+#include "compare/bench/bench_table.h"
+#include "compare/command/bench/machine.h"
+#include "compare/command/bench/measure.h"
+#include "compare/command/bench/scaling.h"
+#include "compare/command/bench/sweep.h"
+#include "compare/command/commands.h"
+#include "compare/command/console.h"
+#include "compare/command/guard.h"
+#include "compare/command/output_files.h"
+#include "compare/command/rebuild.h"
+#include "compare/command/standard_output.h"
+#include "compare/memory.h"
+#include "compare/output/replaced_folder.h"
+#include "compare/output/write_file.h"
+#include "reference/trace/trace.h"
+#include "scenes/error.h"
+#include "scenes/load/catalog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <new>
+
+namespace shadowproof {
+
+namespace {
+
+/// The run before its first scene.
+BenchRun begin_run(const BenchOptions& options, const Gpu& gpu) {
+    BenchRun run;
+    run.version = SHADOWPROOF_VERSION;
+    run.gl = gpu.driver();
+    run.embree = embree_version();
+    run.machine = this_machine();
+    run.arguments = settings(options.scene, options.technique);
+    if (options.scaling) run.arguments.emplace_back("--scaling");
+    return run;
+}
+
+std::vector<std::string> scenes_to_measure(const BenchOptions& options) {
+    if (!options.scenes.empty()) return options.scenes;
+    std::vector<std::string> all;
+    for (const BundledScene& scene : bundled_scenes()) all.emplace_back(scene.name);
+    return all;
+}
+
+/// "scene 2 of 37, about 300 s left: "; the time is that of the earlier scenes on average.
+std::string place_of(std::size_t scene, std::size_t scenes, double seconds) {
+    if (scenes == 1) return {};
+    std::string words = fmt::format("scene {} of {}", scene + 1, scenes);
+    if (scene > 0)
+        words += fmt::format(", about {:.0f} s left", seconds / static_cast<double>(scene) *
+                                                          static_cast<double>(scenes - scene));
+    return words + ": ";
+}
+
+/// Whether all was measured. A scene that cannot be read does not end the run.
+bool measure_scenes(BenchWork work) {
+    const std::vector<std::string> scenes = scenes_to_measure(work.options);
+    bool complete = true;
+    const Stopwatch stopwatch;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        work.place = place_of(i, scenes.size(), stopwatch.milliseconds() / 1000);
+        try {
+            complete = measure_scene(work, scenes[i]) && complete;
+            continue;
+        } catch (const std::bad_alloc&) {
+            work.run.left_out.push_back({scenes[i], {}, {}, out_of_memory});
+        } catch (const Error& error) {
+            work.run.left_out.push_back({scenes[i], {}, {}, error.what()});
+        }
+        complain(work.run.left_out.back().why);
+        complete = false;
+    }
+    work.console.clear_progress();
+    return complete;
+}
+
+/// The tables of a run that was not measured now.
+void print_run(const BenchRun& run, Console& console) {
+    for (const BenchScene& scene : run.scenes) {
+        console.heading(scene.name);
+        for (const std::string& line : bench_table(run, scene.name)) console.line(line);
+    }
+    for (const std::string& line : growth_table(run)) console.line(line);
+}
+
+bool has_unexplained(const BenchRun& run) {
+    return std::any_of(run.points.begin(), run.points.end(), [](const BenchPoint& point) {
+        return std::any_of(point.error.causes.begin(), point.error.causes.end(),
+                           [](const auto& each) { return each.first == "unexplained"; });
+    });
+}
+
+struct Outcome {
+    BenchRun run;
+    bool complete = true;
+};
+
+Outcome measured(const BenchOptions& options, Console& console) {
+    Gpu gpu(options.technique.platform);
+    Outcome outcome{begin_run(options, gpu)};
+    std::optional<BenchRun> kept;
+    if (options.resume) kept = kept_run(options.json, outcome.run);
+    const bool in_folder = name_in_report(options.json, options.out).has_value();
+    BenchKeeper keeper(in_folder ? std::string() : options.json);
+    const BenchWork work{.options = options,
+                         .gpu = gpu,
+                         .console = console,
+                         .run = outcome.run,
+                         .kept = kept ? &*kept : nullptr,
+                         .keeper = keeper};
+    outcome.complete = options.scaling ? measure_growth(work) : measure_scenes(work);
+    outcome.run.finished = true;
+    return outcome;
+}
+
+/// Measures, or takes over what was measured.
+Outcome outcome_of(const BenchOptions& options, Console& console) {
+    if (options.from.empty()) return measured(options, console);
+    Outcome outcome{read_bench(options.from)};
+    refuse_to_lose(std::filesystem::is_directory(options.from)
+                       ? std::filesystem::path(options.from) / results_name
+                       : std::filesystem::path(options.from),
+                   options.out);
+    print_run(outcome.run, console);
+    return outcome;
+}
+
+/// What cannot be read or written is refused before the work.
+void check_files(const BenchOptions& options) {
+    std::vector<std::string> read = options.scenes;
+    read.insert(read.end(), {options.from, options.against});
+    check_apart(std::vector<std::string>{options.json, options.csv}, read);
+    check_output(options.json, options.out, Output::results);
+    check_output(options.csv, options.out, Output::other);
+    if (options.resume && name_in_report(options.json, options.out))
+        throw Error(options.json, "lies in the folder of the plot, which is written at the end",
+                    "name a file elsewhere with --json");
+    require_picture(options.scene.memory, options.scene.size.width, options.scene.size.height,
+                    Workload::comparison);
+}
+
+/// Writes a file beside the plot, or in its folder.
+void write_beside(ReplacedFolder& folder, const BenchOptions& options, const std::string& file,
+                  const std::string& text) {
+    if (file.empty()) return;
+    const std::optional<std::string> inside = name_in_report(file, options.out);
+    if (!inside) return write_file(file, text);
+    if (*inside != results_name) folder.add_requested(*inside, text);
+}
+
+void write_outputs(ReplacedFolder& folder, const BenchOptions& options, const BenchRun& run,
+                   const std::optional<BenchRun>& older) {
+    const std::string text = results_text(bench_json(run));
+    write_beside(folder, options, options.json, text);
+    write_beside(folder, options, options.csv, bench_csv(run));
+    folder.add(page_name, bench_page());
+    folder.add(results_name, text);
+    folder.add(results_script_name,
+               bench_script(text, older ? results_text(bench_json(*older)) : std::string()));
+    folder.finish();
+}
+
+/// Whether nothing was lost.
+bool print_changes(const BenchRun& older, const BenchRun& run, Console& console) {
+    const BenchChanges changes = changes_between(older, run);
+    for (const std::string& note : changes.notes) console.line("note: " + note);
+    for (const std::string& gain : changes.gains) console.line("gain: " + gain);
+    for (const std::string& loss : changes.losses) console.always("loss: " + loss);
+    console.always(fmt::format("compared {}: {} lost, {} gained",
+                               counted(changes.compared, "point"), changes.losses.size(),
+                               changes.gains.size()));
+    return changes.losses.empty();
+}
+
+/// "20 points on 1 scene", "18 lines of growth"
+std::string extent_of(const BenchRun& run) {
+    std::string words;
+    if (!run.points.empty() || run.growth.empty())
+        words = fmt::format("{} on {}", counted(run.points.size(), "point"),
+                            counted(run.scenes.size(), "scene"));
+    if (!run.growth.empty())
+        words += fmt::format("{}growth of {}", words.empty() ? "" : ", and ",
+                             counted(run.growth.size(), "line"));
+    return words;
+}
+
+int bench(const BenchOptions& options) {
+    Console console(options.quiet);
+    check_files(options);
+    std::optional<BenchRun> older;
+    if (!options.against.empty()) older = read_bench(options.against);
+    ReplacedFolder folder(options.out, {page_name, results_name, results_script_name});
+    const auto [run, complete] = outcome_of(options, console);
+    write_outputs(folder, options, run, older);
+    for (const std::string& note : folder.notes()) console.always(note);
+    const bool nothing_lost = !older || print_changes(*older, run, console);
+    const bool unexplained = has_unexplained(run);
+    if (unexplained) console.always("failed: a point has unexplained pixels");
+    console.always(fmt::format(
+        "{} {}, {}; plot in {}", options.from.empty() ? "measured" : "took over", extent_of(run),
+        run.gl.renderer, (std::filesystem::path(options.out) / page_name).string()));
+    if (!complete) return exit_could_not;
+    return unexplained || !nothing_lost ? exit_failed : exit_passed;
+}
+
+void add_bench_flags(CLI::App& command, BenchOptions& options) {
+    command.add_option("--out", options.out, "Folder of the plot (report)")
+        ->type_name("DIR")
+        ->check(not_empty());
+    CLI::Option* json =
+        command.add_option("--json", options.json, "Write the points here, as shadowproof/bench/1")
+            ->type_name("FILE")
+            ->check(not_empty());
+    command.add_option("--csv", options.csv, "Write the points here, as CSV")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        .add_option("--against", options.against,
+                    "An earlier run: show it in the plot, and fail where a point became slower "
+                    "beyond both intervals, or more wrong")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        .add_option("--from", options.from,
+                    "Measure nothing: take over what bench --json wrote, or the folder of a plot")
+        ->type_name("FILE")
+        ->check(not_empty());
+    command
+        .add_flag("--resume", options.resume, "Go on with the run that was stopped, from --json")
+        ->needs(json);
+    command.add_flag("--scaling", options.scaling,
+                     "Instead: how time grows with pixels (of the first SCENE), triangles, and "
+                     "volumes crossed");
+    command.add_flag("--quick", options.quick,
+                     "At most a minute for a scene: 256x256 pixels, fewer samples");
+    command.add_option("--repeats", options.limits.repeats, "Most samples of a point (50)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000));
+    command
+        .add_option("--seconds", options.limits.seconds,
+                    "Seconds for the samples of a scene, after its points are judged (120)")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1e6));
+    command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
+}
+
+/// What --quick changes unless a flag says otherwise.
+void make_quick(const CLI::App& command, BenchOptions& options) {
+    const auto is_given = [&](const char* flag) { return command.get_option(flag)->count() > 0; };
+    if (!is_given("--size")) options.scene.size = {256, 256};
+    if (!is_given("--repeats")) options.limits.repeats = 15;
+    if (!is_given("--seconds")) options.limits.seconds = 15;
+}
+
+} // namespace
+
+Work add_bench(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("bench", "Error against run time, of all techniques and settings");
+    const auto options = std::make_shared<BenchOptions>();
+    command
+        ->add_option("SCENE", options->scenes,
+                     "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
+        ->check(not_empty());
+    add_technique_flags(*command, options->technique);
+    add_scene_flags(*command, options->scene);
+    add_bench_flags(*command, *options);
+    command->final_callback([options, command] {
+        options->fixed = fixed_settings(*command);
+        if (!options->from.empty() && (!options->scenes.empty() || options->resume))
+            throw CLI::ValidationError("--from", "measures nothing; leave out the scenes and "
+                                                 "--resume, or leave out --from");
+        if (options->quick) make_quick(*command, *options);
+    });
+    return [options] { return guarded([&] { return bench(*options); }, options->out); };
+}
+
+} // namespace shadowproof

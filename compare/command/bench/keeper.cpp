@@ -1,0 +1,55 @@
+#include "compare/command/bench/keeper.h"
+
+#include "compare/bench/bench_file.h"
+#include "compare/bench/bench_json.h"
+#include "compare/output/write_file.h"
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace shadowproof {
+
+void BenchKeeper::keep(const BenchRun& run) {
+    constexpr double pause = 3000; // milliseconds; writing a file to disk may take some of them
+    if (file_.empty() || (since_ && since_->milliseconds() < pause)) return;
+    BenchRun part = run;
+    std::erase_if(part.points, [](const BenchPoint& point) { return point.samples.empty(); });
+    write_file(file_, results_text(bench_json(part)));
+    since_.emplace();
+}
+
+std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now) {
+    std::error_code failure;
+    if (!std::filesystem::exists(file, failure) && !failure) return std::nullopt;
+    BenchRun kept = read_bench(file);
+    const auto require_same = [&](const char* what, const std::string& was, const std::string& is) {
+        if (was != is)
+            throw Error(file,
+                        fmt::format("cannot be gone on with: its {} is {}, and now {}", what,
+                                    was.empty() ? "none" : was, is.empty() ? "none" : is),
+                        "leave out --resume, or name another file with --json");
+    };
+    require_same("version", kept.version, now.version);
+    require_same("driver", kept.gl.renderer + ", " + kept.gl.version,
+                 now.gl.renderer + ", " + now.gl.version);
+    require_same("Embree", kept.embree, now.embree);
+    require_same("processor", kept.machine.processor, now.machine.processor);
+    require_same("number of cores", fmt::format("{}", kept.machine.cores),
+                 fmt::format("{}", now.machine.cores));
+    require_same("setting", fmt::format("{}", fmt::join(kept.arguments, " ")),
+                 fmt::format("{}", fmt::join(now.arguments, " ")));
+    return kept;
+}
+
+const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now) {
+    for (const BenchScene& scene : kept.scenes)
+        if (scene.name == now.name && scene.digest == now.digest && scene.light == now.light &&
+            scene.width == now.width && scene.height == now.height)
+            return &scene;
+    return nullptr;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,33 @@
+// Keeps what a benchmark has measured so far in its --json file, so that a run which is stopped can
+// go on.
+#pragma once
+
+#include "compare/bench/bench_run.h"
+#include "compare/command/stopwatch.h"
+
+#include <optional>
+#include <string>
+
+namespace shadowproof {
+
+class BenchKeeper {
+public:
+    /// `file` is empty where nothing is kept.
+    explicit BenchKeeper(std::string file) : file_(std::move(file)) {}
+
+    /// Writes the file, whole, at most every few seconds. Points without samples are left out.
+    void keep(const BenchRun& run);
+
+private:
+    std::string file_;
+    std::optional<Stopwatch> since_;
+};
+
+/// What an earlier run left in the file; none if there is no such file. Throws Error if that run
+/// was of another version, driver or machine, or had other settings.
+std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now);
+
+/// The scene's earlier result; null where there is none of the same content, size and light.
+const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now);
+
+} // namespace shadowproof

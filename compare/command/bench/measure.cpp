@@ -1,0 +1,285 @@
+#include "compare/command/bench/measure.h"
+
+#include "compare/bench/bench_table.h"
+#include "compare/blank.h"
+#include "compare/command/bench/sweep.h"
+#include "compare/command/standard_output.h"
+#include "compare/command/stopwatch.h"
+#include "compare/families.h"
+#include "compare/memory.h"
+#include "compare/report/escape.h"
+#include "compare/words.h"
+#include "raster/render.h"
+#include "reference/trace/trace.h"
+#include "scenes/error.h"
+#include "scenes/load/catalog.h"
+#include "scenes/load/digest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+namespace shadowproof {
+
+namespace {
+
+/// A scene, traced, and the points that are measured on it.
+struct Trial {
+    const BenchWork& work;
+    std::string argument;
+    const Scene& scene;
+    const Tracer& tracer;
+    const GroundTruth& truth;
+    TracedScene traced;
+    Plan plan;
+    std::string name;                           ///< of the scene, unique in the run
+    std::size_t first = 0;                      ///< its first point in the run
+    std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
+    bool complete = true;
+};
+
+Frame draw(Trial& trial, const Technique& technique, const BenchSettings& settings) {
+    trial.plan.lighting = with_settings(trial.work.options.technique, settings).lighting;
+    return render(technique, trial.scene, trial.plan, trial.work.gpu);
+}
+
+BenchError error_of(const Trial& trial, std::string_view technique, const Frame& frame) {
+    const std::unique_ptr<Judge> judge = judge_of(trial.traced, frame);
+    const Comparison comparison = classify(trial.traced, frame, *judge);
+    refuse_blank(technique, trial.truth, frame, pixels_of(comparison, Cause::unexplained) > 0);
+    BenchError error{.pixels = frame.claim.pixels.size(), .differing = comparison.differing};
+    for (const CauseWords& words : all_causes)
+        if (const std::uint64_t pixels = pixels_of(comparison, words.cause))
+            error.causes.emplace_back(words.name, pixels);
+    for (std::size_t i = 0; i < comparison.cause.pixels.size(); ++i) {
+        const std::uint8_t cause = comparison.cause.pixels[i];
+        if (cause == no_difference || cause == static_cast<std::uint8_t>(Cause::edge)) continue;
+        const Visibility claim = frame.claim.pixels[i];
+        const Visibility truth = trial.truth.visibility.pixels[i];
+        if (claim == Visibility::lit && truth == Visibility::shadowed) ++error.falsely_lit;
+        if (claim == Visibility::shadowed && truth == Visibility::lit) ++error.falsely_shadowed;
+    }
+    if (const std::optional<ColorCheck>& colors = comparison.colors)
+        error.color = BenchColor{colors->rmse, colors->largest, colors->percentile999};
+    return error;
+}
+
+/// Adds a point, as an earlier run had it or newly drawn and judged. Returns null where it cannot
+/// be drawn; then `why` says so.
+const BenchPoint* add_point(Trial& trial, const Technique& technique, const BenchSettings& settings,
+                            std::string& why) {
+    const BenchWork& work = trial.work;
+    BenchPoint point{.scene = trial.name,
+                     .technique = std::string(technique.name),
+                     .family = {},
+                     .settings = settings,
+                     .own = {},
+                     .samples = {},
+                     .error = {},
+                     .command = bench_command(work.options, trial.argument,
+                                              std::string(technique.name), settings)};
+    const BenchPoint* const known = work.kept != nullptr ? find_point(*work.kept, point) : nullptr;
+    if (known != nullptr) {
+        point = *known;
+    } else {
+        work.console.progress(
+            fmt::format("{}: judging {} {}", trial.name, point.technique, words_of(settings)));
+        try {
+            const Frame frame = draw(trial, technique, settings);
+            point.family = frame.family;
+            point.own = own_settings(technique, frame);
+            point.error = error_of(trial, technique.name, frame);
+        } catch (const std::bad_alloc&) {
+            why = out_of_memory;
+            return nullptr;
+        } catch (const Error& error) {
+            why = error.what();
+            return nullptr;
+        }
+    }
+    trial.techniques.push_back(&technique);
+    return &work.run.points.emplace_back(std::move(point));
+}
+
+void leave_out(Trial& trial, const Technique& technique, const BenchSettings& settings,
+               const std::string& why) {
+    trial.work.run.left_out.push_back({trial.name, std::string(technique.name), settings, why});
+}
+
+/// The exact truth is its own yardstick: no pixel of it is wrong.
+void add_truth(Trial& trial) {
+    const BenchWork& work = trial.work;
+    BenchPoint point{.scene = trial.name,
+                     .technique = truth_point,
+                     .family = truth_point,
+                     .settings = {},
+                     .own = {},
+                     .samples = {},
+                     .error = {.pixels = trial.truth.visibility.pixels.size()},
+                     .command = bench_command(work.options, trial.argument, {}, {})};
+    if (work.kept != nullptr)
+        if (const BenchPoint* known = find_point(*work.kept, point)) point = *known;
+    work.run.points.push_back(std::move(point));
+    trial.techniques.push_back(nullptr);
+}
+
+void add_points(Trial& trial) {
+    const BenchOptions& options = trial.work.options;
+    add_truth(trial);
+    for (const Technique* technique : options.technique.chosen()) {
+        // What is named is drawn, or says why it is not for such a scene.
+        if (options.technique.techniques.empty() && !suits(*technique, trial.scene)) continue;
+        BenchSettings fixed;
+        for (const SweptSetting& setting : swept_settings())
+            for (const auto& each : options.fixed)
+                if (each.first == setting.name && setting.matters(*technique))
+                    fixed.push_back(each);
+        std::string why;
+        const BenchPoint* const own = add_point(trial, *technique, fixed, why);
+        if (own == nullptr) {
+            complain(why);
+            leave_out(trial, *technique, fixed, why);
+            trial.complete = false;
+            continue;
+        }
+        for (const BenchSettings& settings : sweep(*technique, fixed, BenchSettings(own->own)))
+            if (add_point(trial, *technique, settings, why) == nullptr)
+                leave_out(trial, *technique, settings, why); // not all forms suit all maps
+    }
+}
+
+void measure(Trial& trial) {
+    const BenchWork& work = trial.work;
+    BenchRun& run = work.run;
+    std::vector<std::vector<double>> samples;
+    for (std::size_t i = trial.first; i < run.points.size(); ++i)
+        samples.push_back(run.points[i].samples);
+    const RoundLimits& limits = work.options.limits;
+    const Stopwatch stopwatch;
+    measure_in_rounds(
+        samples, limits,
+        {.measure =
+             [&](std::size_t i) {
+                 const Technique* const technique = trial.techniques[i];
+                 if (technique == nullptr) return trace(trial.tracer).statistics.milliseconds;
+                 return draw(trial, *technique, run.points[trial.first + i].settings).milliseconds;
+             },
+         .seconds = [&] { return stopwatch.milliseconds() / 1000; },
+         .before =
+             [&](std::size_t i) {
+                 const auto done = std::count_if(
+                     samples.begin(), samples.end(),
+                     [&](const std::vector<double>& each) { return is_done(each, limits); });
+                 const BenchPoint& point = run.points[trial.first + i];
+                 work.console.progress(
+                     fmt::format("{}{}: {} of {} points done, sample {} of {} {}; at most {:.0f} s "
+                                 "for the scene",
+                                 work.place, trial.name, done, samples.size(),
+                                 samples[i].size() + 1, point.technique, words_of(point.settings),
+                                 std::max(0.0, limits.seconds - stopwatch.milliseconds() / 1000)));
+             },
+         .after_round =
+             [&] {
+                 for (std::size_t i = 0; i < samples.size(); ++i)
+                     run.points[trial.first + i].samples = samples[i];
+                 work.keeper.keep(run);
+             }});
+}
+
+/// Two files may have one stem: the second is "stem-2".
+std::string unique_name(const BenchRun& run, const std::string& wanted) {
+    std::string name = wanted;
+    const auto is_taken = [&](const BenchScene& scene) { return scene.name == name; };
+    for (int number = 2; std::any_of(run.scenes.begin(), run.scenes.end(), is_taken); ++number)
+        name = fmt::format("{}-{}", wanted, number);
+    return name;
+}
+
+BenchScene describe(const BenchRun& run, const Scene& scene, const std::string& argument) {
+    return {.name = unique_name(run, scene.name),
+            .file = (is_bundled(argument) ? scene.file.filename() : scene.file).string(),
+            .digest = digest_of(scene),
+            .light = chosen_light(scene).name,
+            .width = static_cast<std::uint64_t>(scene.camera.width),
+            .height = static_cast<std::uint64_t>(scene.camera.height),
+            .triangles = scene.triangles.size(),
+            .finished = false};
+}
+
+/// Whether an earlier run had finished the scene: its points are taken over.
+bool take_over(const BenchWork& work, BenchScene& scene) {
+    if (work.kept == nullptr) return false;
+    const BenchScene* const kept = kept_scene(*work.kept, scene);
+    if (kept == nullptr || !kept->finished) return false;
+    scene.finished = true;
+    for (const BenchPoint& point : work.kept->points)
+        if (point.scene == scene.name) work.run.points.push_back(point);
+    for (const BenchLeftOut& out : work.kept->left_out)
+        if (out.scene == scene.name) work.run.left_out.push_back(out);
+    return true;
+}
+
+void print_points(const BenchWork& work, const std::string& scene) {
+    for (const std::string& line : bench_table(work.run, scene)) work.console.line(line);
+    for (const BenchLeftOut& out : work.run.left_out)
+        if (out.scene == scene)
+            work.console.line(fmt::format("  left out: {} {}: {}", out.technique,
+                                          words_of(out.settings), out.why));
+}
+
+} // namespace
+
+std::string bench_command(const BenchOptions& options, const std::string& scene,
+                          const std::string& technique, const BenchSettings& settings_given) {
+    std::string command = "shadowproof bench " + shell_quoted(scene);
+    if (!technique.empty()) command += " --technique " + technique;
+    TechniqueOptions platform; // settings are named one by one, those of other techniques left out
+    platform.platform = options.technique.platform;
+    for (const auto& [name, value] : settings_given)
+        command += fmt::format(" --{} {}", name, shell_quoted(value));
+    for (const std::string& word : settings(options.scene, platform))
+        command += " " + shell_quoted(word);
+    return command;
+}
+
+bool measure_scene(const BenchWork& work, const std::string& argument) {
+    const BenchOptions& options = work.options;
+    work.console.progress(work.place + argument + ": reading");
+    const Scene scene = load_scene(argument, options.scene.request());
+    require_scene(options.scene.memory, scene, Workload::comparison);
+    const std::size_t at = work.run.scenes.size();
+    work.run.scenes.push_back(describe(work.run, scene, argument));
+    const std::string name = work.run.scenes[at].name;
+    work.console.heading(name);
+    work.console.line(fmt::format("  {} triangles, {}x{}, light {}",
+                                  grouped(scene.triangles.size()), scene.camera.width,
+                                  scene.camera.height, chosen_light(scene).name));
+    for (const std::string& note : scene.notes) work.console.line("  note: " + note);
+    if (take_over(work, work.run.scenes[at])) {
+        work.console.line("  as measured before");
+        print_points(work, name);
+        return true;
+    }
+    work.console.progress(work.place + name + ": tracing");
+    const Tracer tracer(scene, options.scene.threads);
+    const GroundTruth truth = trace(tracer);
+    Trial trial{.work = work,
+                .argument = argument,
+                .scene = scene,
+                .tracer = tracer,
+                .truth = truth,
+                .traced = TracedScene(tracer, truth),
+                .plan = make_plan(scene),
+                .name = name,
+                .first = work.run.points.size(),
+                .techniques = {}};
+    add_points(trial);
+    measure(trial);
+    work.run.scenes[at].finished = trial.complete;
+    work.keeper.keep(work.run);
+    print_points(work, name);
+    return trial.complete;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,32 @@
+// Measures the points of a benchmark: each technique and setting on each scene, error and time.
+#pragma once
+
+#include "compare/command/bench/keeper.h"
+#include "compare/command/bench/options.h"
+#include "compare/command/console.h"
+#include "raster/gl/context.h"
+
+namespace shadowproof {
+
+/// What measuring a scene needs besides it.
+struct BenchWork {
+    const BenchOptions& options;
+    Gpu& gpu;
+    Console& console;
+    BenchRun& run;        ///< grows
+    const BenchRun* kept; ///< an earlier run to go on with; null: none
+    BenchKeeper& keeper;
+    std::string place{}; ///< before each line of progress: "scene 2 of 37, about 300 s left: "
+};
+
+/// The truth is computed once and shared by all points. Each is drawn once to warm up, and judged
+/// by that; then all are measured in rounds. Techniques that cannot be drawn, and settings that the
+/// scene does not admit, are left out and said. Returns whether all that was asked for was
+/// measured. Throws Error if the scene cannot be read.
+bool measure_scene(const BenchWork& work, const std::string& argument);
+
+/// The words that measure one point again.
+std::string bench_command(const BenchOptions& options, const std::string& scene,
+                          const std::string& technique, const BenchSettings& settings);
+
+} // namespace shadowproof

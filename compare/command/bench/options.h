@@ -1,0 +1,30 @@
+// What a benchmark is asked for.
+#pragma once
+
+#include "compare/bench/bench_run.h"
+#include "compare/bench/rounds.h"
+#include "compare/command/options.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+struct BenchOptions {
+    std::vector<std::string> scenes; ///< names or paths; empty: all bundled ones
+    SceneOptions scene;
+    TechniqueOptions technique;
+    BenchSettings fixed; ///< swept settings that a flag has set: they are swept no more
+    RoundLimits limits;  ///< for each scene
+    bool quick = false;
+    bool scaling = false;
+    bool resume = false;
+    std::string from;    ///< redraw this run, and measure nothing
+    std::string against; ///< an older run
+    std::string out = "report";
+    std::string json;
+    std::string csv;
+    bool quiet = false;
+};
+
+} // namespace shadowproof

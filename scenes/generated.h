@@ -1,0 +1,16 @@
+// Scenes of any size, for measuring how time grows with it.
+#pragma once
+
+#include "scenes/scene.h"
+
+namespace shadowproof {
+
+/// About `triangles` triangles: closed balls with waves on them over a floor, an ordinary light
+/// above.
+Scene dense_scene(int triangles, int width, int height);
+
+/// So many closed plates above each other under the light: the shadows on the floor lie in as many
+/// shadow volumes, and the eye in none.
+Scene stacked_scene(int plates, int width, int height);
+
+} // namespace shadowproof

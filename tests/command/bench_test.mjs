@@ -1,0 +1,246 @@
+// `shadowproof bench` as its users meet it. No test holds a time: what is judged is recorded, or
+// does not depend on the clock.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import Ajv from 'ajv/dist/2020.js';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const schema = JSON.parse(readFileSync(new URL('../../docs/bench.schema.json', import.meta.url)));
+const validate = new Ajv({ strict: true, allErrors: true }).compile(schema);
+const assertValid = (run) => assert.ok(validate(run), JSON.stringify(validate.errors, null, 1));
+const written = (name) => JSON.parse(readFileSync(join(scratch, name), 'utf8'));
+const write = (name, json) => writeFileSync(join(scratch, name), JSON.stringify(json));
+
+/** As little measuring as there can be: one sample of each point. */
+const least = ['--size', '48x48', '--repeats', '1', '-q'];
+
+function benched(name, args) {
+  const run = shadowproof(['bench', ...args, ...least, '--json', name]);
+  assert.equal(run.code, 0, run.out + run.err);
+  return written(name);
+}
+
+const shadows = benched('shadows.json', ['near_plane', '--csv', 'shadows.csv']);
+const colors = benched('colors.json', ['bumpy_torus', '--technique', 'bump_one_pass,zfail']);
+
+test('what it writes is valid by its schema', () => {
+  assertValid(shadows);
+  assertValid(colors);
+});
+
+test('every technique that suits the scene is there, and the truth', () => {
+  const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
+  const plain = techniques.map(({ name }) => name).filter((name) => !name.startsWith('bump_'));
+  assert.deepEqual(shadows.points.map(({ technique }) => technique), ['truth', ...plain]);
+  assert.equal(shadows.points[0].differing, 0);
+});
+
+test('its errors are those of verify', () => {
+  shadowproof(['verify', 'near_plane', '--size', '48x48', '--json', 'verified.json', '-q']);
+  const [scene] = written('verified.json').scenes;
+  for (const cell of scene.techniques) {
+    const point = shadows.points.find(({ technique }) => technique === cell.name);
+    assert.deepEqual(point.causes, cell.causes, cell.name);
+    assert.equal(point.differing, cell.differing, cell.name);
+  }
+});
+
+test('settings are swept one at a time, each but the technique\'s own', () => {
+  const swept = colors.points.filter(({ technique }) => technique === 'bump_one_pass');
+  const [own, ...others] = swept;
+  assert.deepEqual(own.settings, {});
+  assert.deepEqual(Object.keys(own.own), ['normalise', 'bumps']);
+  assert.ok(others.length >= 4);
+  for (const { settings, own: made } of others) {
+    const [[name, value], ...more] = Object.entries(settings);
+    assert.equal(more.length, 0);
+    assert.notEqual(value, own.own[name]);
+    assert.equal(made[name], value);
+  }
+  // A normal map is no height field: that is said, and is no failure.
+  assert.deepEqual(colors.left_out.map(({ settings }) => settings), [{ bumps: 'height-field' }]);
+  assert.ok(colors.points.every(({ technique, color }) =>
+    Boolean(color) === (technique === 'bump_one_pass')));
+});
+
+test('each point has the command that measures it again', () => {
+  for (const { technique, settings, command } of colors.points) {
+    assert.match(command, /^shadowproof bench bumpy_torus/);
+    if (technique === 'truth') continue;
+    const args = command.split(' ').slice(1);
+    const run = shadowproof([...args, '--repeats', '1', '-q', '--json', 'again.json']);
+    assert.equal(run.code, 0, run.err);
+    const again = written('again.json').points.find((point) => point.technique === technique &&
+      JSON.stringify(point.settings) === JSON.stringify(settings));
+    assert.ok(again, command);
+  }
+});
+
+test('the CSV has a line for each point', () => {
+  const lines = readFileSync(join(scratch, 'shadows.csv'), 'utf8').trim().split('\r\n');
+  assert.equal(lines.length, shadows.points.length + 1);
+});
+
+test('wrong usage and bad input are named, with a remedy', () => {
+  const fails = (args, code, words) => {
+    const run = shadowproof(['bench', ...args]);
+    assert.equal(run.code, code, run.out + run.err);
+    assert.match(run.err, words);
+  };
+  fails(['ordinary', '--repeats', '0'], 2, /--repeats/);
+  fails(['ordinary', '--technique', 'zwrong'], 2, /there is no technique 'zwrong'; there are/);
+  fails(['nowhere.gltf', ...least], 3, /nowhere\.gltf/);
+  fails(['ordinary', ...least, '--technique', 'zfail', '--json', 'none/x.json'], 3, /none\/x\.json/);
+  fails(['ordinary', ...least, '--json', 'same', '--csv', 'same'], 3, /named for two outputs/);
+  fails(['ordinary', ...least, '--technique', 'bump_one_pass'], 3, /ordinary\.gltf: has no bump map/);
+});
+
+test('a run redraws its plot without measuring, and its folder gives the same again', () => {
+  const redraw = (from, out) => {
+    const run = shadowproof(['bench', '--from', from, '--out', out, '--json', `${out}.json`]);
+    assert.equal(run.code, 0, run.err);
+    return readFileSync(join(scratch, `${out}.json`), 'utf8');
+  };
+  const first = redraw('shadows.json', 'plot');
+  assert.equal(first, readFileSync(join(scratch, 'shadows.json'), 'utf8'));
+  assert.equal(redraw('plot', 'plot'), first);
+  for (const file of ['index.html', 'results.js', 'results.json', 'manifest.json'])
+    assert.ok(existsSync(join(scratch, 'plot', file)), file);
+});
+
+test('a folder keeps what the program did not write', () => {
+  writeFileSync(join(scratch, 'plot', 'notes.txt'), 'mine');
+  const run = shadowproof(['bench', '--from', 'colors.json', '--out', 'plot']);
+  assert.equal(run.code, 0, run.err);
+  assert.match(run.out, /kept notes\.txt/);
+  assert.equal(readFileSync(join(scratch, 'plot', 'notes.txt'), 'utf8'), 'mine');
+  writeFileSync(join(scratch, 'foreign.txt'), '');
+  const refused = shadowproof(['bench', '--from', 'colors.json', '--out', '.']);
+  assert.equal(refused.code, 3);
+});
+
+/** `shadows` with every time of one technique multiplied. */
+function changedRun(technique, factor, more = () => {}) {
+  const run = structuredClone(shadows);
+  const point = run.points.find((each) => each.technique === technique);
+  const ms = factor * point.ms.median;
+  point.ms = { median: ms, low: ms, high: ms, settled: false, samples: [ms] };
+  more(point);
+  return run;
+}
+
+test('a loss beyond both intervals exits with 1 and is named; a gain does not', () => {
+  const against = (run) => {
+    write('older.json', run);
+    return shadowproof(['bench', '--from', 'shadows.json', '--against', 'older.json', '--out', 'plot']);
+  };
+  const same = against(shadows);
+  assert.equal(same.code, 0, same.out + same.err);
+  const slower = against(changedRun('zfail', 0.5));
+  assert.equal(slower.code, 1);
+  assert.match(slower.out, /^loss: near_plane zfail: .* ms/m);
+  const quicker = against(changedRun('zfail', 2));
+  assert.equal(quicker.code, 0);
+  assert.match(quicker.out, /^gain: near_plane zfail: .* ms/m);
+  const wrong = against(changedRun('zpass', 1, (point) => {
+    point.causes.near_plane -= 1;
+    point.differing -= 1;
+    point.falsely_lit = Math.max(0, point.falsely_lit - 1);
+    point.falsely_shadowed = Math.max(0, point.falsely_shadowed - 1);
+  }));
+  assert.equal(wrong.code, 1);
+  assert.match(wrong.out, /^loss: near_plane zpass: [\d,]+ pixels wrong, was /m);
+});
+
+test('a run that was stopped goes on: what is finished is not measured again', () => {
+  const half = structuredClone(shadows);
+  half.finished = false;
+  half.scenes[0].finished = false;
+  half.points = half.points.filter(({ technique }) => technique !== 'auto');
+  write('half.json', half);
+  const args = ['bench', 'near_plane', ...least, '--json', 'half.json', '--resume'];
+  assert.equal(shadowproof(args).code, 0);
+  const whole = written('half.json');
+  assertValid(whole);
+  assert.ok(whole.finished);
+  assert.equal(whole.points.length, shadows.points.length);
+  // One sample is all that was allowed, and all but one point had it.
+  for (const point of half.points)
+    assert.deepEqual(whole.points.find(({ technique }) => technique === point.technique), point);
+  // Finished: nothing is measured at all.
+  assert.equal(shadowproof(args).code, 0);
+  assert.deepEqual(written('half.json'), whole);
+});
+
+test('a run that is interrupted keeps what it has, whole, and leaves nothing else', async () => {
+  const args = ['bench', 'near_plane', '--size', '48x48', '--json', 'stopped.json', '--out', 'stopped'];
+  const run = spawn(process.env.SHADOWPROOF,
+                    [...args, '--repeats', '10000', '--seconds', '100000', '-q'], { cwd: scratch });
+  const ended = new Promise((done) => run.on('exit', (code, signal) => done({ code, signal })));
+  const isThere = () => existsSync(join(scratch, 'stopped.json'));
+  while (!isThere() && run.exitCode === null) await new Promise((done) => setTimeout(done, 50));
+  assert.ok(isThere());
+  run.kill('SIGINT');
+  await ended;
+  const part = written('stopped.json');
+  assertValid(part);
+  assert.equal(part.finished, false);
+  assert.ok(part.points.length > 0);
+  assert.deepEqual(readdirSync(scratch).filter((name) => /^stopped/.test(name)), ['stopped.json']);
+  assert.equal(shadowproof([...args, '--repeats', '1', '--resume', '-q']).code, 0);
+  const whole = written('stopped.json');
+  assert.ok(whole.finished);
+  assert.equal(whole.points.length, shadows.points.length);
+  for (const { technique, ms } of part.points)
+    assert.deepEqual(whole.points.find((point) => point.technique === technique).ms, ms);
+});
+
+test('another run is not gone on with', () => {
+  write('other.json', { ...shadows, version: '0' });
+  const run = shadowproof(['bench', 'near_plane', ...least, '--json', 'other.json', '--resume']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /other\.json: cannot be gone on with: its version is 0, and now/);
+});
+
+test('growth has a line for each technique along pixels, triangles and volumes', () => {
+  const run = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
+                           '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth']);
+  assert.equal(run.code, 0, run.err);
+  const { scaling, points, ...rest } = written('growth.json');
+  assertValid({ scaling, points, ...rest });
+  assert.deepEqual(points, []);
+  assert.deepEqual(scaling.map(({ axis, technique }) => `${axis} ${technique}`),
+                   ['pixels', 'triangles', 'volumes'].flatMap((axis) =>
+                     [`${axis} truth`, `${axis} zfail`]));
+  for (const { axis, scene, points: sizes } of scaling) {
+    assert.equal(scene, { pixels: 'near_plane', triangles: 'dense', volumes: 'stacked' }[axis]);
+    assert.ok(sizes.every(({ size }, i) => i === 0 || size > sizes[i - 1].size));
+  }
+  // What is there is not measured again.
+  const before = readFileSync(join(scratch, 'growth.json'), 'utf8');
+  const again = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
+                             '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth',
+                             '--resume']);
+  assert.equal(again.code, 0, again.err);
+  assert.deepEqual(JSON.parse(before).scaling, written('growth.json').scaling);
+});
+
+test('damaged files are refused with the place and a remedy', () => {
+  const refused = (text, words) => {
+    writeFileSync(join(scratch, 'damaged.json'), text);
+    const run = shadowproof(['bench', '--from', 'damaged.json', '--out', 'plot']);
+    assert.equal(run.code, 3);
+    assert.match(run.err, words);
+  };
+  refused('', /damaged\.json: is empty; give the whole file that bench --json wrote/);
+  refused('{"schema"', /damaged\.json: is cut off after byte 9/);
+  refused('{"schema":"shadowproof/results/1"}', /\/schema must be "shadowproof\/bench\/1"/);
+  refused(JSON.stringify({ ...shadows, points: [{}] }), /\/points\/0 lacks "scene"/);
+  const usage = shadowproof(['bench', 'ordinary', '--from', 'shadows.json']);
+  assert.equal(usage.code, 2);
+  assert.equal(shadowproof(['bench', 'ordinary', '--resume']).code, 2);
+  assert.match(shadowproof(['bench', '--from', 'nothing.json']).err, /there is no such file/);
+});

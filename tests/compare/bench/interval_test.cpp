@@ -1,0 +1,46 @@
+#include "compare/bench/interval.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace shadowproof {
+namespace {
+
+/// 1, 2, ... n milliseconds.
+std::vector<double> counted_up(std::size_t n) {
+    std::vector<double> samples(n);
+    std::iota(samples.begin(), samples.end(), 1.0);
+    return samples;
+}
+
+TEST(MedianInterval, has_the_ranks_of_the_sign_test) {
+    // Conover 1999, table A3: the largest r with P(B < r) <= 2.5 %, B binomial with p = 1/2.
+    const std::vector<std::pair<std::size_t, double>> ranks{
+        {6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {25, 8}, {30, 10}, {50, 18}};
+    for (const auto& [n, rank] : ranks) {
+        const TimeInterval interval = median_interval(counted_up(n));
+        EXPECT_EQ(interval.low, rank) << n;
+        EXPECT_EQ(interval.high, static_cast<double>(n) + 1 - rank) << n;
+        EXPECT_EQ(interval.median, (static_cast<double>(n) + 1) / 2) << n;
+    }
+}
+
+TEST(MedianInterval, of_few_samples_holds_them_all) {
+    const TimeInterval interval = median_interval({5, 1, 3});
+    EXPECT_EQ(interval.low, 1);
+    EXPECT_EQ(interval.median, 3);
+    EXPECT_EQ(interval.high, 5);
+}
+
+TEST(IsSettled, asks_for_six_samples_within_five_percent) {
+    EXPECT_TRUE(is_settled({100, 100, 100, 100, 95, 105}));
+    EXPECT_FALSE(is_settled({100, 100, 100, 100, 100}));
+    EXPECT_FALSE(is_settled({100, 100, 100, 100, 94, 105}));
+    EXPECT_FALSE(is_settled({100, 100, 100, 100, 95, 106}));
+    // One outlier of many is outside of the interval.
+    EXPECT_TRUE(is_settled({100, 100, 100, 100, 100, 100, 100, 100, 1000}));
+}
+
+} // namespace
+} // namespace shadowproof
