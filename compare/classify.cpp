@@ -1,5 +1,6 @@
 #include "compare/classify.h"
 
+#include "compare/driver/scrutiny.h"
 #include "compare/judge/surface_check.h"
 #include "reference/parallel.h"
 
@@ -15,9 +16,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// What pixels are compared with: their whole band, or their centres alone.
-enum class Scrutiny : std::uint8_t { band, centre };
 
 /// A claim, and the judge of its family.
 struct Case {
@@ -56,10 +54,6 @@ std::vector<Region> regions_of(std::span<const PixelPlace> places, std::span<Fin
 /// Pixels processed together: as many as keep the samples within a few megabytes.
 constexpr std::size_t batch_size = 1024;
 
-/// Once so many pixels are unexplained, the verdict is certain, and searching the bands of all
-/// others would take minutes: they are compared at their centres only.
-constexpr std::ptrdiff_t hopeless = 2048;
-
 void look_around_batch(const Case& tried, const std::vector<Region>& regions, Scrutiny scrutiny) {
     const auto for_regions = [&](const auto& work) {
         parallel_for(static_cast<int>(regions.size()), tried.tracer().threads(),
@@ -83,15 +77,15 @@ void look_around_batch(const Case& tried, const std::vector<Region>& regions, Sc
 /// `places` sorted by region.
 std::vector<Finding> look_around(const Case& tried, const std::vector<PixelPlace>& places) {
     std::vector<Finding> findings(places.size());
-    std::ptrdiff_t unexplained = 0;
+    std::uint64_t unexplained = 0;
     for (std::size_t first = 0; first < places.size(); first += batch_size) {
         const std::size_t count = std::min(batch_size, places.size() - first);
         const std::span batch = std::span(findings).subspan(first, count);
         look_around_batch(tried, regions_of(std::span(places).subspan(first, count), batch),
-                          unexplained < hopeless ? Scrutiny::band : Scrutiny::centre);
-        unexplained += std::count_if(batch.begin(), batch.end(), [](const Finding& finding) {
-            return !finding.evidence_in_band;
-        });
+                          scrutiny_after(unexplained));
+        const auto is_unexplained = [](const Finding& each) { return !each.evidence_in_band; };
+        unexplained +=
+            static_cast<std::uint64_t>(std::count_if(batch.begin(), batch.end(), is_unexplained));
     }
     return findings;
 }
@@ -132,7 +126,7 @@ void look_across_coarse_outlines(const Case& tried, const std::vector<PixelPlace
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (!is_explained(tried, places[i], findings[i])) open.push_back(i);
-    if (open.empty() || std::ssize(open) > hopeless) return;
+    if (open.empty() || scrutiny_after(open.size()) == Scrutiny::centre) return;
     const std::size_t most_places =
         std::clamp<std::size_t>(most_places_of_frame / open.size(), 2, most_places_of_pixel);
     const CoarseOutlines outlines = tried.judge.coarse_outlines();

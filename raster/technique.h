@@ -33,6 +33,8 @@ struct Technique {
     /// without one.
     bool needs_environment = false;
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
+    /// The flags that it heeds and not all techniques do, without their dashes.
+    std::vector<std::string_view> settings = {};
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 
@@ -44,6 +46,11 @@ inline bool suits(const Technique& technique, const Scene& scene) {
         return false;
     return !technique.needs_bump_maps ||
            (is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value());
+}
+
+inline bool heeds(const Technique& technique, std::string_view setting) {
+    return std::find(technique.settings.begin(), technique.settings.end(), setting) !=
+           technique.settings.end();
 }
 
 /// All techniques in the order of the registry, techniques.inc.

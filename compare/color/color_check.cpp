@@ -38,10 +38,8 @@ struct RowSums {
     std::array<std::uint64_t, all_color_terms.size()> beyond_by{};
 };
 
-/// Rows that are judged together. Once so many pixels of those above are unexplained, the verdict
-/// is certain: the others are compared at their centres only.
+/// Rows that are judged together: how closely, those above decide.
 constexpr int rows_at_once = 16;
-constexpr std::uint64_t hopeless = 2048;
 
 bool is_unpredicted(ColorVerdict verdict) {
     return verdict == ColorVerdict::unpredicted || verdict == ColorVerdict::unexplained;
@@ -136,7 +134,7 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     std::uint64_t unpredicted = 0;
     for (int first = 0; first < height; first += rows_at_once) {
         const int count = std::min(rows_at_once, height - first);
-        const Scrutiny scrutiny = unpredicted < hopeless ? Scrutiny::band : Scrutiny::centre;
+        const Scrutiny scrutiny = scrutiny_after(unpredicted);
         parallel_for(count, tracer.threads(), [&](int i, int thread) {
             std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
             if (!shader) shader = std::make_unique<RayShader>(tracer);

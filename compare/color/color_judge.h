@@ -6,15 +6,13 @@
 #include "compare/color/lighting_arithmetic.h"
 #include "compare/color/lighting_inputs.h"
 #include "compare/driver/interpolated.h"
+#include "compare/driver/scrutiny.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
 
 namespace shadowproof {
-
-/// What a pixel is compared with: all that the rasterizer may draw there, or its centre alone.
-enum class Scrutiny : std::uint8_t { band, centre };
 
 /// A verdict and the limits behind it. Each limit holds the colours of all places that the
 /// rasterizer may draw, and others between them; the verdict tests place by place.

@@ -52,8 +52,9 @@ public:
     }
     CoarseOutlines coarse_outlines() const override {
         const Scene& scene = judged_.traced.scene();
-        return {scene, judged_.traced.silhouette(), nullptr,
-                drawing_of(scene, judged_.frame, std::numeric_limits<double>::infinity())};
+        return {
+            scene, judged_.traced.silhouette(), nullptr,
+            drawing_of(scene, judged_.frame.depth_model, std::numeric_limits<double>::infinity())};
     }
 
     EvidenceSummary summary(const EvidenceCheck& check,

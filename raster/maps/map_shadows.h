@@ -3,9 +3,13 @@
 
 #include "raster/gl/context.h"
 #include "raster/maps/map_pass.h"
+#include "scenes/cause.h"
 #include "scenes/frame.h"
 #include "scenes/plan/plan.h"
 #include "scenes/scene.h"
+
+#include <string_view>
+#include <vector>
 
 namespace shadowproof {
 
@@ -14,6 +18,22 @@ struct MapRecipe {
     MapModel model; ///< where the user asked for nothing else (with_settings)
     MapMaking making = MapMaking::pass_per_face;
 };
+
+/// What all of them are known to fail at: Technique::fails_at and by_nature. Open casters matter
+/// where one of their sides is culled.
+inline std::vector<Cause> map_failings() {
+    return {Cause::resolution, Cause::acne,      Cause::leak,
+            Cause::range,      Cause::open_mesh, Cause::precision};
+}
+inline std::vector<Cause> map_failings_by_nature() {
+    return {Cause::resolution, Cause::acne, Cause::leak};
+}
+
+/// The flags that all of them heed (Technique::settings).
+inline std::vector<std::string_view> map_settings() {
+    return {"map-size",    "map-bias", "map-value", "map-format",
+            "map-culling", "map-near", "map-far"};
+}
 
 /// Draws the scene's surfaces as zfail_reversed does, and asks the map in the light pass. Draws
 /// once more beforehand, so that the driver finishes deferred compilation; the quickest of up to

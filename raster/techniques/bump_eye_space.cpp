@@ -26,6 +26,7 @@ Technique bump_eye_space_technique() {
             .cost = 4.0,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
+            .settings = {"normalise", "bumps"},
             .run = run};
 }
 

@@ -14,15 +14,15 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
 } // namespace
 
 Technique cube_map_six_pass_technique() {
-    return {
-        .name = "cube_map_six_pass",
-        .summary = "a cube map of distances from the light, drawn face by face",
-        .source = "Omni-directional shadows with geometry shaders, method 1",
-        .needs = "a light with a position",
-        .fails_at = {Cause::precision, Cause::resolution, Cause::acne, Cause::leak, Cause::range},
-        .by_nature = {Cause::resolution, Cause::acne, Cause::leak},
-        .lights = {Light::Kind::point, Light::Kind::spot},
-        .run = run};
+    return {.name = "cube_map_six_pass",
+            .summary = "a cube map of distances from the light, drawn face by face",
+            .source = "Omni-directional shadows with geometry shaders, method 1",
+            .needs = "a light with a position",
+            .fails_at = map_failings(),
+            .by_nature = map_failings_by_nature(),
+            .lights = {Light::Kind::point, Light::Kind::spot},
+            .settings = map_settings(),
+            .run = run};
 }
 
 } // namespace shadowproof

@@ -17,15 +17,15 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
 } // namespace
 
 Technique spot_map_technique() {
-    return {
-        .name = "spot_map",
-        .summary = "a spot light's map of depths, looked up by projection",
-        .source = "Williams 1978; CS448 lecture 11, shadow maps; Kilgard 2001",
-        .needs = "a spot light with a cone narrower than 86 degrees to each side",
-        .fails_at = {Cause::precision, Cause::resolution, Cause::acne, Cause::leak, Cause::range},
-        .by_nature = {Cause::resolution, Cause::acne, Cause::leak},
-        .lights = {Light::Kind::spot},
-        .run = run};
+    return {.name = "spot_map",
+            .summary = "a spot light's map of depths, looked up by projection",
+            .source = "Williams 1978; CS448 lecture 11, shadow maps; Kilgard 2001",
+            .needs = "a spot light with a cone narrower than 86 degrees to each side",
+            .fails_at = map_failings(),
+            .by_nature = map_failings_by_nature(),
+            .lights = {Light::Kind::spot},
+            .settings = map_settings(),
+            .run = run};
 }
 
 } // namespace shadowproof

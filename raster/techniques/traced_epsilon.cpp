@@ -21,6 +21,7 @@ Technique traced_epsilon_technique() {
             .cost = 3.7,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
+            .settings = {"ray-epsilon"},
             .run = run};
 }
 

@@ -20,6 +20,7 @@ Technique traced_offset_technique() {
             .cost = 3.7,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
+            .settings = {"ray-offset"},
             .run = run};
 }
 

@@ -22,6 +22,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ namespace {
 struct Cost {
     bool right = false;
     double milliseconds = std::numeric_limits<double>::infinity();
-    std::uint64_t fragments = 0;
+    std::optional<std::uint64_t> fragments; ///< of volumes, where any are counted
 };
 
 using Costs = std::map<std::string_view, Cost>; // by technique
@@ -41,12 +42,12 @@ bool is_right(const TracedScene& traced, const Frame& frame) {
     return comparison.differing == comparison.causes[static_cast<std::size_t>(Cause::edge)];
 }
 
-/// Null where no technique but `auto` is right.
+/// Of those that count volumes, among which `auto` chooses. Null where none but `auto` is right.
 const Costs::value_type* quickest_right(const Costs& costs) {
     const Costs::value_type* best = nullptr;
     for (const auto& entry : costs) {
         const auto& [technique, cost] = entry;
-        if (cost.right && technique != "auto" &&
+        if (cost.right && cost.fragments && technique != "auto" &&
             (best == nullptr || cost.milliseconds < best->second.milliseconds))
             best = &entry;
     }
@@ -78,7 +79,7 @@ Costs measure(Gpu& gpu, const Scene& scene, int rounds) {
             if (round > 0 && cost.milliseconds > 4 * quickest) continue;
             const Frame frame = render(technique, scene, plan, gpu);
             cost.milliseconds = std::min(cost.milliseconds, frame.milliseconds);
-            cost.fragments = frame.counted->volume_fragments;
+            if (frame.counted) cost.fragments = frame.counted->volume_fragments;
             quickest = std::min(quickest, cost.milliseconds);
             if (round == 0) cost.right = is_right(traced, frame);
         }
@@ -99,6 +100,7 @@ double planning_milliseconds(const Scene& scene) {
 struct Sums {
     double log_of_cost = 0; ///< against zfail_reversed
     double log_of_fragments = 0;
+    bool counts = false; ///< volumes
     int scenes = 0;
     int right = 0;
 };
@@ -108,8 +110,9 @@ void add(std::map<std::string_view, Sums>& sums, const Costs& costs) {
     for (const auto& [technique, cost] : costs) {
         Sums& sum = sums[technique];
         sum.log_of_cost += std::log(cost.milliseconds / whole.milliseconds);
-        sum.log_of_fragments += std::log(static_cast<double>(cost.fragments + 1) /
-                                         static_cast<double>(whole.fragments + 1));
+        sum.counts = cost.fragments.has_value();
+        sum.log_of_fragments += std::log(static_cast<double>(cost.fragments.value_or(0) + 1) /
+                                         static_cast<double>(*whole.fragments + 1));
         ++sum.scenes;
         sum.right += cost.right ? 1 : 0;
     }
@@ -151,9 +154,11 @@ void print_means(std::map<std::string_view, Sums>& sums) {
                "fragments", "right");
     for (const Technique& technique : all_techniques()) {
         const Sums& sum = sums[technique.name];
-        fmt::print("{:<24}{:>8.2f}{:>8.2f}{:>12.2f}{:>5}/{}\n", technique.name,
-                   std::exp(sum.log_of_cost / sum.scenes), technique.cost,
-                   std::exp(sum.log_of_fragments / sum.scenes), sum.right, sum.scenes);
+        const std::string fragments =
+            sum.counts ? fmt::format("{:.2f}", std::exp(sum.log_of_fragments / sum.scenes)) : "-";
+        fmt::print("{:<24}{:>8.2f}{:>8.2f}{:>12}{:>5}/{}\n", technique.name,
+                   std::exp(sum.log_of_cost / sum.scenes), technique.cost, fragments, sum.right,
+                   sum.scenes);
     }
 }
 

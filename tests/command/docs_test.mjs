@@ -28,7 +28,7 @@ test('the table of techniques says what list says', () => {
   const shown = rows.map((row) => Object.fromEntries(titles.map((title, i) => [title, row[i]])));
   // What all may show, the text below the table says.
   const uncounted = ['invert', 'zfail_float'];
-  const common = ({ name }) => (name.startsWith('traced_') ? ['precision']
+  const common = ({ name }) => (/^traced_|_map/.test(name) ? ['precision']
     : ['precision', 'open_mesh', ...(uncounted.includes(name) ? [] : ['counter'])]);
   for (const technique of techniques)
     for (const cause of common(technique))

@@ -88,7 +88,7 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
         try {
             const Frame frame = draw(trial, technique, settings);
             point.family = frame.family;
-            point.own = own_settings(technique, frame);
+            point.own = own_settings(technique, frame, trial.scene.unit);
             point.error = error_of(trial, technique.name, frame);
         } catch (const std::bad_alloc&) {
             why = out_of_memory;
@@ -133,7 +133,7 @@ void add_points(Trial& trial) {
         BenchSettings fixed;
         for (const SweptSetting& setting : swept_settings())
             for (const auto& each : options.fixed)
-                if (each.first == setting.name && setting.matters(*technique))
+                if (each.first == setting.name && heeds(*technique, setting.name))
                     fixed.push_back(each);
         std::string why;
         const BenchPoint* const own = add_point(trial, *technique, fixed, why);

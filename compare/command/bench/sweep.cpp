@@ -1,5 +1,7 @@
 #include "compare/command/bench/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -7,25 +9,53 @@ namespace shadowproof {
 
 namespace {
 
-bool lights_bumps(const Technique& technique) {
-    return technique.needs_bump_maps;
-}
-
 std::vector<std::string_view> names_of(const auto& values) {
     std::vector<std::string_view> names;
     for (const auto value : values) names.push_back(name_of(value));
     return names;
 }
 
+/// A length of the world in the file's units. Both are floats in the techniques.
+std::string length(double in_world, double unit) {
+    return fmt::format("{}", static_cast<float>(in_world * unit));
+}
+
 } // namespace
 
 std::span<const SweptSetting> swept_settings() {
     static const std::array settings{
+        SweptSetting{"normalise", names_of(all_normalisations),
+                     [](const Frame& f, double) {
+                         return std::string(name_of(f.color_model.normalisation));
+                     }},
         SweptSetting{
-            "normalise", names_of(all_normalisations), lights_bumps,
-            [](const Frame& f) { return std::string(name_of(f.color_model.normalisation)); }},
-        SweptSetting{"bumps", names_of(all_bump_forms), lights_bumps,
-                     [](const Frame& f) { return std::string(name_of(f.color_model.bump_form)); }},
+            "bumps", names_of(all_bump_forms),
+            [](const Frame& f, double) { return std::string(name_of(f.color_model.bump_form)); }},
+        SweptSetting{
+            "map-size",
+            {"64", "128", "256", "512", "1024", "2048", "4096"},
+            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.size); }},
+        SweptSetting{
+            "map-bias",
+            {"0", "0.001", "0.01", "0.05", "0.15", "0.5"},
+            [](const Frame& f, double unit) { return length(f.mapped->model.bias, unit); }},
+        SweptSetting{
+            "map-value", names_of(all_map_values),
+            [](const Frame& f, double) { return std::string(name_of(f.mapped->model.value)); }},
+        SweptSetting{
+            "map-format", names_of(all_map_formats),
+            [](const Frame& f, double) { return std::string(name_of(f.mapped->model.format)); }},
+        SweptSetting{
+            "map-culling", names_of(all_map_cullings),
+            [](const Frame& f, double) { return std::string(name_of(f.mapped->model.culling)); }},
+        SweptSetting{
+            "ray-epsilon",
+            {"0", "1e-6", "1e-5", "1e-4", "0.001", "0.01", "0.1"},
+            [](const Frame& f, double unit) { return length(f.rays->model.distance, unit); }},
+        SweptSetting{
+            "ray-offset",
+            {"0", "1e-6", "1e-5", "1e-4", "0.001", "0.01", "0.1"},
+            [](const Frame& f, double unit) { return length(f.rays->model.distance, unit); }},
     };
     return settings;
 }
@@ -42,10 +72,11 @@ TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& se
     return options;
 }
 
-BenchSettings own_settings(const Technique& technique, const Frame& frame) {
+BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit) {
     BenchSettings own;
     for (const SweptSetting& setting : swept_settings())
-        if (setting.matters(technique)) own.emplace_back(setting.name, setting.own(frame));
+        if (heeds(technique, setting.name))
+            own.emplace_back(setting.name, setting.own(frame, unit));
     return own;
 }
 
@@ -56,7 +87,7 @@ std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings
     };
     std::vector<BenchSettings> all;
     for (const SweptSetting& setting : swept_settings()) {
-        if (!setting.matters(technique) ||
+        if (!heeds(technique, setting.name) ||
             has(fixed, [&](const auto& each) { return each.first == setting.name; }))
             continue;
         for (const std::string_view value : setting.values) {

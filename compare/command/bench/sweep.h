@@ -16,8 +16,8 @@ namespace shadowproof {
 struct SweptSetting {
     std::string_view name; ///< of the flag, without its dashes
     std::vector<std::string_view> values;
-    bool (*matters)(const Technique& technique); ///< whether the technique heeds the flag
-    std::string (*own)(const Frame& frame);      ///< the value by which a frame was made
+    /// The value by which a frame was made, as the flag would have it. `unit`: Scene::unit.
+    std::string (*own)(const Frame& frame, double unit);
 };
 
 /// All of them, in the order in which they are swept.
@@ -28,7 +28,7 @@ std::span<const SweptSetting> swept_settings();
 TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& settings);
 
 /// What a technique takes by itself, by a frame that it made without any setting.
-BenchSettings own_settings(const Technique& technique, const Frame& frame);
+BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit);
 
 /// One setting at a time, each value but the technique's own; settings in `fixed` stay.
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
