@@ -196,19 +196,19 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 }
 
 // An interpolated value is q = p / r, where p is the value over depth and r the inverse depth, both
-// off by up to the share of its size: q is off by (error of p + |q| error of r) / r.
+// off by up to e: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation) {
-    const double inverse_depth =
-        largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
-                      [&](const PictureTriangle& one, const glm::dvec2& place) {
-                          return attribute_error_of(one, place, variation);
-                      });
+    const double error = largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
+                                       [&](const PictureTriangle& one, const glm::dvec2& place) {
+                                           return attribute_error_of(one, place, variation);
+                                       });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
     const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
-    return 2 * inverse_depth * depth;
+    const double share = error * depth; // of the inverse depth
+    return share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
 }
 
 double interpolated_place_error(const Scene& scene, std::uint32_t triangle,

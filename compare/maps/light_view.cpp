@@ -161,8 +161,16 @@ LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre
     return shown_around(texel);
 }
 
+bool LightView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {
+    if (seen.triangle == no_triangle) return false;
+    const double to_near = 1 / map_.model.near - 1 / seen.depth;
+    const PlaneAtPixel at = plane(texel, seen.triangle);
+    return !at.has_depth() || to_near <= at.error();
+}
+
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what
-// is seen all around.
+// is seen all around. What lies as near to the near plane as its depth is off may be clipped, and
+// hides nothing.
 LightView::Shown LightView::shown_around(const Texel& texel) const {
     if (!tracer_) return {};
     const Scene& scene = faces_[texel.face];
@@ -173,9 +181,9 @@ LightView::Shown LightView::shown_around(const Texel& texel) const {
         neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
     double farthest = 0;
     for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
-        farthest = std::max(farthest, seen.depth);
         if (seen.triangle == no_triangle && stored(texel) == 1)
             return {true, no_triangle, infinity};
+        farthest = std::max(farthest, may_be_clipped(texel, seen) ? infinity : seen.depth);
     }
     const double reach_of_ray = spread(around);
     for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {

@@ -66,6 +66,7 @@ private:
     double value(const PlaneAtPixel& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool is_in_format(float stored) const;
+    bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
     Shown shown_around(const Texel& texel) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
@@ -46,6 +47,19 @@ std::array<glm::dvec3, 8> corners_of(const glm::dvec3& vector, const glm::dvec3&
     return corners;
 }
 
+/// Least and largest value in the box: a distance is least at its point nearest to the light.
+std::pair<double, double> range_of_value(const MapModel& model, const Camera& camera,
+                                         const UncertainPoint& point) {
+    if (model.value == MapValue::depth) {
+        const double depth = glm::dot(point.from_light, camera.forward);
+        const double error = glm::dot(point.error, glm::abs(camera.forward));
+        return {depth - error, depth + error};
+    }
+    const glm::dvec3 away = glm::abs(point.from_light);
+    return {glm::length(glm::max(away - point.error, glm::dvec3(0))),
+            glm::length(away + point.error)};
+}
+
 /// Whether a vector in the box may be asked of the face: no other axis is certainly larger.
 bool may_pierce(const LightView& light, std::size_t face, const UncertainPoint& point) {
     const glm::dvec3& axis = light.camera(face).forward;
@@ -76,39 +90,37 @@ Lookup lookup(const LightView& light, const glm::dvec3& from_light) {
 // Seen from a face, a box's picture is within the rectangle of its corners' as long as all lie
 // before the camera. The division, the halving, the sum and the product with the size round by v
 // of at most the map's size each: 4 v, of which the quotient's counts twice.
-std::vector<PossibleLookup> possible_lookups(const LightView& light, const UncertainPoint& point) {
+std::optional<PossibleLookup>
+find_possible_lookup(const LightView& light, const UncertainPoint& point,
+                     const std::function<bool(const PossibleLookup&)>& holds) {
     const MapModel& model = light.model();
-    std::vector<PossibleLookup> found;
-    const glm::dvec3 error = turned_error(light, point);
-    const std::array<glm::dvec3, 8> corners = corners_of(point.from_light, error);
+    const UncertainPoint asked{point.from_light, turned_error(light, point)};
+    const std::array<glm::dvec3, 8> corners = corners_of(asked.from_light, asked.error);
     for (std::size_t face = 0; face < model.faces(); ++face) {
-        if (!may_pierce(light, face, {point.from_light, error})) continue;
+        if (!may_pierce(light, face, asked)) continue;
         const Camera& camera = light.camera(face);
         glm::dvec2 low(model.size, model.size);
         glm::dvec2 high(0, 0);
-        double least = std::numeric_limits<double>::infinity();
-        double most = 0;
         for (const glm::dvec3& corner : corners) {
-            const double depth = glm::dot(corner, camera.forward);
-            const double value = value_of(model, corner, depth);
-            least = std::min(least, value);
-            most = std::max(most, value);
-            if (!(depth > 0)) { // the light itself lies in the box
+            if (!(glm::dot(corner, camera.forward) > 0)) { // the light itself lies in the box
                 low = {0, 0};
                 high = {model.size, model.size};
-                continue;
+                break;
             }
             const glm::dvec2 place = place_of(camera, corner);
             low = glm::min(low, place);
             high = glm::max(high, place);
         }
+        const auto [least, most] = range_of_value(model, camera, asked);
         const double rounding = 5 * v * model.size;
         for (int y = clamped(model, low.y - rounding); y <= clamped(model, high.y + rounding); ++y)
             for (int x = clamped(model, low.x - rounding); x <= clamped(model, high.x + rounding);
-                 ++x)
-                found.push_back({{static_cast<std::uint32_t>(face), x, y}, least, most});
+                 ++x) {
+                const PossibleLookup found{{static_cast<std::uint32_t>(face), x, y}, least, most};
+                if (holds(found)) return found;
+            }
     }
-    return found;
+    return std::nullopt;
 }
 
 // Distances: a product, a sum, and a length of three products, two sums and a root. Depths: the

@@ -4,8 +4,9 @@
 
 #include "compare/maps/light_view.h"
 
+#include <functional>
 #include <glm/vec3.hpp>
-#include <vector>
+#include <optional>
 
 namespace shadowproof {
 
@@ -24,13 +25,16 @@ struct UncertainPoint {
     glm::dvec3 error{0, 0, 0};
 };
 
-/// All texels that may be asked, each with bounds of the point's own value.
+/// A texel that may be asked, and bounds of the point's own value.
 struct PossibleLookup {
     Texel texel;
     double low = 0; ///< of the value
     double high = 0;
 };
-std::vector<PossibleLookup> possible_lookups(const LightView& light, const UncertainPoint& point);
+/// The first of all texels that may be asked for which `holds`.
+std::optional<PossibleLookup>
+find_possible_lookup(const LightView& light, const UncertainPoint& point,
+                     const std::function<bool(const PossibleLookup&)>& holds);
 
 /// Whether a comparison with the texel's stored value may say `shadowed`, and may say `lit`.
 struct Answers {

@@ -257,6 +257,7 @@ private:
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
         point.error += interpolated_place_error(scene, triangle, {direction_at(p), reach, drawing},
                                                 chosen_light(scene).position);
+        point.error = glm::min(point.error, glm::dvec3(1e30)); // infinity times zero is no number
         return point;
     }
 
@@ -319,19 +320,20 @@ private:
             cause = {Cause::range, {}};
             return true;
         }
-        for (const PossibleLookup& possible : possible_lookups(light_, point)) {
+        const auto answers_so = [&](const PossibleLookup& possible) {
             const Answers answers =
                 compare(light_.model(), light_.stored(possible.texel), possible.low, possible.high);
-            if (!(claim == Visibility::lit ? answers.lit : answers.shadowed)) continue;
-            const LightView::Shown shown = shown_by(possible.texel);
-            if (!shown.shows) continue;
-            Lookup asked = exact;
-            asked.texel = possible.texel;
-            cause = cause_of(light_, claim_.traced.scene(),
-                             {drawn, point.from_light, asked, shown, claim == Visibility::lit});
-            return true;
-        }
-        return false;
+            return (claim == Visibility::lit ? answers.lit : answers.shadowed) &&
+                   shown_by(possible.texel).shows;
+        };
+        const std::optional<PossibleLookup> found = find_possible_lookup(light_, point, answers_so);
+        if (!found) return false;
+        Lookup asked = exact;
+        asked.texel = found->texel;
+        cause = cause_of(
+            light_, claim_.traced.scene(),
+            {drawn, point.from_light, asked, shown_by(found->texel), claim == Visibility::lit});
+        return true;
     }
 };
 
