@@ -49,9 +49,11 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
     model.culling = settings.culling.value_or(model.culling);
     // A light without casters has a map all the same.
     const double farthest = farthest_caster(scene, light.position) * scene.unit;
-    model.far = in_float(settings.far.value_or(farthest > 0 ? farthest * (1 + 0x1p-10) : 1));
+    // Window depths at the far plane are 2 near (far - depth) / far away from being clipped: 16
+    // times what a float of that size rounds by.
+    model.far = in_float(settings.far.value_or(farthest > 0 ? farthest * (1 + 0x1p-6) : 1));
     // Distances lose nothing to a near plane close to the light; depths do.
-    const double share = model.value == MapValue::distance ? 0x1p-20 : 0x1p-10;
+    const double share = model.value == MapValue::distance ? 0x1p-14 : 0x1p-10;
     model.near = in_float(settings.near.value_or(model.far * scene.unit * share));
     if (!(model.near > 0 && model.near < model.far))
         refuse(scene,

@@ -110,10 +110,10 @@ struct MapEvidence {
 };
 
 /// The values of the source documents where the user asked for nothing: the bias is 0.15 world
-/// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is just beyond the
-/// farthest caster's corner, and `near` a thousandth of that, a millionth where distances are
-/// stored. The light must have a position. Throws Error where the user's planes are no range, or a
-/// spot is too wide.
+/// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is a little beyond
+/// the farthest caster's corner, and `near` 2^-10 of that, 2^-14 where distances are stored. The
+/// light must have a position. Throws Error where the user's planes are no range, or a spot is too
+/// wide.
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene);
 
 /// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its

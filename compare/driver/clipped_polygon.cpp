@@ -138,6 +138,33 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera,
     return clipped_polygon(camera, std::move(polygon), drawing, PlaneCut::nominal);
 }
 
+// The corners are discs, and the polygon lies within the discs' convex hull. A place outside of it
+// is separated from it by the line across the way to the hull's nearest point, which lies on a disc
+// or on a line that touches two of them.
+bool may_hold(const std::vector<PicturePoint>& polygon, const glm::dvec2& place, double reach) {
+    const auto is_beyond = [&](const glm::dvec2& direction) {
+        return std::all_of(polygon.begin(), polygon.end(), [&](const PicturePoint& corner) {
+            return glm::dot(direction, place - corner.place) > corner.place_error + reach;
+        });
+    };
+    for (const PicturePoint& one : polygon) {
+        const glm::dvec2 way = place - one.place;
+        if (way != glm::dvec2(0) && is_beyond(glm::normalize(way))) return false;
+        for (const PicturePoint& other : polygon) {
+            const glm::dvec2 along = other.place - one.place;
+            const double length = glm::length(along);
+            const double growth = one.place_error - other.place_error;
+            if (!(length > std::abs(growth))) continue; // one disc holds the other
+            const double sine = growth / length;
+            const double cosine = std::sqrt(1 - sine * sine);
+            const glm::dvec2 unit = along / length;
+            const glm::dvec2 across(-unit.y, unit.x);
+            if (is_beyond(sine * unit + cosine * across)) return false;
+        }
+    }
+    return !polygon.empty();
+}
+
 std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
                                                            const std::vector<glm::vec3>* far_ends,
                                                            std::uint32_t triangle, int first) {

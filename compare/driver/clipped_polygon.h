@@ -75,6 +75,10 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing);
 
+/// Whether a polygon whose corners may each lie anywhere within their place_error, and all of it
+/// `reach` pixels aside, may hold a place of the picture.
+bool may_hold(const std::vector<PicturePoint>& polygon, const glm::dvec2& place, double reach);
+
 /// The triangles that may draw a side of a volume, over the edge from corner `first` of a triangle
 /// to the next. A side is two triangles; the order of positions decides which diagonal divides
 /// them. `far_ends`: where the casters' positions lie once extruded, null where that is at

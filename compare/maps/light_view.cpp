@@ -164,13 +164,30 @@ LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre
 bool LightView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {
     if (seen.triangle == no_triangle) return false;
     const double to_near = 1 / map_.model.near - 1 / seen.depth;
+    const double to_far = 1 / seen.depth - 1 / map_.model.far;
     const PlaneAtPixel at = plane(texel, seen.triangle);
-    return !at.has_depth() || to_near <= at.error();
+    return !at.has_depth() || std::min(to_near, to_far) <= at.error();
+}
+
+/// Whether the clipper, which moves the corners that it makes, may have made a triangle cover the
+/// texel's centre.
+bool LightView::clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const {
+    const Scene& scene = faces_[texel.face];
+    const Drawing drawing = drawing_of(scene, depth_model_, map_.model.far);
+    std::vector<ViewCorner> corners;
+    for (int k = 0; k < 3; ++k)
+        corners.push_back(
+            viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing.offset));
+    const auto is_beyond_near = [&](const ViewCorner& c) { return c.at.z > 2 * map_.model.near; };
+    if (std::all_of(corners.begin(), corners.end(), is_beyond_near)) return false;
+    const std::vector<PicturePoint> polygon =
+        clipped_polygon(scene.camera, std::move(corners), drawing, PlaneCut::most);
+    return may_hold(polygon, {texel.x + 0.5, texel.y + 0.5}, reach);
 }
 
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what
-// is seen all around. What lies as near to the near plane as its depth is off may be clipped, and
-// hides nothing.
+// is seen all around. What lies as near to the near or far plane as its depth is off may be
+// clipped, and hides nothing.
 LightView::Shown LightView::shown_around(const Texel& texel) const {
     if (!tracer_) return {};
     const Scene& scene = faces_[texel.face];
@@ -181,19 +198,25 @@ LightView::Shown LightView::shown_around(const Texel& texel) const {
         neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
     double farthest = 0;
     for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
-        if (seen.triangle == no_triangle && stored(texel) == 1)
+        const bool clipped = may_be_clipped(texel, seen);
+        if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1)
             return {true, no_triangle, infinity};
-        farthest = std::max(farthest, may_be_clipped(texel, seen) ? infinity : seen.depth);
+        farthest = std::max(farthest, clipped ? infinity : seen.depth);
     }
-    const double reach_of_ray = spread(around);
-    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
-        if (!may_cover(scene, caster, centre, reach_of_ray)) continue;
+    const auto may_show = [&](std::uint32_t caster) {
         const PlaneAtPixel at = plane(texel, caster);
         // Distances are compared as they are stored, so that window depth's roundings do not count.
         const double error = map_.model.value == MapValue::depth ? at.error() : at.error_of_place();
         const bool hidden = (at.inverse_depth() + error) * farthest * (1 + 0x1p-16) < 1;
-        if (!hidden && may_store(texel, caster)) return showing(texel, caster);
-    }
+        return !hidden && may_store(texel, caster);
+    };
+    const double reach_of_ray = spread(around);
+    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+        if (may_cover(scene, caster, centre, reach_of_ray) && may_show(caster))
+            return showing(texel, caster);
+    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+        if (clipping_may_draw(texel, caster, reach) && may_show(caster))
+            return showing(texel, caster);
     return {};
 }
 

@@ -67,6 +67,7 @@ private:
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool is_in_format(float stored) const;
     bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
+    bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
     Shown shown_around(const Texel& texel) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;
 };

@@ -21,8 +21,7 @@ bool is_in_range(const MapModel& model, const Lookup& lookup) {
 
 PixelCause of_false_shadow(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
-    if (wrong.shown.triangle == no_triangle || !is_in_range(model, wrong.lookup))
-        return {Cause::range, {}};
+    if (!is_in_range(model, wrong.lookup)) return {Cause::range, {}};
     if (!(wrong.shown.value + model.bias < wrong.lookup.value)) return {Cause::precision, {}};
     return {are_joined(scene, wrong.shown.triangle, wrong.receiver) ? Cause::acne
                                                                     : Cause::resolution,

@@ -245,9 +245,19 @@ private:
             const double depth = depth_on_triangle(scene, triangle, direction);
             return to_eye + (depth > 0 ? depth : claim_.traced.far()) * direction;
         };
+        // Seen nearly edge-on, the plane may be anywhere; the triangle is not.
+        const glm::dvec3 centre = at(p.x + 0.5, p.y + 0.5);
+        double nearest = std::numeric_limits<double>::infinity();
+        double farthest = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double depth = view_depth(camera, corner(scene, triangle, k));
+            nearest = std::min(nearest, depth);
+            farthest = std::max(farthest, depth);
+        }
+        const double on_plane = view_depth(camera, centre + chosen_light(scene).position);
+        const double depth = std::clamp(on_plane, nearest, farthest);
         UncertainPoint point;
-        point.from_light = at(p.x + 0.5, p.y + 0.5);
-        const double depth = view_depth(camera, point.from_light + chosen_light(scene).position);
+        point.from_light = centre + (depth - on_plane) * direction_at(p);
         const double reach = lateral(direction_at(p), depth);
         for (const double x : {-reach, reach})
             for (const double y : {-reach, reach})
