@@ -269,10 +269,9 @@ int explain(const ExplainOptions& options) {
                     Workload::comparison);
     const Scene scene = load_scene(options.scene, options.picture.request());
     require_scene(memory, scene, Workload::comparison);
+    require_map(memory, options.technique.asked.map);
     Plan plan = make_plan(scene);
-    plan.lighting = options.technique.lighting;
-    plan.map = options.technique.map;
-    plan.rays = options.technique.rays;
+    plan.asked = options.technique.asked;
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const TracedScene traced(tracer, truth);

@@ -260,9 +260,9 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "--gl", [&](const std::string& text) { options.platform = parse_platform(text); },
             "Where OpenGL comes from: osmesa or egl (osmesa)")
         ->type_name("PLATFORM");
-    add_lighting_flags(command, options.lighting);
-    add_map_flags(command, options.map);
-    add_ray_flags(command, options.rays);
+    add_lighting_flags(command, options.asked.lighting);
+    add_map_flags(command, options.asked.map);
+    add_ray_flags(command, options.asked.rays);
 }
 
 CLI::Validator not_empty() {
@@ -283,10 +283,10 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (scene.light) add("--light", *scene.light);
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
-    const LightingSettings& lighting = technique.lighting;
+    const LightingSettings& lighting = technique.asked.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
-    const MapSettings& map = technique.map;
+    const MapSettings& map = technique.asked.map;
     if (map.size) add("--map-size", fmt::format("{}", *map.size));
     if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
     if (map.value) add("--map-value", std::string(name_of(*map.value)));
@@ -294,7 +294,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
     if (map.near) add("--map-near", fmt::format("{}", *map.near));
     if (map.far) add("--map-far", fmt::format("{}", *map.far));
-    const RaySettings& rays = technique.rays;
+    const RaySettings& rays = technique.asked.rays;
     if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
     if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));
     return words;

@@ -4,11 +4,9 @@
 #include "compare/report/report.h"
 #include "raster/gl/context.h"
 #include "raster/technique.h"
-#include "scenes/lighting_settings.h"
 #include "scenes/load/scene_request.h"
 #include "scenes/memory_budget.h"
-#include "scenes/shadow_map.h"
-#include "scenes/traced_rays.h"
+#include "scenes/technique_settings.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -52,9 +50,7 @@ struct SceneOptions {
 struct TechniqueOptions {
     std::vector<const Technique*> techniques; ///< empty: all
     GlPlatform platform = GlPlatform::osmesa;
-    LightingSettings lighting{};
-    MapSettings map{};
-    RaySettings rays{};
+    TechniqueSettings asked{};
 
     std::vector<const Technique*> chosen() const;
 };

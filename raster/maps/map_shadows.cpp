@@ -112,7 +112,7 @@ Times quickest_frame(Frames& frames) {
 } // namespace
 
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
-    const MapModel model = with_settings(recipe.model, plan.map, scene);
+    const MapModel model = with_settings(recipe.model, plan.asked.map, scene);
     Frames frames(gpu, scene, model, recipe.making);
     const GlFunctions& gl = gpu.gl();
     compile_all(frames);

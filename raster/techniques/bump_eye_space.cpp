@@ -12,7 +12,8 @@ namespace {
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
-                       .model = with_settings({.axes = ColorModel::Axes::eye}, plan.lighting)};
+                       .model =
+                           with_settings({.axes = ColorModel::Axes::eye}, plan.asked.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -20,7 +20,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     recipe.lighting = {.steps = {{.fragment = shader_file("ambient.frag")},
                                  {.fragment = shader_file("bump_combiners.frag"),
                                   .where = LightingStep::Where::lit}},
-                       .model = with_settings(model, plan.lighting)};
+                       .model = with_settings(model, plan.asked.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

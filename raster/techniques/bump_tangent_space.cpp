@@ -16,7 +16,7 @@ namespace {
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
-                       .model = with_settings({}, plan.lighting)};
+                       .model = with_settings({}, plan.asked.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

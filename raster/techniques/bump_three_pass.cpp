@@ -25,7 +25,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
                   {.fragment = shader_file("bump_specular.frag"),
                    .where = Step::Where::lit,
                    .blend = Step::Blend::add}},
-        .model = with_settings(model, plan.lighting)};
+        .model = with_settings(model, plan.asked.lighting)};
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -172,13 +172,13 @@ FloatRay shadow_ray(const RayModel& model, const RoundedHit& hit, const Light& l
 }
 
 RayRecipe epsilon_recipe(const Scene& scene, const Plan& plan) {
-    const double epsilon = plan.rays.epsilon.value_or(customary_epsilon);
+    const double epsilon = plan.asked.rays.epsilon.value_or(customary_epsilon);
     return {.model = {RayModel::Start::epsilon, in_scene_units(scene, epsilon)},
             .shadow_ray = shadow_ray};
 }
 
 RayRecipe offset_recipe(const Scene& scene, const Plan& plan) {
-    const double offset = plan.rays.offset.value_or(customary_epsilon);
+    const double offset = plan.asked.rays.offset.value_or(customary_epsilon);
     return {.model = {RayModel::Start::offset, in_scene_units(scene, offset)},
             .shadow_ray = shadow_ray};
 }

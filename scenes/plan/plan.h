@@ -2,10 +2,8 @@
 // Every "not needed" is conservative: it is claimed only where it is certain.
 #pragma once
 
-#include "scenes/lighting_settings.h"
 #include "scenes/scene.h"
-#include "scenes/shadow_map.h"
-#include "scenes/traced_rays.h"
+#include "scenes/technique_settings.h"
 
 #include <cstdint>
 #include <string>
@@ -21,9 +19,7 @@ struct Plan {
     /// From triangles_around_light. Unlike the rest it is a requirement: these triangles must be
     /// flipped.
     std::vector<std::uint8_t> around_light{};
-    LightingSettings lighting{};       ///< what the user asked for; empty: left to the techniques
-    MapSettings map{};                 ///< likewise
-    RaySettings rays{};                ///< the same of traced shadows
+    TechniqueSettings asked{};
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
     std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line per faulty caster
 };

@@ -46,7 +46,7 @@ std::vector<std::unique_ptr<Lit>> lit_scenes() {
 
 Frame draw(const Lit& lit, Gpu& gpu, const char* technique, const LightingSettings& settings = {}) {
     Plan plan = lit.plan;
-    plan.lighting = settings;
+    plan.asked.lighting = settings;
     return render(*find_technique(technique), lit.scene, plan, gpu);
 }
 

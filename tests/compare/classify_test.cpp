@@ -56,6 +56,8 @@ protected:
     /// Of a thousand pixels, how many may lie in the band. 3 are the most that D24 was seen to
     /// need.
     static std::size_t widest_band(const std::string& scene, const Technique& technique) {
+        // Lookups that straddle texels.
+        if (technique.name.find("map") != std::string_view::npos) return 20;
         // The light is in the plane of a seen face: a side of the volume lies in the face itself.
         if (scene == "light_in_plane") return 30;
         // Filled T-junctions are slivers that lie in the faces.

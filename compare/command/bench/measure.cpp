@@ -40,7 +40,8 @@ struct Trial {
 };
 
 Frame draw(Trial& trial, const Technique& technique, const BenchSettings& settings) {
-    trial.plan.lighting = with_settings(trial.work.options.technique, settings).lighting;
+    trial.plan.asked = with_settings(trial.work.options.technique, settings).asked;
+    require_map(trial.work.options.scene.memory, trial.plan.asked.map);
     return render(technique, trial.scene, trial.plan, trial.work.gpu);
 }
 

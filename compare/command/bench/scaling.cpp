@@ -108,7 +108,7 @@ void measure_size(const BenchWork& work, std::vector<Runner>& runners, const Sce
     require_scene(work.options.scene.memory, scene, Workload::comparison);
     const Tracer tracer(scene, work.options.scene.threads);
     Plan plan = make_plan(scene);
-    plan.lighting = work.options.technique.lighting;
+    plan.asked = work.options.technique.asked;
     const auto draw = [&](const Runner& runner) {
         return runner.technique == nullptr
                    ? trace(tracer).statistics.milliseconds

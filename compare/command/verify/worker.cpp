@@ -120,6 +120,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
                  std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     require_scene(options.scene.memory, scene, Workload::comparison);
+    require_map(options.scene.memory, options.technique.asked.map);
     result.light = chosen_light(scene);
     if (!begun) {
         result.name = scene.name;
@@ -128,9 +129,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
     }
     describe(result, scene);
     Plan plan = make_plan(scene);
-    plan.lighting = options.technique.lighting;
-    plan.map = options.technique.map;
-    plan.rays = options.technique.rays;
+    plan.asked = options.technique.asked;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
     if (!begun) announce(run.setup.console, result);

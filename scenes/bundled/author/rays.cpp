@@ -63,7 +63,7 @@ Stage slivers() {
     stage.yfov /= away;
     stage.znear = 513;
     stage.zfar = 713;
-    constexpr unsigned sides = 2048;
+    constexpr unsigned sides = 1024;
     add(stage, {{"left pillar",
                  disc(0.913, 1.313, sides),
                  slate,

@@ -50,7 +50,7 @@ std::vector<const Technique*> techniques_for(const Scene& scene) {
 ColorCheck colors_of(const TracedScene& scene, const Technique& technique,
                      const LightingSettings& settings, Gpu& gpu) {
     Plan plan = scene.plan;
-    plan.lighting = settings;
+    plan.asked.lighting = settings;
     return check_colors(scene.tracer, scene.truth, render(technique, scene.scene, plan, gpu));
 }
 

@@ -29,13 +29,13 @@ protected:
     static Comparison with_epsilon(const std::string& name, double epsilon) {
         const TracedScene& scene = traced(name);
         Plan plan = scene.plan;
-        plan.rays.epsilon = epsilon;
+        plan.asked.rays.epsilon = epsilon;
         return explained(scene, epsilon_recipe(scene.scene, plan));
     }
     static Comparison with_offset(const std::string& name, double offset) {
         const TracedScene& scene = traced(name);
         Plan plan = scene.plan;
-        plan.rays.offset = offset;
+        plan.asked.rays.offset = offset;
         return explained(scene, offset_recipe(scene.scene, plan));
     }
     static Comparison explained(const TracedScene& scene, const RayRecipe& recipe) {

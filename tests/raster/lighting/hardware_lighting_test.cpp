@@ -75,7 +75,7 @@ protected:
 
     Frame draw(const Lit& lit, const std::string& technique, const LightingSettings& settings) {
         Plan plan = lit.plan;
-        plan.lighting = settings;
+        plan.asked.lighting = settings;
         return render(*find_technique(technique), lit.scene, plan, gpu);
     }
 };
