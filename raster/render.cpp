@@ -50,8 +50,7 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 [[noreturn]] void refuse_scene(const Technique& technique, const Scene& scene) {
     const std::string file = scene.file.empty() ? scene.name : scene.file.string();
     const std::string name(technique.name);
-    const std::vector<Light::Kind>& lights = technique.lights;
-    if (!lights.empty() && std::ranges::find(lights, chosen_light(scene).kind) == lights.end())
+    if (!is_for(technique, chosen_light(scene).kind))
         throw Error(file, "has a light that is not one for " + name,
                     "leave the technique out; it needs " + std::string(technique.needs));
     if (!is_bump_lit(scene))

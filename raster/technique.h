@@ -38,12 +38,14 @@ struct Technique {
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 
+inline bool is_for(const Technique& technique, Light::Kind kind) {
+    const std::vector<Light::Kind>& lights = technique.lights;
+    return lights.empty() || std::find(lights.begin(), lights.end(), kind) != lights.end();
+}
+
 /// Whether a technique is for such a scene; if not, it is left out unless requested by name.
 inline bool suits(const Technique& technique, const Scene& scene) {
-    const std::vector<Light::Kind>& lights = technique.lights;
-    if (!lights.empty() &&
-        std::find(lights.begin(), lights.end(), chosen_light(scene).kind) == lights.end())
-        return false;
+    if (!is_for(technique, chosen_light(scene).kind)) return false;
     return !technique.needs_bump_maps ||
            (is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value());
 }

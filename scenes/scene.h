@@ -15,6 +15,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof {
@@ -76,6 +77,18 @@ struct Light {
     glm::dvec3 color{1, 1, 1};              ///< linear
     double intensity = 1;                   ///< candela, or lux where directional
 };
+
+constexpr std::string_view name_of(Light::Kind kind) {
+    switch (kind) {
+    case Light::Kind::point:
+        return "point";
+    case Light::Kind::spot:
+        return "spot";
+    case Light::Kind::directional:
+        break;
+    }
+    return "directional";
+}
 
 /// (position, 1), or (direction to the light, 0) of a directional one: L = (l, w). The direction
 /// from a point Q to the light is l - w Q.

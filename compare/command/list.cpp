@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace shadowproof {
 
@@ -18,6 +19,13 @@ std::string fails_at(const Technique& technique) {
     for (const Cause cause : technique.fails_at)
         names += (names.empty() ? "" : ", ") + std::string(name_of(cause));
     return names.empty() ? "nothing" : names;
+}
+
+std::vector<std::string_view> kinds_of_light(const Technique& technique) {
+    std::vector<std::string_view> names;
+    for (const Light::Kind kind : {Light::Kind::point, Light::Kind::spot, Light::Kind::directional})
+        if (is_for(technique, kind)) names.push_back(name_of(kind));
+    return names;
 }
 
 std::string as_text() {
@@ -41,6 +49,10 @@ std::string as_text() {
             add("for", technique.needs_environment
                            ? "scenes with bump maps and an environment alone"
                            : "scenes with bump maps and no environment");
+        if (!technique.lights.empty())
+            add("lights", fmt::format("{}", fmt::join(kinds_of_light(technique), ", ")));
+        if (!technique.settings.empty())
+            add("flags", fmt::format("--{}", fmt::join(technique.settings, ", --")));
         add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
         add("source", technique.source);
     }
@@ -65,6 +77,8 @@ Json as_json() {
                                       {"needs", technique.needs},
                                       {"needs_bump_maps", technique.needs_bump_maps},
                                       {"needs_environment", technique.needs_environment},
+                                      {"lights", kinds_of_light(technique)},
+                                      {"flags", technique.settings},
                                       {"cost", technique.cost},
                                       {"fails_at", causes},
                                       {"by_nature", by_nature}});

@@ -6,18 +6,6 @@ namespace shadowproof {
 
 namespace {
 
-std::string_view name_of(Light::Kind kind) {
-    switch (kind) {
-    case Light::Kind::point:
-        return "point";
-    case Light::Kind::spot:
-        return "spot";
-    case Light::Kind::directional:
-        break;
-    }
-    return "directional";
-}
-
 nlohmann::ordered_json vector_json(const glm::dvec3& v) {
     return nlohmann::ordered_json::array({v.x, v.y, v.z});
 }

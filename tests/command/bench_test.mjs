@@ -6,7 +6,7 @@ import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import Ajv from 'ajv/dist/2020.js';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
 
 const schema = JSON.parse(readFileSync(new URL('../../docs/bench.schema.json', import.meta.url)));
 const validate = new Ajv({ strict: true, allErrors: true }).compile(schema);
@@ -16,6 +16,11 @@ const write = (name, json) => writeFileSync(join(scratch, name), JSON.stringify(
 
 /** As little measuring as there can be: one sample of each point. */
 const least = ['--size', '48x48', '--repeats', '1', '-q'];
+
+/** The point of a run that has the technique and settings of another. */
+const pointOf = (run, { technique, settings }) => run.points.find(
+  (point) => point.technique === technique &&
+             JSON.stringify(point.settings) === JSON.stringify(settings));
 
 function benched(name, args) {
   const run = shadowproof(['bench', ...args, ...least, '--json', name]);
@@ -33,8 +38,9 @@ test('what it writes is valid by its schema', () => {
 
 test('every technique that suits the scene is there, and the truth', () => {
   const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
-  const plain = techniques.map(({ name }) => name).filter((name) => !name.startsWith('bump_'));
-  assert.deepEqual(shadows.points.map(({ technique }) => technique), ['truth', ...plain]);
+  const plain = techniques.filter(isForPointLights).map(({ name }) => name);
+  const own = shadows.points.filter(({ settings }) => Object.keys(settings).length === 0);
+  assert.deepEqual(own.map(({ technique }) => technique), ['truth', ...plain]);
   assert.equal(shadows.points[0].differing, 0);
 });
 
@@ -42,7 +48,7 @@ test('its errors are those of verify', () => {
   shadowproof(['verify', 'near_plane', '--size', '48x48', '--json', 'verified.json', '-q']);
   const [scene] = written('verified.json').scenes;
   for (const cell of scene.techniques) {
-    const point = shadows.points.find(({ technique }) => technique === cell.name);
+    const point = pointOf(shadows, { technique: cell.name, settings: {} });
     assert.deepEqual(point.causes, cell.causes, cell.name);
     assert.equal(point.differing, cell.differing, cell.name);
   }
@@ -169,7 +175,7 @@ test('a run that was stopped goes on: what is finished is not measured again', (
   assert.equal(whole.points.length, shadows.points.length);
   // One sample is all that was allowed, and all but one point had it.
   for (const point of half.points)
-    assert.deepEqual(whole.points.find(({ technique }) => technique === point.technique), point);
+    assert.deepEqual(pointOf(whole, point), point);
   // Finished: nothing is measured at all.
   assert.equal(shadowproof(args).code, 0);
   assert.deepEqual(written('half.json'), whole);
@@ -194,8 +200,7 @@ test('a run that is interrupted keeps what it has, whole, and leaves nothing els
   const whole = written('stopped.json');
   assert.ok(whole.finished);
   assert.equal(whole.points.length, shadows.points.length);
-  for (const { technique, ms } of part.points)
-    assert.deepEqual(whole.points.find((point) => point.technique === technique).ms, ms);
+  for (const point of part.points) assert.deepEqual(pointOf(whole, point).ms, point.ms);
 });
 
 test('another run is not gone on with', () => {

@@ -24,6 +24,10 @@ export function shadowproof(args, { env = {}, seconds = 800 } = {}) {
   return { code: run.status, signal: run.signal, out: run.stdout, err: run.stderr };
 }
 
+/** Whether a technique, as list has it, suits a scene without bump maps under a point light. */
+export const isForPointLights = ({ needs_bump_maps, lights }) =>
+  !needs_bump_maps && lights.includes('point');
+
 /** Paths, relative to a folder, of all files below it. */
 export function filesBelow(folder, prefix = '') {
   return readdirSync(join(folder, prefix)).sort().flatMap((name) => {

@@ -23,7 +23,9 @@ void BenchKeeper::keep(const BenchRun& run) {
 
 std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now) {
     std::error_code failure;
-    if (!std::filesystem::exists(file, failure) && !failure) return std::nullopt;
+    using std::filesystem::file_type;
+    if (std::filesystem::symlink_status(file, failure).type() == file_type::not_found)
+        return std::nullopt;
     BenchRun kept = read_bench(file);
     const auto require_same = [&](const char* what, const std::string& was, const std::string& is) {
         if (was != is)
