@@ -132,7 +132,7 @@ Technique auto_technique() {
             .summary = "zfail_reversed without what the scene does not need, caster by caster",
             .source = "McGuire, Hughes, Egan, Kilgard & Everitt 2003",
             .needs = "closed volumes, glClipControl, a D32F depth buffer, and a plan of the scene",
-            .cost = 0.83,
+            .cost = 0.81,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -27,7 +27,7 @@ Technique bump_tangent_space_technique() {
             .summary = "zfail_reversed, and bumps lit in tangent space, in floating point",
             .source = "Peercy, Airey & Cabral 1997; with stencil shadows: Kilgard 2001",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
-            .cost = 3.5,
+            .cost = 3.9,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .settings = {"normalise", "bumps"},

@@ -20,7 +20,7 @@ Technique invert_technique() {
             .summary = "zpass that inverts the stencil instead of counting",
             .source = "Kilgard 2001; CS448 lecture 11, parity",
             .needs = "volumes that do not overlap",
-            .cost = 0.93,
+            .cost = 0.91,
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
                          Cause::open_mesh, Cause::light_inside},
             .by_nature = {Cause::parity},

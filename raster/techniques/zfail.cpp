@@ -22,7 +22,7 @@ Technique zfail_technique() {
             .summary = "counts volume faces behind the surface, up to a far plane that clips",
             .source = "Kilgard 2001, \"Carmack's reverse\"; VGP353 week 5",
             .needs = "closed volumes, and a far plane that cuts none of them",
-            .cost = 0.97,
+            .cost = 1.08,
             .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::light_inside},
             .run = run};

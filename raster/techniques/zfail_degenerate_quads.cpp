@@ -20,7 +20,7 @@ Technique zfail_degenerate_quads_technique() {
             .summary = "zfail_reversed with a quad an edge, extruded by the vertex shader",
             .source = "VGP353 week 5, degenerate quads",
             .needs = "both triangles of each edge, known beforehand",
-            .cost = 1.5,
+            .cost = 1.42,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

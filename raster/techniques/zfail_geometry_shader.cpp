@@ -19,7 +19,7 @@ Technique zfail_geometry_shader_technique() {
             .summary = "zfail_reversed with volumes made by a geometry shader from adjacency",
             .source = "omni-directional shadows with geometry shaders",
             .needs = "geometry shaders, and triangles with adjacency",
-            .cost = 1.18,
+            .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -19,7 +19,7 @@ Technique zfail_no_dark_cap_technique() {
             .summary = "zfail_reversed without dark caps",
             .source = "what Everitt & Kilgard 2002 say is needed, left out",
             .needs = "rays that leave all volumes again",
-            .cost = 0.97,
+            .cost = 0.99,
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::cap},
             .run = run};

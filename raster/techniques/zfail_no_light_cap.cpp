@@ -19,7 +19,7 @@ Technique zfail_no_light_cap_technique() {
             .summary = "zfail_reversed without light caps",
             .source = "what Everitt & Kilgard 2002 say is needed, left out",
             .needs = "rays that pass no light cap behind the surface",
-            .cost = 0.77,
+            .cost = 0.78,
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::cap},
             .run = run};

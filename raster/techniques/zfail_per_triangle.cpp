@@ -27,7 +27,7 @@ Technique zfail_per_triangle_technique() {
             .summary = "zfail_reversed with one volume for each triangle",
             .source = "techniques without adjacency; VGP353 week 5",
             .needs = "nothing of the mesh",
-            .cost = 6.1,
+            .cost = 8.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

@@ -20,7 +20,7 @@ Technique zfail_saturate_technique() {
             .summary = "zfail_reversed with a counter that saturates",
             .source = "Kilgard 2001, before EXT_stencil_wrap",
             .needs = "faces in an order that never counts below zero",
-            .cost = 0.88,
+            .cost = 0.85,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::counter},
             .run = run};

@@ -22,7 +22,7 @@ Technique zfail_truncated_technique() {
             .summary = "zfail_reversed with volumes extruded by a finite distance",
             .source = "Kilgard 2001, truncated and capped volumes",
             .needs = "shadows that end within the distance",
-            .cost = 1.01,
+            .cost = 0.95,
             .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

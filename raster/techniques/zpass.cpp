@@ -19,7 +19,7 @@ Technique zpass_technique() {
             .summary = "counts volume faces in front of the surface",
             .source = "Heidmann 1991; Kilgard 2001, stencilled shadow volumes; VGP353 week 5",
             .needs = "a near plane outside every shadow volume",
-            .cost = 0.96,
+            .cost = 1.05,
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
                          Cause::open_mesh, Cause::light_inside},
             .run = run};

@@ -25,7 +25,7 @@ Technique zpass_capped_technique() {
             .summary = "zpass with volumes capped on the near plane",
             .source = "Kilgard 2001, \"A New Robust Technique\"",
             .needs = "a finite projection, and a CPU that cuts volumes",
-            .cost = 1.09,
+            .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .run = run};
 }

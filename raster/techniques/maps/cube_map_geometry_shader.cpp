@@ -18,6 +18,7 @@ Technique cube_map_geometry_shader_technique() {
             .summary = "a cube map of distances from the light, drawn in a single pass",
             .source = "Omni-directional shadows with geometry shaders, method 2",
             .needs = "a light with a position, and geometry shaders",
+            .cost = 1.44,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::point, Light::Kind::spot},

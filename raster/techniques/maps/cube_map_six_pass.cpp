@@ -18,6 +18,7 @@ Technique cube_map_six_pass_technique() {
             .summary = "a cube map of distances from the light, drawn face by face",
             .source = "Omni-directional shadows with geometry shaders, method 1",
             .needs = "a light with a position",
+            .cost = 1.33,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::point, Light::Kind::spot},

@@ -21,6 +21,7 @@ Technique spot_map_technique() {
             .summary = "a spot light's map of depths, looked up by projection",
             .source = "Williams 1978; CS448 lecture 11, shadow maps; Kilgard 2001",
             .needs = "a spot light with a cone narrower than 86 degrees to each side",
+            .cost = 2.3,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},

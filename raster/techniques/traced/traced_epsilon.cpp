@@ -18,7 +18,7 @@ Technique traced_epsilon_technique() {
             .summary = "rays traced in float, hits within a constant of their start ignored",
             .source = "Embree's tutorials; Pharr & Humphreys 2004, RAY_EPSILON",
             .needs = "a constant that suits the scene's size",
-            .cost = 3.7,
+            .cost = 5.1,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
             .settings = {"ray-epsilon"},

@@ -17,7 +17,7 @@ Technique traced_offset_technique() {
             .summary = "rays traced in float, started off the surface along its normal",
             .source = "Woo, Pearce & Ouellette 1996, It's Really Not a Rendering Bug, You See",
             .needs = "a distance that suits the scene's size",
-            .cost = 3.7,
+            .cost = 5.3,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
             .settings = {"ray-offset"},

@@ -18,7 +18,7 @@ Technique traced_skip_technique() {
             .summary = "rays traced in float, which pass through their own triangle",
             .source = "Waechter & Binder 2019, on exclusion by primitive",
             .needs = "flat surfaces: neighbours of the triangle are met",
-            .cost = 3.9,
+            .cost = 5.2,
             .fails_at = {Cause::acne, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::missed},
             .run = run};
