@@ -68,4 +68,4 @@ export const faults = [
   { name: 'depth_not_made_a_window_depth', file: test, right: 'planes.y / (planes.y - planes.x) * (1 - planes.x / nearer)', wrong: 'nearer / planes.y' },
   { name: 'map_not_asked', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'false && is_shadowed' },
   { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed' },
-];
+].map((fault) => ({ kind: 'map', ...fault }));

@@ -22,4 +22,4 @@ export const faults = [
   { name: 'ray_cone_a_thousandth_wider', file: rays, right: 'std::cos(light_.outer_cone)', wrong: 'std::cos(1.001 * light_.outer_cone)' },
   { name: 'ray_meets_a_triangle_less', file: world, right: 'std::copy(scene.triangles.begin(), scene.triangles.end(), triangles);', wrong: 'std::copy(scene.triangles.begin(), scene.triangles.end(), triangles); triangles[scene.triangles.size() / 2] = triangles[0];' },
   { name: 'ray_meets_vertices_1e-6_aside', file: world, right: 'std::copy(scene.positions.begin(), scene.positions.end(), vertices);', wrong: 'for (std::size_t i = 0; i < scene.positions.size(); ++i) vertices[i] = scene.positions[i] * 1.000001F;' },
-].map((fault) => ({ ...fault, techniques }));
+].map((fault) => ({ kind: 'rays', ...fault, techniques }));
