@@ -78,7 +78,10 @@ public:
         if (!claim_.differs(p)) return finding;
         const bool is_edge = std::any_of(truth.begin(), truth.end(),
                                          [&](const RayTruth& t) { return t.visibility == claim; });
-        finding.cause = is_edge ? PixelCause{Cause::edge, {}} : by_map;
+        if (is_edge)
+            finding.cause = {Cause::edge, {}};
+        else if (finding.evidence_in_band)
+            finding.cause = by_map;
         return finding;
     }
 
@@ -271,19 +274,19 @@ private:
         return point;
     }
 
-    /// Whether the claim follows from what may be drawn at the pixel. `cause`: what is then named.
+    /// Whether the claim follows from what may be drawn at the pixel. `cause`: what it is then
+    /// named, `edge` where a triangle that the pixel's surroundings show needs no map.
     bool may_claim(PixelPlace p, const Neighbourhood& around, std::span<const RayTruth> truth,
                    PixelCause& cause) const {
         const Visibility claim = claim_.frame.claim.at(p.x, p.y);
         const std::uint32_t drawn = claim_.frame.triangle.at(p.x, p.y);
+        cause = {Cause::edge, {}}; // unless the map is asked
         const auto seen = [&](std::uint32_t triangle) {
             return std::any_of(truth.begin(), truth.end(),
                                [&](const RayTruth& t) { return t.triangle == triangle; });
         };
-        if (drawn == no_triangle) {
-            cause = {Cause::edge, {}};
+        if (drawn == no_triangle)
             return claim == Visibility::background && (seen(no_triangle) || gapes(around, truth));
-        }
         const Scene& scene = claim_.traced.scene();
         if (claim == Visibility::background ||
             (!seen(drawn) && !may_cover(scene, drawn, around.rays.front(), spread(around))))
@@ -291,10 +294,7 @@ private:
         if (!sides_of(claim_.traced.tracer(), drawn).faces_light())
             return claim == Visibility::shadowed;
         const ConeSides cone = cone_sides(drawn, truth);
-        if (cone.outside && claim == Visibility::shadowed) {
-            cause = {Cause::edge, {}};
-            return true;
-        }
+        if (cone.outside && claim == Visibility::shadowed) return true;
         if (!cone.inside) return false;
         if (receives_[drawn] == 0) return claim == Visibility::lit;
         return map_may_answer(p, drawn, claim, cause);

@@ -53,6 +53,8 @@ function judge(run, what) {
 for (const [name, command] of Object.entries(commands))
   test(`${name} refuses what is no file of its kind, in one sentence`, () => {
     for (const file of inputs) {
+      // A run that was stopped before its first point left no file to go on from: it begins.
+      if (name === 'bench --resume' && file === 'missing') continue;
       const run = shadowproof(command(file), { seconds: 60 });
       judge(run, `${name} ${JSON.stringify(file).slice(0, 60)}`);
       if (file.length < 20 && file !== odd) assert.ok(run.err.includes(file), run.err);

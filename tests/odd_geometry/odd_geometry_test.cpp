@@ -165,6 +165,11 @@ TEST(OddGeometry, a_tiny_scene_with_one_huge_coordinate_is_refused) {
     try_seeds({533});
 }
 
+/// Pixel (8, 17) shows a back of a triangle that no ray around it meets.
+TEST(OddGeometry, a_back_beside_the_pixel_that_no_map_is_asked_about_is_explained) {
+    try_seeds({50});
+}
+
 TEST(OddGeometry, a_floor_of_393_km_under_the_feet_is_explained) {
     SceneRequest request;
     request.width = request.height = 24;
