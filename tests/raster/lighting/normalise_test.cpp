@@ -54,9 +54,9 @@ TEST(NormalisationCube, a_lookup_by_opengl_is_what_is_meant) {
     const Texture texture = upload_cube(gl, cube);
     gl.BindTextureUnit(3, texture.name());
     const Picture picture = make_picture(gl, GL_RGBA32F, side, side);
-    draw_pixels(gl, picture,
-                with_normalise(std::string(direction_of_pixel) +
-                               "void main() { result = vec4(looked_up(direction()), 0); }\n"));
+    std::string look_up = direction_of_pixel;
+    look_up += "void main() { result = vec4(looked_up(direction()), 0); }\n";
+    draw_pixels(gl, picture, with_normalise(look_up));
     std::vector<glm::vec3> found(std::size_t{side} * side);
     gl.ReadPixels(0, 0, side, side, GL_RGB, GL_FLOAT, found.data());
     double worst = 0;
