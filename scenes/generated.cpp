@@ -56,44 +56,46 @@ void add_box(Scene& scene, const glm::vec3& low, const glm::vec3& high) {
     }
 }
 
+/// All that was added so far is one mesh, seen from `eye` and lit from `light`.
+void finish(Scene& scene, const char* mesh, const glm::dvec3& eye, const glm::dvec3& light) {
+    scene.materials.emplace_back();
+    scene.meshes = {{mesh, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
+    scene.camera.eye = eye;
+    scene.camera.tan_half_height = 0.6;
+    scene.lights.emplace_back();
+    scene.lights[0].position = light;
+}
+
+Scene empty_scene(const char* name, int width, int height) {
+    Scene scene;
+    scene.name = name;
+    scene.camera.width = width;
+    scene.camera.height = height;
+    return scene;
+}
+
 } // namespace
 
 Scene dense_scene(int triangles, int width, int height) {
-    Scene scene;
-    scene.name = "dense";
+    Scene scene = empty_scene("dense", width, height);
     constexpr int balls = 5;
     const int rings = static_cast<int>(std::lround(std::sqrt(triangles / (2.0 * balls))));
     for (int i = 0; i < balls; ++i)
         add_ball(scene, {1.9 * (i - 2), 0.35 * (i % 3) - 0.2, -6 - 0.9 * (i % 2)}, 0.9, rings);
     add_floor(scene);
-    scene.materials.emplace_back();
-    scene.meshes = {{"balls", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
-    scene.camera.eye = {0.137, 1.271, 1.093};
-    scene.camera.tan_half_height = 0.6;
-    scene.camera.width = width;
-    scene.camera.height = height;
-    scene.lights.emplace_back();
-    scene.lights[0].position = {3.1, 5.3, -2.7};
+    finish(scene, "balls", {0.137, 1.271, 1.093}, {3.1, 5.3, -2.7});
     return scene;
 }
 
 Scene stacked_scene(int plates, int width, int height) {
-    Scene scene;
-    scene.name = "stacked";
+    Scene scene = empty_scene("stacked", width, height);
     for (int i = 0; i < plates; ++i) {
         const auto base = static_cast<float>(1.3 + 1.5 * i / plates);
         const auto top = static_cast<float>(1.3 + 1.5 * (i + 0.5) / plates);
         add_box(scene, {-1.2F, base, -6.2F}, {1.2F, top, -3.8F});
     }
     add_floor(scene);
-    scene.materials.emplace_back();
-    scene.meshes = {{"plates", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
-    scene.camera.eye = {0.137, 0.871, 1.093};
-    scene.camera.tan_half_height = 0.6;
-    scene.camera.width = width;
-    scene.camera.height = height;
-    scene.lights.emplace_back();
-    scene.lights[0].position = {0.31, 12.3, -4.9};
+    finish(scene, "plates", {0.137, 0.871, 1.093}, {0.31, 12.3, -4.9});
     return scene;
 }
 

@@ -6,12 +6,13 @@ namespace shadowproof {
 
 std::string bench_page() {
     std::string script;
-    for (const char* name : {"elements.js", "numbers.js", "bench_figures.js", "bench_layout.js",
-                             "bench_plot.js", "bench_growth.js", "bench_page.js"})
+    for (const char* name : {"elements.js", "numbers.js", "bench/figures.js", "bench/layout.js",
+                             "bench/plot.js", "bench/growth.js", "bench/page.js"})
         script += viewer_file(name);
-    return fill(viewer_file("bench.html"), {{"style", std::string(viewer_file("style.css")) +
-                                                          std::string(viewer_file("bench.css"))},
-                                            {"script", script}});
+    return fill(viewer_file("bench/page.html"),
+                {{"style", std::string(viewer_file("style.css")) +
+                               std::string(viewer_file("bench/style.css"))},
+                 {"script", script}});
 }
 
 std::string bench_script(const std::string& bench_json, const std::string& older_json) {

@@ -18,7 +18,7 @@ struct DestroyHeap {
 
 void check(duk_context* context, duk_int_t failed) {
     if (failed != 0)
-        throw Error("cutaway.js", duk_safe_to_string(context, -1),
+        throw Error("cutaway/cutaway.js", duk_safe_to_string(context, -1),
                     "report this with the scene and the pixel");
 }
 
@@ -28,8 +28,8 @@ std::string draw_cutaway(const std::string& record, std::size_t technique) {
     const std::unique_ptr<duk_context, DestroyHeap> heap(duk_create_heap_default());
     if (!heap) throw std::bad_alloc();
     duk_context* context = heap.get();
-    for (const char* name : {"cutaway_geometry.js", "cutaway_words.js", "cutaway_svg.js",
-                             "cutaway_side.js", "cutaway_strip.js", "cutaway.js"}) {
+    for (const char* name : {"cutaway/geometry.js", "cutaway/words.js", "cutaway/svg.js",
+                             "cutaway/side.js", "cutaway/strip.js", "cutaway/cutaway.js"}) {
         const std::string_view script = viewer_file(name);
         check(context, duk_peval_lstring(context, script.data(), script.size()));
         duk_pop(context);

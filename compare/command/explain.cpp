@@ -313,9 +313,7 @@ Work add_explain(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "explain", "One pixel: its ray, surface, light, and what each technique counted there");
     const auto options = std::make_shared<ExplainOptions>();
-    command->add_option("SCENE", options->scene, "A bundled name, or a path to .gltf, .glb or .md2")
-        ->required()
-        ->check(not_empty());
+    add_scene_argument(*command, options->scene);
     command
         ->add_option_function<std::string>(
             "--pixel", [options](const std::string& text) { options->pixel = parse_pixel(text); },

@@ -172,6 +172,19 @@ std::vector<const Technique*> TechniqueOptions::chosen() const {
     return all;
 }
 
+void add_scene_argument(CLI::App& command, std::string& scene) {
+    command.add_option("SCENE", scene, "A bundled name, or a path to .gltf, .glb or .md2")
+        ->required()
+        ->check(not_empty());
+}
+
+void add_scenes_argument(CLI::App& command, std::vector<std::string>& scenes) {
+    command
+        .add_option("SCENE", scenes,
+                    "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
+        ->check(not_empty());
+}
+
 void add_scene_flags(CLI::App& command, SceneOptions& options) {
     command
         .add_option_function<std::string>(

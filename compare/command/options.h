@@ -55,6 +55,10 @@ struct TechniqueOptions {
     std::vector<const Technique*> chosen() const;
 };
 
+/// Adds SCENE to a subcommand: one, which must be given, or any number, none for all bundled ones.
+void add_scene_argument(CLI::App& command, std::string& scene);
+void add_scenes_argument(CLI::App& command, std::vector<std::string>& scenes);
+
 /// Adds the flags to a subcommand. Values are checked as they are parsed: a bad one is wrong usage,
 /// and its message says what is possible.
 void add_scene_flags(CLI::App& command, SceneOptions& options);

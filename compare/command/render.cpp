@@ -102,9 +102,7 @@ void check_together(const RenderOptions& options) {
 Work add_render(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "The truth as a picture");
     const auto options = std::make_shared<RenderOptions>();
-    command->add_option("SCENE", options->scene, "A bundled name, or a path to .gltf, .glb or .md2")
-        ->required()
-        ->check(not_empty());
+    add_scene_argument(*command, options->scene);
     command
         ->add_option("-o,--output", options->output,
                      ".png: the class map (0 background, 64 shadowed, 255 lit), or what --aov "

@@ -6,18 +6,28 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowproof {
 
 namespace {
 
 constexpr double u = 0x1p-24; ///< half of a float's last place
-/// Products below this do not overflow, with room for their sums.
-constexpr double overflows = 1e37;
-/// Embree drops triangles with larger coordinates.
+/// Terms of at most this do not overflow: at most two of them are added (U + V), and rounding makes
+/// none twice as large.
+constexpr double largest_term = std::numeric_limits<float>::max() / 4;
+/// Embree drops triangles with larger coordinates: its FLT_LARGE is 1.844e18.
 constexpr double largest_coordinate = 1.8e18;
-/// More than two products lose by underflow, half of the smallest float each.
-constexpr double underflow = 1e-44;
+/// What a product of floats loses at most where it underflows.
+constexpr double half_of_smallest = std::numeric_limits<float>::denorm_min() / 2.0;
+
+/// What underflow takes from a number (see Numbers) whose cross product is multiplied by factors of
+/// the sum `by`: from each component of the cross product two products' loss, times the factor;
+/// from each of the dot product's three products, and from a product with near or far, one. Sums
+/// lose nothing. Twice, for the rounding of all that.
+double lost_below(double by) {
+    return 2 * half_of_smallest * (4 + 2 * by);
+}
 
 /// Bounds of |a x b|, component by component, and of its rounding errors if times a few u.
 glm::dvec3 size_of_cross(const glm::dvec3& a, const glm::dvec3& b) {
@@ -69,7 +79,7 @@ struct Bounds {
         const double edge2 = sum_of(n.e2);
         const double around = sum_of(n.to_a) * sum_of(n.direction);
         const auto bound = [](double size, double by) {
-            return 10 * u * size * by + underflow * (8 + 2 * by);
+            return 10 * u * size * by + lost_below(by);
         };
         return {bound(edge1 * edge2, sum_of(n.direction)), bound(around, edge2),
                 bound(around, edge1), bound(edge1 * edge2, sum_of(n.to_a))};
@@ -78,7 +88,7 @@ struct Bounds {
         const glm::dvec3 normal = size_of_cross(n.e2, n.e1);
         const glm::dvec3 around = size_of_cross(n.to_a, n.direction);
         const auto bound = [](const glm::dvec3& sizes, const glm::dvec3& by) {
-            return 10 * u * glm::dot(sizes, glm::abs(by)) + underflow * (8 + 2 * sum_of(by));
+            return 10 * u * glm::dot(sizes, glm::abs(by)) + lost_below(sum_of(by));
         };
         return {bound(normal, n.direction), bound(around, n.e2), bound(around, n.e1),
                 bound(normal, n.to_a)};
@@ -113,7 +123,7 @@ bool may_overflow(const Numbers& n, const Corners& t, const AnyRay& ray) {
     const double aside = sum_of(n.to_a) * sum_of(n.direction);
     const double limit = std::isinf(ray.far) ? 1 : std::max(ray.far, 1.0);
     return std::max({area, area * sum_of(n.direction) * limit, area * sum_of(n.to_a),
-                     aside * longer}) > overflows ||
+                     aside * longer}) > largest_term ||
            std::max({largest(t.a), largest(t.b), largest(t.c)}) > largest_coordinate;
 }
 
@@ -121,7 +131,8 @@ bool may_overflow(const Numbers& n, const Corners& t, const AnyRay& ray) {
 /// enclose it, and rounding keeps that order, so that they are met if it is. The two sides of one
 /// axis keep their order as well: a box without thickness is lost to other axes alone.
 Meeting box_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement) {
-    constexpr double least_component = 1e-18; // Embree takes smaller ones for that
+    // Embree takes smaller ones for that: min_rcp_input of its math/constants.h, in rcp_safe.
+    constexpr double least_component = 1e-18;
     const glm::dvec3 lower = glm::min(glm::min(t.a, t.b), t.c);
     const glm::dvec3 upper = glm::max(glm::max(t.a, t.b), t.c);
     std::array<double, 3> enter{};

@@ -29,7 +29,8 @@ AnyRay AnyRays::ray(int lane) const {
 
 namespace {
 
-/// As little as directions are told apart (find_nearby).
+/// As little as directions are told apart (find_nearby): Embree takes smaller components for that,
+/// min_rcp_input of its math/constants.h.
 constexpr double least_component = 1e-18;
 
 /// The largest coordinate on each axis.

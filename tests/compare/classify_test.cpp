@@ -1,7 +1,6 @@
 #include "compare/verdict.h"
 #include "raster/technique.h"
-#include "tests/compare/bundled_names.h"
-#include "tests/compare/traced_scene.h"
+#include "tests/compare/traced_bundled.h"
 #include "tests/raster/faulty_techniques.h"
 
 #include <gtest/gtest.h>
@@ -17,21 +16,14 @@ namespace {
 
 using tests::bundled_names;
 using tests::compared;
-using tests::load_named;
 using tests::pixels_of;
+using tests::traced_bundled;
 using tests::TracedScene;
 
 class Classify : public testing::Test {
 protected:
-    static TracedScene& traced(const std::string& name) {
-        static std::map<std::string, std::unique_ptr<TracedScene>> scenes;
-        std::unique_ptr<TracedScene>& scene = scenes[name];
-        if (!scene) scene = std::make_unique<TracedScene>(load_named(name));
-        return *scene;
-    }
-
     Comparison compare(const std::string& name, const Technique& technique) {
-        return compared(traced(name), technique, gpu_);
+        return compared(traced_bundled(name), technique, gpu_);
     }
     Comparison compare(const std::string& name, const std::string& technique) {
         return compare(name, *find_technique(technique));
@@ -114,7 +106,7 @@ void expect_alone_as_in_the_whole(const TracedScene& scene, const Frame& frame, 
 }
 
 TEST_P(ClassifyScene, every_technique_is_explained_and_the_robust_ones_are_right) {
-    const TracedScene& scene = traced(GetParam());
+    const TracedScene& scene = traced_bundled(GetParam());
     for (const Technique& technique : all_techniques()) {
         if (!suits(technique, scene.scene)) continue;
         SCOPED_TRACE(technique.name);
@@ -178,7 +170,7 @@ TEST_P(ClassifyFault, is_caught_and_its_right_twin_is_not) {
     for (const Technique& technique : tests::faulty_techniques())
         if (technique.name == GetParam().fault) faulty = &technique;
     ASSERT_NE(faulty, nullptr);
-    const Scene& scene = traced(GetParam().scene).scene;
+    const Scene& scene = traced_bundled(GetParam().scene).scene;
     const Verdict verdict = judge(scene, faulty->fails_at, {}, compare(GetParam().scene, *faulty));
     EXPECT_TRUE(verdict == Verdict::defect || verdict == Verdict::unexplained) << name_of(verdict);
     for (const Technique& right : all_techniques()) {

@@ -11,7 +11,7 @@ import { named } from './scripts.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const { frontOf, placeLabels, overlap, textWidth, spreadOut } =
-  named(['numbers.js', 'bench_figures.js', 'bench_layout.js'],
+  named(['numbers.js', 'bench/figures.js', 'bench/layout.js'],
         ['frontOf', 'placeLabels', 'overlap', 'textWidth', 'spreadOut']);
 
 function plotOf(name, run, older) {

@@ -9,8 +9,8 @@ import { emptyPage, keepScreenshot } from './browser.mjs';
 import { randomNumbers, seed } from './random.mjs';
 import { named } from './scripts.mjs';
 
-const { cutaway } = named(['cutaway_geometry.js', 'cutaway_words.js', 'cutaway_svg.js',
-                           'cutaway_side.js', 'cutaway_strip.js', 'cutaway.js'], ['cutaway']);
+const { cutaway } = named(['cutaway/geometry.js', 'cutaway/words.js', 'cutaway/svg.js',
+                           'cutaway/side.js', 'cutaway/strip.js', 'cutaway/cutaway.js'], ['cutaway']);
 
 let page;
 before(async () => { page = await emptyPage(); });

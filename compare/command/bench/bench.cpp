@@ -267,10 +267,7 @@ Work add_bench(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("bench", "Error against run time, of all techniques and settings");
     const auto options = std::make_shared<BenchOptions>();
-    command
-        ->add_option("SCENE", options->scenes,
-                     "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
-        ->check(not_empty());
+    add_scenes_argument(*command, options->scenes);
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->scene);
     add_bench_flags(*command, *options);

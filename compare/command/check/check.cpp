@@ -202,9 +202,7 @@ Work add_check(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("check", "Pictures that a renderer made of a scene, against the truth");
     const auto options = std::make_shared<CheckOptions>();
-    command->add_option("SCENE", options->scene, "A bundled name, or a path to .gltf, .glb or .md2")
-        ->required()
-        ->check(not_empty());
+    add_scene_argument(*command, options->scene);
     command
         ->add_option("IMAGE", options->pictures,
                      "Pictures of that view: .png, .jpg or .exr, all of one size")

@@ -56,10 +56,7 @@ Work add_verify(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("verify", "Every technique against the truth; a report of the pixels");
     const auto options = std::make_shared<VerifyOptions>();
-    command
-        ->add_option("SCENE", options->scenes,
-                     "Bundled names, or paths to .gltf, .glb or .md2 (all bundled scenes)")
-        ->check(not_empty());
+    add_scenes_argument(*command, options->scenes);
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->scene);
     add_gate_flags(*command, options->gate);

@@ -2,38 +2,29 @@
 // their rays, each of which must be caught.
 #include "compare/verdict.h"
 #include "raster/traced/shadow_rays.h"
-#include "tests/compare/bundled_names.h"
-#include "tests/compare/traced_scene.h"
+#include "tests/compare/traced_bundled.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
-
-#include <map>
 
 namespace shadowproof {
 namespace {
 
 using tests::compared;
-using tests::load_named;
 using tests::pixels_of;
+using tests::traced_bundled;
 using tests::TracedScene;
 
 class Traced : public testing::Test {
 protected:
-    static TracedScene& traced(const std::string& name) {
-        static std::map<std::string, std::unique_ptr<TracedScene>> scenes;
-        std::unique_ptr<TracedScene>& scene = scenes[name];
-        if (!scene) scene = std::make_unique<TracedScene>(load_named(name));
-        return *scene;
-    }
     static Comparison with_epsilon(const std::string& name, double epsilon) {
-        const TracedScene& scene = traced(name);
+        const TracedScene& scene = traced_bundled(name);
         Plan plan = scene.plan;
         plan.asked.rays.epsilon = epsilon;
         return explained(scene, epsilon_recipe(scene.scene, plan));
     }
     static Comparison with_offset(const std::string& name, double offset) {
-        const TracedScene& scene = traced(name);
+        const TracedScene& scene = traced_bundled(name);
         Plan plan = scene.plan;
         plan.asked.rays.offset = offset;
         return explained(scene, offset_recipe(scene.scene, plan));
@@ -65,7 +56,7 @@ TEST_F(Traced, without_an_epsilon_there_is_acne_and_no_leak) {
     const Comparison bare = with_epsilon("ordinary", 0);
     EXPECT_GT(pixels_of(bare, Cause::acne), 1000U);
     EXPECT_EQ(pixels_of(bare, Cause::leak), 0U);
-    const Comparison skipping = explained(traced("ordinary"), skip_recipe());
+    const Comparison skipping = explained(traced_bundled("ordinary"), skip_recipe());
     EXPECT_LT(pixels_of(skipping, Cause::acne), pixels_of(bare, Cause::acne) / 10);
     EXPECT_EQ(pixels_of(skipping, Cause::leak), 0U);
 }
@@ -174,7 +165,7 @@ const Fault faults[]{
 class TracedFault : public Traced, public testing::WithParamInterface<Fault> {};
 
 TEST_P(TracedFault, is_unexplained) {
-    const TracedScene& scene = traced(GetParam().scene);
+    const TracedScene& scene = traced_bundled(GetParam().scene);
     const Frame frame = trace_shadow_rays(scene.scene, GetParam().recipe(scene.scene, scene.plan));
     const Comparison comparison = compared(scene, frame);
     EXPECT_GT(comparison.evidence.unexplained, 0U);
@@ -189,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Injected, TracedFault, testing::ValuesIn(faults),
 /// What was read back, changed at single pixels.
 class TracedPixelFault : public Traced {
 protected:
-    TracedScene& scene = traced("ordinary");
+    const TracedScene& scene = traced_bundled("ordinary");
     Frame frame = render_right();
 
     Frame render_right() const {
