@@ -99,4 +99,32 @@ Scene stacked_scene(int plates, int width, int height) {
     return scene;
 }
 
+Scene parted_scene(int balls, int width, int height) {
+    Scene scene = empty_scene("parted", width, height);
+    const int columns = static_cast<int>(std::ceil(std::sqrt(balls)));
+    const int rings = static_cast<int>(std::lround(192 / std::sqrt(balls)));
+    const double room = 9.0 / columns; // for a ball, along each side of a square
+    for (int i = 0; i < balls; ++i)
+        add_ball(scene,
+                 {room * (i % columns - 0.5 * (columns - 1)), 0.47 * room - 1.2,
+                  1 - room * (i / columns + 0.5)},
+                 0.4 * room, rings);
+    add_floor(scene);
+    finish(scene, "balls", {0.137, 1.271, 4.093}, {3.1, 12.3, -2.7});
+    return scene;
+}
+
+Scene lit_scene(int lights, int width, int height) {
+    Scene scene = dense_scene(10'000, width, height);
+    scene.name = "lit";
+    scene.lights.clear();
+    for (int i = 0; i < lights; ++i) {
+        const double angle = 2 * pi * i / lights + 0.3;
+        Light light;
+        light.position = {4.1 * std::cos(angle), 5.3, -6.5 + 4.1 * std::sin(angle)};
+        scene.lights.push_back(light);
+    }
+    return scene;
+}
+
 } // namespace shadowproof

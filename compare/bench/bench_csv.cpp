@@ -34,6 +34,22 @@ std::vector<std::string> causes_in(const BenchRun& run) {
     return names;
 }
 
+std::vector<std::string> stages_in(const BenchRun& run) {
+    std::vector<std::string> names;
+    for (const BenchPoint& point : run.points)
+        for (const BenchStage& stage : point.stages)
+            if (std::find(names.begin(), names.end(), stage.name) == names.end())
+                names.push_back(stage.name);
+    return names;
+}
+
+/// The median of a stage; empty where the point has none.
+std::string stage_of(const BenchPoint& point, const std::string& name) {
+    for (const BenchStage& stage : point.stages)
+        if (stage.name == name) return fmt::format("{}", median_interval(stage.samples).median);
+    return {};
+}
+
 } // namespace
 
 std::string bench_csv(const BenchRun& run) {
@@ -42,6 +58,8 @@ std::string bench_csv(const BenchRun& run) {
                       "wrong,wrong_share,falsely_lit_share,falsely_shadowed_share,color_rmse,"
                       "color_p999,color_largest";
     for (const std::string& cause : causes) csv += "," + cause;
+    const std::vector<std::string> stages = stages_in(run);
+    for (const std::string& stage : stages) csv += fmt::format(",ms_{}", stage);
     csv += ",command\r\n";
     for (const BenchPoint& point : run.points) {
         const TimeInterval ms = median_interval(point.samples);
@@ -58,6 +76,7 @@ std::string bench_csv(const BenchRun& run) {
                                          error.color->largest)
                            : ",,,";
         for (const std::string& cause : causes) csv += fmt::format(",{}", pixels_by(error, cause));
+        for (const std::string& stage : stages) csv += "," + stage_of(point, stage);
         csv += "," + field(point.command) + "\r\n";
     }
     return csv;

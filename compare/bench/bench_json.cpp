@@ -24,6 +24,14 @@ Json time_json(const std::vector<double>& samples) {
             {"samples", samples}};
 }
 
+Json stages_json(const std::vector<BenchStage>& stages) {
+    Json json = Json::object();
+    for (const BenchStage& stage : stages)
+        json[stage.name] = {{"median", median_interval(stage.samples).median},
+                            {"samples", stage.samples}};
+    return json;
+}
+
 Json point_json(const BenchPoint& point) {
     Json json{{"scene", point.scene},
               {"technique", point.technique},
@@ -31,6 +39,7 @@ Json point_json(const BenchPoint& point) {
               {"settings", settings_json(point.settings)}};
     if (!point.own.empty()) json["own"] = settings_json(point.own);
     json["ms"] = time_json(point.samples);
+    if (!point.stages.empty()) json["stages"] = stages_json(point.stages);
     json["pixels"] = point.error.pixels;
     json["causes"] = Json::object();
     for (const auto& [cause, pixels] : point.error.causes) json["causes"][cause] = pixels;
@@ -84,6 +93,9 @@ BenchPoint point_of(const Json& json) {
                                .falsely_lit = json.at("falsely_lit"),
                                .falsely_shadowed = json.at("falsely_shadowed")},
                      .command = json.at("command")};
+    if (json.contains("stages"))
+        for (const auto& [name, stage] : json.at("stages").items())
+            point.stages.push_back({name, stage.at("samples").get<std::vector<double>>()});
     for (const auto& [cause, pixels] : json.at("causes").items())
         point.error.causes.emplace_back(cause, pixels.get<std::uint64_t>());
     if (json.contains("color"))

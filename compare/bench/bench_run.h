@@ -39,14 +39,21 @@ struct BenchError {
 /// Pixels that differ for another cause than `edge`.
 std::uint64_t wrong_pixels(const BenchError& error);
 
+/// A part of a point's time.
+struct BenchStage {
+    std::string name{};
+    std::vector<double> samples{}; ///< milliseconds, of the same frames as the point's
+};
+
 /// One technique with some settings on one scene.
 struct BenchPoint {
     std::string scene{};
     std::string technique{};
     std::string family{};
-    BenchSettings settings{};      ///< that were asked for; the technique's own are in `own`
-    BenchSettings own{};           ///< what it takes by itself, where settings are swept
-    std::vector<double> samples{}; ///< milliseconds, in the order of measuring
+    BenchSettings settings{};         ///< that were asked for; the technique's own are in `own`
+    BenchSettings own{};              ///< what it takes by itself, where settings are swept
+    std::vector<double> samples{};    ///< milliseconds, in the order of measuring
+    std::vector<BenchStage> stages{}; ///< into which that time is divided
     BenchError error{};
     std::string command{}; ///< that measures it again
 };

@@ -1,18 +1,13 @@
 #include "raster/maps/map_shadows.h"
 
+#include "raster/gl/stage_clock.h"
+
 #include <algorithm>
-#include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace shadowproof {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds(Clock::duration duration) {
-    return std::chrono::duration<double, std::milli>(duration).count();
-}
 
 DepthModel eye_depth_model(const Scene& scene) {
     return {.projection = DepthModel::Projection::infinite_reversed,
@@ -62,17 +57,16 @@ struct Frames {
         check(gl, "making the passes");
     }
 
-    void draw() {
+    void draw(StageClock& clock) {
         draw_map(gl, map, geometry);
-        draw_shadows();
-    }
-
-    void draw_shadows() {
+        clock.end("map");
         begin_frame(gl, target, geometry, depth_model);
         draw_surface(gl, surface, target, geometry, depth_model, visible, 0);
+        clock.end("surface");
         gl.BindTextureUnit(2, map.texture.name());
         draw_light(gl, light, target, geometry, Counter::none);
         gl.BindTextureUnit(2, 0);
+        clock.end("classes");
     }
 };
 
@@ -81,32 +75,9 @@ void compile_all(Frames& frames) {
     const GlFunctions& gl = frames.gl;
     gl.Scissor(0, 0, 1, 1);
     gl.Enable(GL_SCISSOR_TEST);
-    frames.draw();
+    StageClock clock(gl);
+    frames.draw(clock);
     gl.Disable(GL_SCISSOR_TEST);
-    gl.Finish();
-}
-
-struct Times {
-    Clock::duration all = Clock::duration::max();
-    Clock::duration map{};
-};
-
-/// The quickest of up to three frames, as many as are begun within 20 ms.
-Times quickest_frame(Frames& frames) {
-    Times quickest;
-    Clock::duration spent{};
-    for (int i = 0; i < 3 && spent < std::chrono::milliseconds(20); ++i) {
-        const auto start = Clock::now();
-        draw_map(frames.gl, frames.map, frames.geometry);
-        frames.gl.Finish();
-        const Clock::duration map = Clock::now() - start;
-        frames.draw_shadows();
-        frames.gl.Finish();
-        const Clock::duration all = Clock::now() - start;
-        if (all < quickest.all) quickest = {all, map};
-        spent += all;
-    }
-    return quickest;
 }
 
 } // namespace
@@ -116,16 +87,17 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     Frames frames(gpu, scene, model, recipe.making);
     const GlFunctions& gl = gpu.gl();
     compile_all(frames);
-    const Times times = quickest_frame(frames);
+    const StageClock clock = quickest_frame(gl, [&](StageClock& each) { frames.draw(each); });
     Frame frame = read_back(gl, frames.target, Counter::none);
     frame.family = "map";
     frame.mapped = MapEvidence{.model = model,
                                .faces = read_map(gl, frames.map),
                                .format = depth_format(gl, frames.map.texture),
-                               .map_milliseconds = milliseconds(times.map)};
+                               .map_milliseconds = clock.stages().front().milliseconds};
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
-    frame.milliseconds = milliseconds(times.all);
+    frame.milliseconds = clock.milliseconds();
+    frame.stages = clock.stages();
     end_frame(gl);
     return frame;
 }

@@ -189,11 +189,17 @@ RayRecipe skip_recipe() {
 
 Frame trace_shadow_rays(const Scene& scene, const RayRecipe& recipe) {
     const auto start = std::chrono::steady_clock::now();
+    const auto since = [](std::chrono::steady_clock::time_point then) {
+        const auto elapsed = std::chrono::steady_clock::now() - then;
+        return std::chrono::duration<double, std::milli>(elapsed).count();
+    };
     RayPicture picture(scene, recipe);
+    const double building = since(start);
     picture.trace_all();
-    const auto elapsed = std::chrono::steady_clock::now() - start;
-    picture.frame().milliseconds = std::chrono::duration<double, std::milli>(elapsed).count();
-    return std::move(picture.frame());
+    Frame& frame = picture.frame();
+    frame.milliseconds = since(start);
+    frame.stages = {{"hierarchy", building}, {"rays", frame.milliseconds - building}};
+    return std::move(frame);
 }
 
 } // namespace shadowproof

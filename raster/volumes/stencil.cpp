@@ -1,6 +1,7 @@
 #include "raster/volumes/stencil.h"
 
 #include "raster/gl/shader.h"
+#include "raster/gl/stage_clock.h"
 #include "raster/volumes/caster_parts.h"
 #include "raster/volumes/eye_count.h"
 #include "raster/volumes/near_cap.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -23,8 +23,6 @@
 namespace shadowproof {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// What a face of a volume adds to the counter where it is counted: +1 or -1.
 struct Steps {
@@ -247,20 +245,26 @@ struct Frames {
         end_adding(gl);
     }
 
-    void draw() {
+    void draw(StageClock& clock) {
+        update();
+        clock.end("volumes");
         begin_frame(gl, target, geometry, recipe.depth_model);
         gl.DepthRange(recipe.depth_model.front, 1);
         draw_surface(gl, surface, target, geometry, recipe.depth_model,
                      visible_depths(scene.camera, recipe), start);
+        clock.end("surface");
         if (recipe.counter == Counter::stencil)
             count_in_stencil();
         else
             count_in_sum();
         check(gl, "the volume pass");
+        clock.end("counting");
         draw_light(gl, light, target, geometry, recipe.counter);
+        clock.end("classes");
         if (!lighting) return;
         draw_lighting(gl, *lighting, scene, target);
         gl.BindVertexArray(geometry.vertices.name());
+        clock.end("lighting");
     }
 
     void measure(Frame& frame) {
@@ -294,26 +298,9 @@ void compile_all(Frames& frames) {
     const GlFunctions& gl = frames.gl;
     gl.Scissor(0, 0, 1, 1);
     gl.Enable(GL_SCISSOR_TEST);
-    frames.update();
-    frames.draw();
+    StageClock clock(gl);
+    frames.draw(clock);
     gl.Disable(GL_SCISSOR_TEST);
-    gl.Finish();
-}
-
-/// The quickest of up to three frames, as many as are begun within 20 ms.
-Clock::duration quickest_frame(Frames& frames) {
-    Clock::duration quickest = Clock::duration::max();
-    Clock::duration all{};
-    for (int i = 0; i < 3 && all < std::chrono::milliseconds(20); ++i) {
-        const auto start = Clock::now();
-        frames.update();
-        frames.draw();
-        frames.gl.Finish();
-        const Clock::duration elapsed = Clock::now() - start;
-        quickest = std::min(quickest, elapsed);
-        all += elapsed;
-    }
-    return quickest;
 }
 
 } // namespace
@@ -330,7 +317,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
     compile_all(frames);
-    const Clock::duration elapsed = quickest_frame(frames);
+    const StageClock clock = quickest_frame(gl, [&](StageClock& each) { frames.draw(each); });
     Frame frame = read_back(gl, frames.target, recipe.counter);
     if (recipe.lighting) {
         frame.color = read_color(gl, frames.target);
@@ -341,7 +328,8 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     frame.counted->volume_faces = faces_of(recipe);
     frame.depth_model = recipe.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
-    frame.milliseconds = std::chrono::duration<double, std::milli>(elapsed).count();
+    frame.milliseconds = clock.milliseconds();
+    frame.stages = clock.stages();
     frames.measure(frame);
     end_frame(gl);
     return frame;

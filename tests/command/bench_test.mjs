@@ -15,7 +15,7 @@ const written = (name) => JSON.parse(readFileSync(join(scratch, name), 'utf8'));
 const write = (name, json) => writeFileSync(join(scratch, name), JSON.stringify(json));
 
 /** As little measuring as there can be: one sample of each point. */
-const least = ['--size', '48x48', '--repeats', '1', '-q'];
+const least = ['--quick', '--size', '48x48', '--repeats', '1', '-q'];
 
 /** The point of a run that has the technique and settings of another. */
 const pointOf = (run, { technique, settings }) => run.points.find(
@@ -86,8 +86,39 @@ test('each point has the command that measures it again', () => {
 });
 
 test('the CSV has a line for each point', () => {
-  const lines = readFileSync(join(scratch, 'shadows.csv'), 'utf8').trim().split('\r\n');
-  assert.equal(lines.length, shadows.points.length + 1);
+  const [head, ...lines] = readFileSync(join(scratch, 'shadows.csv'), 'utf8').trim().split('\r\n');
+  assert.equal(lines.length, shadows.points.length);
+  assert.match(head, /,ms_volumes,ms_surface,ms_counting,ms_classes,/);
+});
+
+test('a frame\'s stages together are its time', () => {
+  const stagesOf = (technique) => Object.keys(pointOf(shadows, { technique, settings: {} }).stages);
+  assert.deepEqual(stagesOf('zfail'), ['volumes', 'surface', 'counting', 'classes']);
+  assert.deepEqual(stagesOf('cube_map_six_pass'), ['map', 'surface', 'classes']);
+  assert.deepEqual(stagesOf('traced_epsilon'), ['hierarchy', 'rays']);
+  for (const { technique, ms, stages } of shadows.points.filter(({ stages }) => stages))
+    ms.samples.forEach((sample, i) => {
+      const sum = Object.values(stages).reduce((all, { samples }) => all + samples[i], 0);
+      assert.ok(Math.abs(sum - sample) < 1e-6, `${technique}: ${sum} of ${sample}`);
+    });
+});
+
+/** Not one wrong pixel more at each setting than at the one before. */
+function assertFalls(name, values) {
+  const wrong = values.map((value) => {
+    const { differing, causes } = shadows.points.find(({ technique, own }) =>
+      technique === 'cube_map_six_pass' && own[name] === value &&
+      Object.entries(own).every(([key, each]) => key === name || each === usual[key]));
+    return differing - (causes.edge ?? 0);
+  });
+  wrong.forEach((pixels, i) => assert.ok(i === 0 || pixels <= wrong[i - 1], wrong.join(' ')));
+  assert.ok(wrong.at(-1) < wrong[0], wrong.join(' '));
+}
+const usual = pointOf(shadows, { technique: 'cube_map_six_pass', settings: {} }).own;
+
+test('errors come in the order that theory gives', () => {
+  assertFalls('map-size', ['64', '256', '1024', '4096']);
+  assertFalls('map-bias', ['0', '0.01', usual['map-bias']]); // acne, up to what the bias must be
 });
 
 test('wrong usage and bad input are named, with a remedy', () => {
@@ -182,7 +213,8 @@ test('a run that was stopped goes on: what is finished is not measured again', (
 });
 
 test('a run that is interrupted keeps what it has, whole, and leaves nothing else', async () => {
-  const args = ['bench', 'near_plane', '--size', '48x48', '--json', 'stopped.json', '--out', 'stopped'];
+  const args = ['bench', 'near_plane', '--quick', '--size', '48x48', '--json', 'stopped.json',
+                '--out', 'stopped'];
   const run = spawn(process.env.SHADOWPROOF,
                     [...args, '--repeats', '10000', '--seconds', '100000', '-q'], { cwd: scratch });
   const ended = new Promise((done) => run.on('exit', (code, signal) => done({ code, signal })));
@@ -210,25 +242,28 @@ test('another run is not gone on with', () => {
   assert.match(run.err, /other\.json: cannot be gone on with: its version is 0, and now/);
 });
 
-test('growth has a line for each technique along pixels, triangles and volumes', () => {
+test('growth has a line for each technique along each axis', () => {
   const run = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
-                           '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth']);
+                           '--technique', 'zfail,cube_map_six_pass',
+                           '--json', 'growth.json', '--out', 'growth']);
   assert.equal(run.code, 0, run.err);
   const { scaling, points, ...rest } = written('growth.json');
   assertValid({ scaling, points, ...rest });
   assert.deepEqual(points, []);
   assert.deepEqual(scaling.map(({ axis, technique }) => `${axis} ${technique}`),
-                   ['pixels', 'triangles', 'volumes'].flatMap((axis) =>
-                     [`${axis} truth`, `${axis} zfail`]));
+                   [...['pixels', 'triangles', 'volumes', 'silhouette edges', 'lights'].flatMap((axis) =>
+                     [`${axis} truth`, `${axis} zfail`, `${axis} cube_map_six_pass`]),
+                    'texels cube_map_six_pass']);
   for (const { axis, scene, points: sizes } of scaling) {
-    assert.equal(scene, { pixels: 'near_plane', triangles: 'dense', volumes: 'stacked' }[axis]);
+    assert.equal(scene, { pixels: 'near_plane', triangles: 'dense', volumes: 'stacked',
+                          'silhouette edges': 'parted', lights: 'lit', texels: 'near_plane' }[axis]);
     assert.ok(sizes.every(({ size }, i) => i === 0 || size > sizes[i - 1].size));
   }
   // What is there is not measured again.
   const before = readFileSync(join(scratch, 'growth.json'), 'utf8');
   const again = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q',
-                             '--technique', 'zfail', '--json', 'growth.json', '--out', 'growth',
-                             '--resume']);
+                             '--technique', 'zfail,cube_map_six_pass',
+                             '--json', 'growth.json', '--out', 'growth', '--resume']);
   assert.equal(again.code, 0, again.err);
   assert.deepEqual(JSON.parse(before).scaling, written('growth.json').scaling);
 });

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace shadowproof {
@@ -41,6 +42,25 @@ TEST(DenseScene, has_about_as_many_triangles_as_asked_for) {
     for (const int triangles : {1'000, 64'000})
         EXPECT_NEAR(static_cast<double>(dense_scene(triangles, 8, 8).triangles.size()), triangles,
                     0.05 * triangles);
+}
+
+TEST(PartedScene, has_the_same_triangles_in_any_number_of_closed_balls) {
+    for (const int balls : {1, 16, 1024}) {
+        const Scene scene = parted_scene(balls, 8, 8);
+        EXPECT_EQ(scene.triangles.size(), 73'728U + 2) << balls;
+        for (const glm::vec3& corner : scene.positions) EXPECT_GE(corner.y, -1.3F);
+    }
+}
+
+TEST(LitScene, has_so_many_lights_in_a_circle_above_it) {
+    const Scene scene = lit_scene(64, 8, 8);
+    ASSERT_EQ(scene.lights.size(), 64U);
+    std::set<std::pair<double, double>> places;
+    for (const Light& light : scene.lights) {
+        EXPECT_NEAR(glm::length(light.position - glm::dvec3(0, 5.3, -6.5)), 4.1, 1e-9);
+        places.emplace(light.position.x, light.position.z);
+    }
+    EXPECT_EQ(places.size(), 64U);
 }
 
 } // namespace

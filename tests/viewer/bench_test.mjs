@@ -128,6 +128,7 @@ test('a mark names technique and settings where it is pointed at, and by keyboar
   assert.match(chosen, /shadowproof bench ordinary --technique bump_one_pass/);
   assert.match(chosen, /shadowproof verify ordinary --technique bump_one_pass/);
   assert.match(chosen, /normalise=cube-map bumps=normal-map/);
+  assert.match(chosen, /volumes 2\.00 ms, lighting 18\.0 ms/);
 });
 
 test('another error shows the points that have it alone', async () => {

@@ -238,8 +238,8 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
         .add_flag("--resume", options.resume, "Go on with the run that was stopped, from --json")
         ->needs(json);
     command.add_flag("--scaling", options.scaling,
-                     "Instead: how time grows with pixels (of the first SCENE), triangles, and "
-                     "volumes crossed");
+                     "Instead: how time grows with pixels and texels (of the first SCENE), "
+                     "triangles, volumes crossed, silhouette edges, and lights");
     command.add_flag("--quick", options.quick,
                      "At most a minute for a scene: 256x256 pixels, fewer samples");
     command.add_option("--repeats", options.limits.repeats, "Most samples of a point (50)")

@@ -144,9 +144,20 @@ void add_points(Trial& trial) {
             trial.complete = false;
             continue;
         }
-        for (const BenchSettings& settings : sweep(*technique, fixed, BenchSettings(own->own)))
+        for (const BenchSettings& settings :
+             sweep(*technique, fixed, BenchSettings(own->own), options.quick))
             if (add_point(trial, *technique, settings, why) == nullptr)
                 leave_out(trial, *technique, settings, why); // not all forms suit all maps
+    }
+}
+
+/// A frame's stages, each after those of earlier frames.
+void add_stages(std::vector<BenchStage>& stages, const Frame& frame) {
+    for (const Stage& stage : frame.stages) {
+        auto found = std::find_if(stages.begin(), stages.end(),
+                                  [&](const BenchStage& each) { return each.name == stage.name; });
+        if (found == stages.end()) found = stages.insert(found, {std::string(stage.name), {}});
+        found->samples.push_back(stage.milliseconds);
     }
 }
 
@@ -154,8 +165,11 @@ void measure(Trial& trial) {
     const BenchWork& work = trial.work;
     BenchRun& run = work.run;
     std::vector<std::vector<double>> samples;
-    for (std::size_t i = trial.first; i < run.points.size(); ++i)
+    std::vector<std::vector<BenchStage>> stages;
+    for (std::size_t i = trial.first; i < run.points.size(); ++i) {
         samples.push_back(run.points[i].samples);
+        stages.push_back(run.points[i].stages);
+    }
     const RoundLimits& limits = work.options.limits;
     const Stopwatch stopwatch;
     measure_in_rounds(
@@ -164,7 +178,10 @@ void measure(Trial& trial) {
              [&](std::size_t i) {
                  const Technique* const technique = trial.techniques[i];
                  if (technique == nullptr) return trace(trial.tracer).statistics.milliseconds;
-                 return draw(trial, *technique, run.points[trial.first + i].settings).milliseconds;
+                 BenchPoint& point = run.points[trial.first + i];
+                 const Frame frame = draw(trial, *technique, point.settings);
+                 add_stages(stages[i], frame);
+                 return frame.milliseconds;
              },
          .seconds = [&] { return stopwatch.milliseconds() / 1000; },
          .before =
@@ -182,8 +199,10 @@ void measure(Trial& trial) {
              },
          .after_round =
              [&] {
-                 for (std::size_t i = 0; i < samples.size(); ++i)
+                 for (std::size_t i = 0; i < samples.size(); ++i) {
                      run.points[trial.first + i].samples = samples[i];
+                     run.points[trial.first + i].stages = stages[i];
+                 }
                  work.keeper.keep(run);
              }});
 }

@@ -8,6 +8,7 @@
 #include "compare/report/escape.h"
 #include "compare/words.h"
 #include "raster/render.h"
+#include "reference/predict/region_ledger.h"
 #include "reference/trace/trace.h"
 #include "scenes/error.h"
 #include "scenes/generated.h"
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 
 namespace shadowproof {
@@ -25,17 +27,29 @@ namespace {
 /// What grows. A line of the table below for each.
 struct Axis {
     const char* name;
-    std::vector<int> sizes; ///< as `scene` takes them
+    std::vector<int> sizes; ///< as `scenes` takes them
     std::size_t quick;      ///< so many of the sizes with --quick
-    double (*value)(int size);
-    Scene (*scene)(const BenchOptions& options, int size);
+    /// The size that is shown and fitted.
+    double (*value)(const Tracer& tracer, int size);
+    /// What is drawn for a sample, one after the other.
+    std::vector<Scene> (*scenes)(const BenchOptions& options, int size);
+    /// The flag that takes the size; techniques that do not heed it are left out. Null: none does.
+    const char* flag = nullptr;
 };
 
-double as_it_is(int size) {
+double as_it_is(const Tracer& /*tracer*/, int size) {
     return size;
 }
 
-std::string scene_of_pixels(const BenchOptions& options) {
+double squared(const Tracer& /*tracer*/, int side) {
+    return static_cast<double>(side) * side;
+}
+
+double silhouette_edges(const Tracer& tracer, int /*size*/) {
+    return static_cast<double>(Silhouette(tracer).sides().size());
+}
+
+std::string named_scene(const BenchOptions& options) {
     return options.scenes.empty() ? "ordinary" : options.scenes.front();
 }
 
@@ -43,12 +57,12 @@ std::vector<Axis> axes() {
     return {{"pixels",
              {64, 128, 256, 512, 1024, 2048, 4096},
              4,
-             [](int side) { return static_cast<double>(side) * side; },
+             squared,
              [](const BenchOptions& options, int side) {
                  SceneRequest request = options.scene.request();
                  request.width = side;
                  request.height = side;
-                 return load_scene(scene_of_pixels(options), request);
+                 return std::vector{load_scene(named_scene(options), request)};
              }},
             {"triangles",
              {1'000, 4'000, 16'000, 64'000, 256'000, 1'000'000, 4'000'000},
@@ -56,7 +70,7 @@ std::vector<Axis> axes() {
              as_it_is,
              [](const BenchOptions& options, int triangles) {
                  const auto [width, height] = options.scene.size;
-                 return dense_scene(triangles, width, height);
+                 return std::vector{dense_scene(triangles, width, height)};
              }},
             {"volumes",
              {1, 2, 4, 8, 16, 32, 64},
@@ -64,8 +78,35 @@ std::vector<Axis> axes() {
              as_it_is,
              [](const BenchOptions& options, int plates) {
                  const auto [width, height] = options.scene.size;
-                 return stacked_scene(plates, width, height);
-             }}};
+                 return std::vector{stacked_scene(plates, width, height)};
+             }},
+            {"silhouette edges",
+             {1, 4, 16, 64, 256, 1024},
+             4,
+             silhouette_edges,
+             [](const BenchOptions& options, int balls) {
+                 const auto [width, height] = options.scene.size;
+                 return std::vector{parted_scene(balls, width, height)};
+             }},
+            {"lights",
+             {1, 2, 4, 8, 16, 32, 64},
+             4,
+             as_it_is,
+             [](const BenchOptions& options, int lights) {
+                 const auto [width, height] = options.scene.size;
+                 std::vector<Scene> each(static_cast<std::size_t>(lights),
+                                         lit_scene(lights, width, height));
+                 for (std::size_t i = 0; i < each.size(); ++i) each[i].light = i;
+                 return each;
+             }},
+            {"texels",
+             {64, 128, 256, 512, 1024, 2048, 4096, 8192},
+             5,
+             squared,
+             [](const BenchOptions& options, int /*side*/) {
+                 return std::vector{load_scene(named_scene(options), options.scene.request())};
+             },
+             "map-size"}};
 }
 
 /// What is measured along an axis, and whether it still is.
@@ -78,8 +119,8 @@ struct Runner {
 std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const Scene& scene) {
     const auto growth = [&](const std::string& technique) {
         std::string command = "shadowproof bench --scaling";
-        if (axis.name == std::string_view("pixels"))
-            command += " " + shell_quoted(scene_of_pixels(work.options));
+        if (!work.options.scenes.empty())
+            command += " " + shell_quoted(work.options.scenes.front());
         if (technique != truth_point) command += " --technique " + technique;
         if (work.options.quick) command += " --quick";
         for (const std::string& word : settings(work.options.scene, work.options.technique))
@@ -90,9 +131,10 @@ std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const
                       .command = command,
                       .points = {}};
     };
-    std::vector<Runner> runners{{nullptr, growth(truth_point)}};
+    std::vector<Runner> runners;
+    if (axis.flag == nullptr) runners.push_back({nullptr, growth(truth_point)});
     for (const Technique* technique : work.options.technique.chosen())
-        if (suits(*technique, scene))
+        if (suits(*technique, scene) && (axis.flag == nullptr || heeds(*technique, axis.flag)))
             runners.push_back({technique, growth(std::string(technique->name))});
     return runners;
 }
@@ -102,18 +144,48 @@ void stop(const BenchWork& work, Runner& runner, const std::string& why) {
     work.run.left_out.push_back({runner.growth.scene, runner.growth.technique, {}, why});
 }
 
-/// One size: each runner draws once to warm up, and all are measured in rounds.
-void measure_size(const BenchWork& work, std::vector<Runner>& runners, const Scene& scene,
-                  const std::string& where, double value) {
-    require_scene(work.options.scene.memory, scene, Workload::comparison);
-    const Tracer tracer(scene, work.options.scene.threads);
-    Plan plan = make_plan(scene);
-    plan.asked = work.options.technique.asked;
-    const auto draw = [&](const Runner& runner) {
-        return runner.technique == nullptr
-                   ? trace(tracer).statistics.milliseconds
-                   : render(*runner.technique, scene, plan, work.gpu).milliseconds;
-    };
+/// A scene with what drawing it needs.
+struct Drawable {
+    const Scene& scene;
+    Tracer tracer;
+    Plan plan;
+};
+
+std::vector<std::unique_ptr<Drawable>> drawables_of(const BenchWork& work, const Axis& axis,
+                                                    const std::vector<Scene>& scenes, int size) {
+    TechniqueOptions options = work.options.technique;
+    if (axis.flag != nullptr)
+        options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
+    require_map(work.options.scene.memory, options.asked.map);
+    std::vector<std::unique_ptr<Drawable>> drawables;
+    for (const Scene& scene : scenes) {
+        require_scene(work.options.scene.memory, scene, Workload::comparison);
+        drawables.push_back(std::make_unique<Drawable>(
+            scene, Tracer(scene, work.options.scene.threads), make_plan(scene)));
+        drawables.back()->plan.asked = options.asked;
+    }
+    return drawables;
+}
+
+/// Milliseconds.
+double draw_all(const BenchWork& work, const Runner& runner,
+                const std::vector<std::unique_ptr<Drawable>>& drawables) {
+    double sum = 0;
+    for (const std::unique_ptr<Drawable>& each : drawables)
+        sum += runner.technique == nullptr
+                   ? trace(each->tracer).statistics.milliseconds
+                   : render(*runner.technique, each->scene, each->plan, work.gpu).milliseconds;
+    return sum;
+}
+
+/// One size: each runner draws once to warm up, and all are measured in rounds. `place`: "2 of 7".
+void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& runners,
+                  const std::vector<Scene>& scenes, int size, const std::string& place) {
+    const std::vector<std::unique_ptr<Drawable>> drawables = drawables_of(work, axis, scenes, size);
+    const double value = axis.value(drawables.front()->tracer, size);
+    const std::string where =
+        fmt::format("{} {}, {}", grouped(static_cast<std::uint64_t>(value)), axis.name, place);
+    const auto draw = [&](const Runner& runner) { return draw_all(work, runner, drawables); };
     const double most_seconds = work.options.quick ? 0.7 : 4; // of work for a sample
     std::vector<Runner*> drawn;
     for (Runner& runner : runners) {
@@ -165,13 +237,13 @@ void measure_axis(const BenchWork& work, const Axis& axis) {
     std::vector<Runner> runners;
     const std::size_t sizes = work.options.quick ? axis.quick : axis.sizes.size();
     for (std::size_t i = 0; i < sizes; ++i) {
-        const double value = axis.value(axis.sizes[i]);
-        const std::string where = fmt::format(
-            "{} {}, {} of {}", grouped(static_cast<std::uint64_t>(value)), axis.name, i + 1, sizes);
+        const std::string place = fmt::format("{} of {}", i + 1, sizes);
+        const std::string where = fmt::format("{} {}", axis.name, place);
         try {
-            const Scene scene = axis.scene(work.options, axis.sizes[i]);
-            if (runners.empty()) runners = runners_along(work, axis, scene);
-            measure_size(work, runners, scene, where, value);
+            const std::vector<Scene> scenes = axis.scenes(work.options, axis.sizes[i]);
+            if (i == 0) runners = runners_along(work, axis, scenes.front());
+            if (runners.empty()) return;
+            measure_size(work, axis, runners, scenes, axis.sizes[i], place);
         } catch (const std::bad_alloc&) {
             work.run.left_out.push_back({axis.name, {}, {}, where + ": " + out_of_memory});
             break;

@@ -1,4 +1,5 @@
-// Measures how time grows: with pixels, triangles, and shadow volumes crossed.
+// Measures how time grows: with pixels, triangles, shadow volumes crossed, silhouette edges,
+// lights, and texels of shadow maps.
 #pragma once
 
 #include "compare/command/bench/measure.h"

@@ -31,10 +31,10 @@ std::span<const SweptSetting> swept_settings() {
         SweptSetting{
             "bumps", names_of(all_bump_forms),
             [](const Frame& f, double) { return std::string(name_of(f.color_model.bump_form)); }},
-        SweptSetting{
-            "map-size",
-            {"64", "128", "256", "512", "1024", "2048", "4096"},
-            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.size); }},
+        SweptSetting{"map-size",
+                     {"64", "128", "256", "512", "1024", "2048", "4096", "8192"},
+                     [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.size); },
+                     {"8192"}},
         SweptSetting{
             "map-bias",
             {"0", "0.001", "0.01", "0.05", "0.15", "0.5"},
@@ -81,7 +81,7 @@ BenchSettings own_settings(const Technique& technique, const Frame& frame, doubl
 }
 
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
-                                 const BenchSettings& own) {
+                                 const BenchSettings& own, bool quick) {
     const auto has = [](const BenchSettings& settings, const auto& matches) {
         return std::any_of(settings.begin(), settings.end(), matches);
     };
@@ -91,6 +91,9 @@ std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings
             has(fixed, [&](const auto& each) { return each.first == setting.name; }))
             continue;
         for (const std::string_view value : setting.values) {
+            if (quick && std::find(setting.costly.begin(), setting.costly.end(), value) !=
+                             setting.costly.end())
+                continue;
             if (has(own, [&](const auto& each) {
                     return each.first == setting.name && each.second == value;
                 }))

@@ -18,6 +18,7 @@ struct SweptSetting {
     std::vector<std::string_view> values;
     /// The value by which a frame was made, as the flag would have it. `unit`: Scene::unit.
     std::string (*own)(const Frame& frame, double unit);
+    std::vector<std::string_view> costly{}; ///< values that take seconds each: not with --quick
 };
 
 /// All of them, in the order in which they are swept.
@@ -32,7 +33,7 @@ BenchSettings own_settings(const Technique& technique, const Frame& frame, doubl
 
 /// One setting at a time, each value but the technique's own; settings in `fixed` stay.
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
-                                 const BenchSettings& own);
+                                 const BenchSettings& own, bool quick);
 
 /// Those swept settings that flags of a parsed command line have set.
 BenchSettings fixed_settings(const CLI::App& command);

@@ -60,6 +60,10 @@ const timeWords = ({ median, low, high, samples, settled }) =>
   `${median.toPrecision(3)} ms, 95 % within ${low.toPrecision(3)} and ${high.toPrecision(3)}, ` +
   `${counted(samples.length, 'sample')}${settled ? '' : ', not settled'}`;
 
+/** "volumes 0.45 ms, surface 1.87 ms"; the medians of a frame's stages. */
+const stageWords = (point) => Object.entries(point.stages ?? {})
+  .map(([name, { median }]) => `${name} ${median.toPrecision(3)} ms`).join(', ');
+
 /** 0.0123 as "0.012"; zero as "0". */
 const shortNumber = (value) => (value === 0 ? '0' : String(Number(value.toPrecision(3))));
 

@@ -50,7 +50,7 @@ function choosePoint(index) {
     : point.command.replace('shadowproof bench', 'shadowproof verify');
   found('chosen').replaceChildren(
     element('h2', {}, pointName(point)),
-    facts([['Time', timeWords(point.ms)], ['Error', errorWords(point)],
+    facts([['Time', timeWords(point.ms)], ['Of which', stageWords(point)], ['Error', errorWords(point)],
            ['Made with', settingsWords(point.own)],
            ['In the older run', before && `${timeWords(before.ms)}; ${errorWords(before)}`]]),
     commandLine('measure', 'Measures it again', point.command),
