@@ -207,7 +207,8 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
     const Stopwatch stopwatch;
     measure_in_rounds(
         samples,
-        {.repeats = work.options.quick ? 7U : 15U, .seconds = work.options.quick ? 4.0 : 30.0},
+        {.repeats = std::min<std::size_t>(work.options.quick ? 7 : 15, work.options.limits.repeats),
+         .seconds = work.options.quick ? 4.0 : 30.0},
         {.measure = [&](std::size_t i) { return draw(*drawn[i]); },
          .seconds = [&] { return stopwatch.milliseconds() / 1000; },
          .before =
