@@ -22,7 +22,7 @@ namespace shadowproof {
 /// What a pixel shows; the values are those of the class map, 8-bit gray.
 enum class Visibility : std::uint8_t { background = 0, shadowed = 64, lit = 255 };
 
-/// A part of a frame's time.
+/// A part of a frame, and its time.
 struct Stage {
     std::string_view name; ///< "volumes", "counting"
     double milliseconds = 0;
@@ -47,7 +47,7 @@ struct Frame {
     std::optional<MapEvidence> mapped;       ///< where a shadow map was asked
     std::optional<TracedRays> rays;          ///< where rays were traced in float
     double milliseconds = 0; ///< making the evidence, drawing and finishing, without the read-back
-    std::vector<Stage> stages{}; ///< which together take that time; empty where it is not divided
+    std::vector<Stage> stages{};       ///< of one more frame, which waited for each; may be empty
     std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
 
     bool shows_surface() const { return !triangle.pixels.empty(); }

@@ -10,15 +10,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A ball of 2 * rings * rings triangles or so, waves on it so that it shadows itself.
-void add_ball(Scene& scene, const glm::dvec3& centre, double radius, int rings) {
+/// A ball of 2 * rings * rings triangles, open at its poles by a tiny hole, with waves on it so
+/// that it shadows itself. `waves`: their height, as a share of the radius.
+void add_ball(Scene& scene, const glm::dvec3& centre, double radius, int rings, double waves) {
     const auto first = static_cast<glm::uint>(scene.positions.size());
     const int sectors = rings;
     for (int i = 0; i <= rings; ++i)
         for (int j = 0; j < sectors; ++j) {
             const double theta = pi * (i + 0.01) / (rings + 0.02);
             const double phi = 2 * pi * j / sectors;
-            const double r = radius * (1 + 0.08 * std::sin(9 * theta) * std::cos(7 * phi));
+            const double r = radius * (1 + waves * std::sin(9 * theta) * std::cos(7 * phi));
             scene.positions.emplace_back(centre.x + r * std::sin(theta) * std::cos(phi),
                                          centre.y + r * std::cos(theta),
                                          centre.z + r * std::sin(theta) * std::sin(phi));
@@ -30,6 +31,32 @@ void add_ball(Scene& scene, const glm::dvec3& centre, double radius, int rings) 
         for (int j = 0; j < sectors; ++j) {
             scene.triangles.emplace_back(at(i, j), at(i, j + 1), at(i + 1, j + 1));
             scene.triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i + 1, j));
+        }
+}
+
+/// A smooth closed ball of 4 * rings * (rings - 1) triangles.
+void add_smooth_ball(Scene& scene, const glm::dvec3& centre, double radius, int rings) {
+    const auto first = static_cast<glm::uint>(scene.positions.size());
+    const int sectors = 2 * rings;
+    scene.positions.emplace_back(centre + glm::dvec3(0, radius, 0));
+    scene.positions.emplace_back(centre - glm::dvec3(0, radius, 0));
+    for (int i = 1; i < rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            const double theta = pi * i / rings;
+            const double phi = 2 * pi * j / sectors;
+            scene.positions.emplace_back(
+                centre + radius * glm::dvec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                             std::sin(theta) * std::sin(phi)));
+        }
+    const auto at = [&](int i, int j) {
+        if (i == 0 || i == rings) return first + (i == 0 ? 0U : 1U);
+        return first + 2 + static_cast<glm::uint>((i - 1) * sectors + j % sectors);
+    };
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j < sectors; ++j) {
+            if (i > 0) scene.triangles.emplace_back(at(i, j), at(i, j + 1), at(i + 1, j));
+            if (i < rings - 1)
+                scene.triangles.emplace_back(at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
         }
 }
 
@@ -81,7 +108,8 @@ Scene dense_scene(int triangles, int width, int height) {
     constexpr int balls = 5;
     const int rings = static_cast<int>(std::lround(std::sqrt(triangles / (2.0 * balls))));
     for (int i = 0; i < balls; ++i)
-        add_ball(scene, {1.9 * (i - 2), 0.35 * (i % 3) - 0.2, -6 - 0.9 * (i % 2)}, 0.9, rings);
+        add_ball(scene, {1.9 * (i - 2), 0.35 * (i % 3) - 0.2, -6 - 0.9 * (i % 2)}, 0.9, rings,
+                 0.08);
     add_floor(scene);
     finish(scene, "balls", {0.137, 1.271, 1.093}, {3.1, 5.3, -2.7});
     return scene;
@@ -102,13 +130,13 @@ Scene stacked_scene(int plates, int width, int height) {
 Scene parted_scene(int balls, int width, int height) {
     Scene scene = empty_scene("parted", width, height);
     const int columns = static_cast<int>(std::ceil(std::sqrt(balls)));
-    const int rings = static_cast<int>(std::lround(192 / std::sqrt(balls)));
+    const int rings = static_cast<int>(std::lround(128 / std::sqrt(balls)));
     const double room = 9.0 / columns; // for a ball, along each side of a square
     for (int i = 0; i < balls; ++i)
-        add_ball(scene,
-                 {room * (i % columns - 0.5 * (columns - 1)), 0.47 * room - 1.2,
-                  1 - room * (i / columns + 0.5)},
-                 0.4 * room, rings);
+        add_smooth_ball(scene,
+                        {room * (i % columns - 0.5 * (columns - 1)), 0.47 * room - 1.2,
+                         1 - room * (i / columns + 0.5)},
+                        0.4 * room, rings);
     add_floor(scene);
     finish(scene, "balls", {0.137, 1.271, 4.093}, {3.1, 12.3, -2.7});
     return scene;

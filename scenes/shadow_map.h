@@ -106,7 +106,7 @@ struct MapEvidence {
     /// that the face's camera takes.
     std::vector<Image<float>> faces;
     DepthFormat format{};        ///< of the texture, as the driver names it
-    double map_milliseconds = 0; ///< of the frame's time, drawing the map
+    double map_milliseconds = 0; ///< drawing the map, in a frame that waited for it
 };
 
 /// The values of the source documents where the user asked for nothing: the bias is 0.15 world

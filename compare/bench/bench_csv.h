@@ -8,7 +8,7 @@
 namespace shadowproof {
 
 /// Shares are of the picture's pixels, times in milliseconds, colours in steps of 1/255. A column
-/// for each cause that some point has.
+/// for each cause and each stage (ms_<name>, the median) that some point has.
 std::string bench_csv(const BenchRun& run);
 
 } // namespace shadowproof

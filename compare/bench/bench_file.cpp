@@ -51,6 +51,19 @@ void time(const Place& place) {
         refuse(place, "is not the interval of its samples");
 }
 
+/// `count`: of the point's own samples.
+void stage(const Place& place, std::size_t count) {
+    object(place, {{"median", milliseconds}, {"samples", some_of<milliseconds>}});
+    const auto samples = place.value.at("samples").get<std::vector<double>>();
+    if (samples.size() != count) refuse(place.at("samples"), "are not as many as those of \"ms\"");
+    if (place.value.at("median") != median_interval(samples).median)
+        refuse(place.at("median"), "is not that of the samples");
+}
+
+void any_object(const Place& place) {
+    require(place.value.is_object(), place, "an object");
+}
+
 void color(const Place& place) {
     object(place, {{"rmse", milliseconds}, {"largest", milliseconds}, {"p999", milliseconds}});
 }
@@ -62,6 +75,7 @@ void point(const Place& place) {
                    {"settings", settings},
                    {"own", settings, Need::optional},
                    {"ms", time},
+                   {"stages", any_object, Need::optional},
                    {"pixels", size},
                    {"causes", causes},
                    {"differing", count},
@@ -69,6 +83,9 @@ void point(const Place& place) {
                    {"falsely_shadowed", count},
                    {"color", color, Need::optional},
                    {"command", text}});
+    if (place.value.contains("stages"))
+        for (const auto& [name, each] : place.value.at("stages").items())
+            stage(place.at("stages").at(name), place.value.at("ms").at("samples").size());
     std::uint64_t sum = 0;
     for (const auto& [name, pixels] : place.value.at("causes").items())
         sum += pixels.get<std::uint64_t>();

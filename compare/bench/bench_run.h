@@ -39,10 +39,10 @@ struct BenchError {
 /// Pixels that differ for another cause than `edge`.
 std::uint64_t wrong_pixels(const BenchError& error);
 
-/// A part of a point's time.
+/// A part of a point's frames.
 struct BenchStage {
     std::string name{};
-    std::vector<double> samples{}; ///< milliseconds, of the same frames as the point's
+    std::vector<double> samples{}; ///< milliseconds, as many as the point has
 };
 
 /// One technique with some settings on one scene.
@@ -53,7 +53,7 @@ struct BenchPoint {
     BenchSettings settings{};         ///< that were asked for; the technique's own are in `own`
     BenchSettings own{};              ///< what it takes by itself, where settings are swept
     std::vector<double> samples{};    ///< milliseconds, in the order of measuring
-    std::vector<BenchStage> stages{}; ///< into which that time is divided
+    std::vector<BenchStage> stages{}; ///< of frames that waited for each of them
     BenchError error{};
     std::string command{}; ///< that measures it again
 };

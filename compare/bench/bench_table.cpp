@@ -101,14 +101,19 @@ std::vector<std::string> bench_table(const BenchRun& run, const std::string& sce
 
 std::vector<std::string> growth_table(const BenchRun& run) {
     if (run.growth.empty()) return {};
+    std::size_t axis = 4;
     std::size_t width = 9;
-    for (const Growth& growth : run.growth) width = std::max(width, growth.technique.size());
-    std::vector<std::string> lines{fmt::format("  {:<9}  {:<{}}  {:>8}  {:>15}  {}", "axis",
+    for (const Growth& growth : run.growth) {
+        axis = std::max(axis, growth.axis.size());
+        width = std::max(width, growth.technique.size());
+    }
+    std::vector<std::string> lines{fmt::format("  {:<{}}  {:<{}}  {:>8}  {:>15}  {}", "axis", axis,
                                                "technique", width, "exponent", "95 % within",
                                                "median ms by size")};
     for (const Growth& growth : run.growth) {
         const std::optional<Exponent> exponent = exponent_of(growth.points);
-        std::string line = fmt::format("  {:<9}  {:<{}}  ", growth.axis, growth.technique, width);
+        std::string line =
+            fmt::format("  {:<{}}  {:<{}}  ", growth.axis, axis, growth.technique, width);
         line += exponent ? fmt::format("{:>8.2f}  {:>7.2f} {:>7.2f}", exponent->value,
                                        exponent->low, exponent->high)
                          : fmt::format("{:>8}  {:>15}", "-", "-");

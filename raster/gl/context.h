@@ -32,6 +32,10 @@ public:
     /// call.
     void make_current();
 
+    /// Whether frames tell the time of each stage (Frame::stages). They do not unless asked to.
+    bool tells_stages() const { return tells_stages_; }
+    void tell_stages(bool tell) { tells_stages_ = tell; }
+
     const GlFunctions& gl() const;
     const DriverInfo& driver() const; ///< depth and stencil bits are those of a D24_S8 texture
 
@@ -42,6 +46,7 @@ public:
 private:
     struct Context;
     std::unique_ptr<Context> context_;
+    bool tells_stages_ = false;
 };
 
 } // namespace shadowproof

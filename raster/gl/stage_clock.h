@@ -10,38 +10,55 @@
 
 namespace shadowproof {
 
-/// Runs from its making. A stage ends once OpenGL has done all that it was asked for by then.
+/// Runs from its making.
 class StageClock {
 public:
-    explicit StageClock(const GlFunctions& gl)
-        : gl_(&gl), start_(std::chrono::steady_clock::now()), last_(start_) {}
+    enum class Waits {
+        once,          ///< for OpenGL at the frame's end: its time alone is told
+        at_each_stage, ///< which makes the frame slower, more so on graphics cards
+    };
+    StageClock(const GlFunctions& gl, Waits waits);
 
+    /// To be called after what belongs to the stage was asked for.
     void end(std::string_view stage);
+    void end_frame();
 
-    const std::vector<Stage>& stages() const { return stages_; }
-    double milliseconds() const; ///< all stages together
+    const std::vector<Stage>& stages() const { return stages_; } ///< empty where it waits once
+    double milliseconds() const { return milliseconds_; }        ///< of the frame, once it ended
 
 private:
     const GlFunctions* gl_;
+    Waits waits_;
     std::chrono::steady_clock::time_point start_;
     std::chrono::steady_clock::time_point last_;
     std::vector<Stage> stages_;
+    double milliseconds_ = 0;
+};
+
+struct FrameTime {
+    double milliseconds = 0;
+    std::vector<Stage> stages{}; ///< of a frame of its own; empty unless asked for
 };
 
 /// The quickest of up to three frames, as many as are begun within 20 ms. `draw` takes the frame's
-/// StageClock, and ends its last stage.
+/// StageClock and ends its stages. `divided`: one more is drawn for the stages.
 template <class Draw>
-StageClock quickest_frame(const GlFunctions& gl, const Draw& draw) {
-    StageClock quickest(gl);
-    draw(quickest);
-    double all = quickest.milliseconds();
-    for (int i = 1; i < 3 && all < 20; ++i) {
-        StageClock clock(gl);
+FrameTime quickest_frame(const GlFunctions& gl, bool divided, const Draw& draw) {
+    const auto drawn = [&](StageClock::Waits waits) {
+        StageClock clock(gl, waits);
         draw(clock);
-        all += clock.milliseconds();
-        if (clock.milliseconds() < quickest.milliseconds()) quickest = clock;
+        clock.end_frame();
+        return clock;
+    };
+    FrameTime time{.milliseconds = drawn(StageClock::Waits::once).milliseconds()};
+    double all = time.milliseconds;
+    for (int i = 1; i < 3 && all < 20; ++i) {
+        const double one = drawn(StageClock::Waits::once).milliseconds();
+        all += one;
+        if (one < time.milliseconds) time.milliseconds = one;
     }
-    return quickest;
+    if (divided) time.stages = drawn(StageClock::Waits::at_each_stage).stages();
+    return time;
 }
 
 } // namespace shadowproof

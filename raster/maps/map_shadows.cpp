@@ -75,9 +75,10 @@ void compile_all(Frames& frames) {
     const GlFunctions& gl = frames.gl;
     gl.Scissor(0, 0, 1, 1);
     gl.Enable(GL_SCISSOR_TEST);
-    StageClock clock(gl);
+    StageClock clock(gl, StageClock::Waits::once);
     frames.draw(clock);
     gl.Disable(GL_SCISSOR_TEST);
+    gl.Finish();
 }
 
 } // namespace
@@ -87,17 +88,17 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     Frames frames(gpu, scene, model, recipe.making);
     const GlFunctions& gl = gpu.gl();
     compile_all(frames);
-    const StageClock clock = quickest_frame(gl, [&](StageClock& each) { frames.draw(each); });
+    const FrameTime time = quickest_frame(gl, true, [&](StageClock& clock) { frames.draw(clock); });
     Frame frame = read_back(gl, frames.target, Counter::none);
     frame.family = "map";
     frame.mapped = MapEvidence{.model = model,
                                .faces = read_map(gl, frames.map),
                                .format = depth_format(gl, frames.map.texture),
-                               .map_milliseconds = clock.stages().front().milliseconds};
+                               .map_milliseconds = time.stages.front().milliseconds};
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
-    frame.milliseconds = clock.milliseconds();
-    frame.stages = clock.stages();
+    frame.milliseconds = time.milliseconds;
+    frame.stages = time.stages;
     end_frame(gl);
     return frame;
 }

@@ -106,6 +106,7 @@ struct Outcome {
 
 Outcome measured(const BenchOptions& options, Console& console) {
     Gpu gpu(options.technique.platform);
+    gpu.tell_stages(!options.scaling);
     Outcome outcome{begin_run(options, gpu)};
     std::optional<BenchRun> kept;
     if (options.resume) kept = kept_run(options.json, outcome.run);
@@ -241,7 +242,8 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
                      "Instead: how time grows with pixels and texels (of the first SCENE), "
                      "triangles, volumes crossed, silhouette edges, and lights");
     command.add_flag("--quick", options.quick,
-                     "At most a minute for a scene: 256x256 pixels, fewer samples");
+                     "At most a minute for a scene: 256x256 pixels, fewer samples, no map of 8192 "
+                     "texels a side");
     command.add_option("--repeats", options.limits.repeats, "Most samples of a point (50)")
         ->type_name("N")
         ->check(CLI::Range(1, 10000));

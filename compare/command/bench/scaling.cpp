@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <new>
 
 namespace shadowproof {
@@ -149,43 +148,37 @@ struct Drawable {
     const Scene& scene;
     Tracer tracer;
     Plan plan;
+
+    Drawable(const BenchWork& work, const Scene& drawn, const TechniqueSettings& asked)
+        : scene(drawn), tracer(drawn, work.options.scene.threads), plan(make_plan(drawn)) {
+        plan.asked = asked;
+    }
 };
 
-std::vector<std::unique_ptr<Drawable>> drawables_of(const BenchWork& work, const Axis& axis,
-                                                    const std::vector<Scene>& scenes, int size) {
-    TechniqueOptions options = work.options.technique;
-    if (axis.flag != nullptr)
-        options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
-    require_map(work.options.scene.memory, options.asked.map);
-    std::vector<std::unique_ptr<Drawable>> drawables;
-    for (const Scene& scene : scenes) {
-        require_scene(work.options.scene.memory, scene, Workload::comparison);
-        drawables.push_back(std::make_unique<Drawable>(
-            scene, Tracer(scene, work.options.scene.threads), make_plan(scene)));
-        drawables.back()->plan.asked = options.asked;
-    }
-    return drawables;
-}
-
-/// Milliseconds.
-double draw_all(const BenchWork& work, const Runner& runner,
-                const std::vector<std::unique_ptr<Drawable>>& drawables) {
-    double sum = 0;
-    for (const std::unique_ptr<Drawable>& each : drawables)
-        sum += runner.technique == nullptr
-                   ? trace(each->tracer).statistics.milliseconds
-                   : render(*runner.technique, each->scene, each->plan, work.gpu).milliseconds;
-    return sum;
+/// Milliseconds of a frame.
+double draw(const BenchWork& work, const Runner& runner, const Drawable& drawable) {
+    if (runner.technique == nullptr) return trace(drawable.tracer).statistics.milliseconds;
+    return render(*runner.technique, drawable.scene, drawable.plan, work.gpu).milliseconds;
 }
 
 /// One size: each runner draws once to warm up, and all are measured in rounds. `place`: "2 of 7".
 void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& runners,
                   const std::vector<Scene>& scenes, int size, const std::string& place) {
-    const std::vector<std::unique_ptr<Drawable>> drawables = drawables_of(work, axis, scenes, size);
-    const double value = axis.value(drawables.front()->tracer, size);
+    TechniqueOptions options = work.options.technique;
+    if (axis.flag != nullptr)
+        options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
+    require_map(work.options.scene.memory, options.asked.map);
+    require_scene(work.options.scene.memory, scenes.front(), Workload::comparison);
+    const Drawable first(work, scenes.front(), options.asked);
+    const double value = axis.value(first.tracer, size);
     const std::string where =
         fmt::format("{} {}, {}", grouped(static_cast<std::uint64_t>(value)), axis.name, place);
-    const auto draw = [&](const Runner& runner) { return draw_all(work, runner, drawables); };
+    const auto draw_all = [&](const Runner& runner) {
+        double sum = draw(work, runner, first);
+        for (std::size_t i = 1; i < scenes.size(); ++i) // one at a time in memory
+            sum += draw(work, runner, Drawable(work, scenes[i], options.asked));
+        return sum;
+    };
     const double most_seconds = work.options.quick ? 0.7 : 4; // of work for a sample
     std::vector<Runner*> drawn;
     for (Runner& runner : runners) {
@@ -193,7 +186,7 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         work.console.progress(fmt::format("{}: {}", where, runner.growth.technique));
         try {
             const Stopwatch stopwatch;
-            draw(runner);
+            draw_all(runner);
             drawn.push_back(&runner);
             const double seconds = stopwatch.milliseconds() / 1000;
             if (seconds > most_seconds)
@@ -209,7 +202,7 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         samples,
         {.repeats = std::min<std::size_t>(work.options.quick ? 7 : 15, work.options.limits.repeats),
          .seconds = work.options.quick ? 4.0 : 30.0},
-        {.measure = [&](std::size_t i) { return draw(*drawn[i]); },
+        {.measure = [&](std::size_t i) { return draw_all(*drawn[i]); },
          .seconds = [&] { return stopwatch.milliseconds() / 1000; },
          .before =
              [&](std::size_t i) {
@@ -222,16 +215,24 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         drawn[i]->growth.points.push_back({value, samples[i]});
 }
 
-/// Whether an earlier run had the axis: its growth is taken over.
-bool take_over(const BenchWork& work, const Axis& axis) {
+/// Whether an earlier run had all of these lines, by the same commands: they are taken over.
+bool take_over(const BenchWork& work, const std::vector<Runner>& runners) {
     if (work.kept == nullptr) return false;
-    bool found = false;
-    for (const Growth& growth : work.kept->growth)
-        if (growth.axis == axis.name) {
-            work.run.growth.push_back(growth);
-            found = true;
-        }
-    return found;
+    std::vector<const Growth*> found;
+    for (const Runner& runner : runners)
+        for (const Growth& growth : work.kept->growth)
+            if (growth.axis == runner.growth.axis && growth.scene == runner.growth.scene &&
+                growth.technique == runner.growth.technique &&
+                growth.command == runner.growth.command)
+                found.push_back(&growth);
+    if (found.size() != runners.size()) return false;
+    for (const Growth* growth : found) {
+        work.run.growth.push_back(*growth);
+        for (const BenchLeftOut& out : work.kept->left_out)
+            if (out.scene == growth->scene && out.technique == growth->technique)
+                work.run.left_out.push_back(out);
+    }
+    return true;
 }
 
 void measure_axis(const BenchWork& work, const Axis& axis) {
@@ -242,8 +243,10 @@ void measure_axis(const BenchWork& work, const Axis& axis) {
         const std::string where = fmt::format("{} {}", axis.name, place);
         try {
             const std::vector<Scene> scenes = axis.scenes(work.options, axis.sizes[i]);
-            if (i == 0) runners = runners_along(work, axis, scenes.front());
-            if (runners.empty()) return;
+            if (i == 0) {
+                runners = runners_along(work, axis, scenes.front());
+                if (runners.empty() || take_over(work, runners)) return;
+            }
             measure_size(work, axis, runners, scenes, axis.sizes[i], place);
         } catch (const std::bad_alloc&) {
             work.run.left_out.push_back({axis.name, {}, {}, where + ": " + out_of_memory});
@@ -263,7 +266,6 @@ void measure_axis(const BenchWork& work, const Axis& axis) {
 bool measure_growth(const BenchWork& work) {
     bool complete = true;
     for (const Axis& axis : axes()) {
-        if (take_over(work, axis)) continue;
         try {
             measure_axis(work, axis);
         } catch (const Error& error) {

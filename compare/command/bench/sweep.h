@@ -31,7 +31,8 @@ TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& se
 /// What a technique takes by itself, by a frame that it made without any setting.
 BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit);
 
-/// One setting at a time, each value but the technique's own; settings in `fixed` stay.
+/// One setting at a time, each value but the technique's own, and but the costly ones where it is
+/// to be `quick`; settings in `fixed` stay.
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
                                  const BenchSettings& own, bool quick);
 

@@ -92,6 +92,8 @@ TEST(BenchJson, comes_back_as_it_was) {
     run.points[1].settings = {{"normalise", "exact"}};
     run.points[1].own = {{"normalise", "exact"}, {"bumps", "as-given"}};
     run.points[1].error.color = BenchColor{0.25, 3, 2};
+    run.points[1].stages = {{"volumes", run.points[1].samples},
+                            {"counting", run.points[1].samples}};
     run.left_out = {{"ordinary", "zp_plus", {{"bumps", "indexed"}}, "why"}};
     run.growth = {{.axis = "pixels",
                    .scene = "ordinary",
@@ -117,6 +119,18 @@ TEST(CheckBench, names_the_figure_that_contradicts_another) {
         return std::string("accepted");
     };
     using Json = ResultsJson;
+    const auto with_stage = [&](const Json& stage) {
+        return refusal([&](Json& json) { json["points"][0]["stages"]["counting"] = stage; });
+    };
+    const Json ms = good["points"][0]["ms"];
+    EXPECT_EQ(with_stage({{"median", ms["median"]}, {"samples", ms["samples"]}}), "accepted");
+    EXPECT_NE(with_stage({{"median", 1e9}, {"samples", ms["samples"]}}).find("/median"),
+              std::string::npos);
+    EXPECT_NE(with_stage({{"median", 1}, {"samples", Json::array({1})}}).find("/samples"),
+              std::string::npos);
+    EXPECT_NE(with_stage(Json::object()).find("/points/0/stages/counting"), std::string::npos);
+    EXPECT_NE(refusal([](Json& json) { json["points"][0]["stages"] = 3; }).find("an object"),
+              std::string::npos);
     EXPECT_EQ(refusal([](Json& json) {
                   json["schema"] = "shadowproof/results/1";
               }).rfind("run.json: /schema must be", 0),
