@@ -133,7 +133,8 @@ test('a FIFO that is open and not read is an error when it is full, and hangs no
 test('folders, places that do not exist and names that are too long are refused before', () => {
   const below = folder('nowhere', { file: 'old' });
   mkdirSync(join(below, 'folder'));
-  for (const name of ['folder', 'folder/', 'new/', 'missing/file', 'file/below', 'n'.repeat(300), '.']) {
+  for (const name of ['folder', 'folder/', 'new/', 'missing/file', 'file/below', 'n'.repeat(300), '.',
+                      '/proc/new']) {
     const done = assertAskingChangesNothing(below, name);
     assertRefused(done, name);
     assert.ok(done.err.startsWith(`write_output: ${name}: cannot be written (`), done.err);
