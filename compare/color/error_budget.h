@@ -25,7 +25,9 @@ namespace shadowproof {
 double cube_budget(int size, const Intervals& vectors);
 
 /// Relative error in the length of a vector normalised by one Newton-Raphson step: too short by at
-/// most this, never too long (Lomont 2003).
+/// most this, never too long (Lomont 2003). A guess off by a share e comes out off by 1.5 e^2 +
+/// 0.5 e^3, and e is least at -0.034376. Held for all mantissas of two binades, which are all there
+/// are, by tests/raster/lighting/normalise_test.cpp.
 inline constexpr double newton_raphson_budget = 0.0017523;
 
 /// The truth's inputs, widened by all that the budget allows.

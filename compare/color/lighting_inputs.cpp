@@ -15,7 +15,7 @@ namespace {
 constexpr double v = float_roundoff;
 
 /// Lomont's reciprocal square root (2003): a guess by halving the exponent, then one step of Newton
-/// and Raphson; its relative error is at most 0.0017523.
+/// and Raphson; its relative error is at most newton_raphson_budget.
 double newton_raphson_root(double square) {
     const auto x = static_cast<float>(square);
     const auto bits = std::bit_cast<std::uint32_t>(x);

@@ -40,6 +40,18 @@ struct FrameTime {
     std::vector<Stage> stages{}; ///< of a frame of its own; empty unless asked for
 };
 
+/// Draws one frame with a single pixel, so that the driver finishes deferred compilation. `draw`:
+/// as quickest_frame takes it.
+template <class Draw>
+void compile_all(const GlFunctions& gl, const Draw& draw) {
+    gl.Scissor(0, 0, 1, 1);
+    gl.Enable(GL_SCISSOR_TEST);
+    StageClock clock(gl, StageClock::Waits::once);
+    draw(clock);
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.Finish();
+}
+
 /// The quickest of up to three frames, as many as are begun within 20 ms. `draw` takes the frame's
 /// StageClock and ends its stages. `divided`: one more is drawn for the stages.
 template <class Draw>

@@ -70,25 +70,15 @@ struct Frames {
     }
 };
 
-/// Draws one frame with a single pixel, so that the driver finishes deferred compilation.
-void compile_all(Frames& frames) {
-    const GlFunctions& gl = frames.gl;
-    gl.Scissor(0, 0, 1, 1);
-    gl.Enable(GL_SCISSOR_TEST);
-    StageClock clock(gl, StageClock::Waits::once);
-    frames.draw(clock);
-    gl.Disable(GL_SCISSOR_TEST);
-    gl.Finish();
-}
-
 } // namespace
 
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
     const MapModel model = with_settings(recipe.model, plan.asked.map, scene);
     Frames frames(gpu, scene, model, recipe.making);
     const GlFunctions& gl = gpu.gl();
-    compile_all(frames);
-    const FrameTime time = quickest_frame(gl, true, [&](StageClock& clock) { frames.draw(clock); });
+    const auto draw = [&](StageClock& clock) { frames.draw(clock); };
+    compile_all(gl, draw);
+    const FrameTime time = quickest_frame(gl, true, draw); // results tell the map's own time
     Frame frame = read_back(gl, frames.target, Counter::none);
     frame.family = "map";
     frame.mapped = MapEvidence{.model = model,

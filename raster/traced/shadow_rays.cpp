@@ -189,15 +189,15 @@ RayRecipe skip_recipe() {
 
 Frame trace_shadow_rays(const Scene& scene, const RayRecipe& recipe) {
     const auto start = std::chrono::steady_clock::now();
-    const auto since = [](std::chrono::steady_clock::time_point then) {
-        const auto elapsed = std::chrono::steady_clock::now() - then;
+    const auto passed = [&] {
+        const auto elapsed = std::chrono::steady_clock::now() - start;
         return std::chrono::duration<double, std::milli>(elapsed).count();
     };
     RayPicture picture(scene, recipe);
-    const double building = since(start);
+    const double building = passed();
     picture.trace_all();
     Frame& frame = picture.frame();
-    frame.milliseconds = since(start);
+    frame.milliseconds = passed();
     frame.stages = {{"hierarchy", building}, {"rays", frame.milliseconds - building}};
     return std::move(frame);
 }

@@ -293,17 +293,6 @@ VolumeFaces faces_of(const StencilRecipe& recipe) {
             .hidden_caps = recipe.hidden_caps};
 }
 
-/// Draws one frame with a single pixel, so that the driver finishes deferred compilation.
-void compile_all(Frames& frames) {
-    const GlFunctions& gl = frames.gl;
-    gl.Scissor(0, 0, 1, 1);
-    gl.Enable(GL_SCISSOR_TEST);
-    StageClock clock(gl, StageClock::Waits::once);
-    frames.draw(clock);
-    gl.Disable(GL_SCISSOR_TEST);
-    gl.Finish();
-}
-
 } // namespace
 
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe) {
@@ -317,7 +306,8 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
            (recipe.counter == Counter::stencil && recipe.depth_model.eye_relative));
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
-    compile_all(frames);
+    const auto draw = [&](StageClock& clock) { frames.draw(clock); };
+    compile_all(gl, draw);
     const FrameTime time =
         quickest_frame(gl, gpu.tells_stages(), [&](StageClock& clock) { frames.draw(clock); });
     Frame frame = read_back(gl, frames.target, recipe.counter);

@@ -151,8 +151,7 @@ void add_points(Trial& trial) {
     }
 }
 
-/// A frame's stages, each after those of earlier frames. Not where an earlier run timed frames
-/// without stages.
+/// Adds a frame's stages, each after those of earlier frames.
 void add_stages(std::vector<BenchStage>& stages, const Frame& frame) {
     for (const Stage& stage : frame.stages) {
         auto found = std::find_if(stages.begin(), stages.end(),
@@ -181,6 +180,7 @@ void measure(Trial& trial) {
                  if (technique == nullptr) return trace(trial.tracer).statistics.milliseconds;
                  BenchPoint& point = run.points[trial.first + i];
                  const Frame frame = draw(trial, *technique, point.settings);
+                 // As many as the samples: none where an earlier run has samples without stages.
                  if (!stages[i].empty() || samples[i].empty()) add_stages(stages[i], frame);
                  return frame.milliseconds;
              },

@@ -52,6 +52,11 @@ std::string named_scene(const BenchOptions& options) {
     return options.scenes.empty() ? "ordinary" : options.scenes.front();
 }
 
+template <Scene (*generate)(int size, int width, int height)>
+std::vector<Scene> generated(const BenchOptions& options, int size) {
+    return {generate(size, options.scene.size.width, options.scene.size.height)};
+}
+
 std::vector<Axis> axes() {
     return {{"pixels",
              {64, 128, 256, 512, 1024, 2048, 4096},
@@ -67,26 +72,13 @@ std::vector<Axis> axes() {
              {1'000, 4'000, 16'000, 64'000, 256'000, 1'000'000, 4'000'000},
              4,
              as_it_is,
-             [](const BenchOptions& options, int triangles) {
-                 const auto [width, height] = options.scene.size;
-                 return std::vector{dense_scene(triangles, width, height)};
-             }},
-            {"volumes",
-             {1, 2, 4, 8, 16, 32, 64},
-             5,
-             as_it_is,
-             [](const BenchOptions& options, int plates) {
-                 const auto [width, height] = options.scene.size;
-                 return std::vector{stacked_scene(plates, width, height)};
-             }},
+             generated<dense_scene>},
+            {"volumes", {1, 2, 4, 8, 16, 32, 64}, 5, as_it_is, generated<stacked_scene>},
             {"silhouette edges",
              {1, 4, 16, 64, 256, 1024},
              4,
              silhouette_edges,
-             [](const BenchOptions& options, int balls) {
-                 const auto [width, height] = options.scene.size;
-                 return std::vector{parted_scene(balls, width, height)};
-             }},
+             generated<parted_scene>},
             {"lights",
              {1, 2, 4, 8, 16, 32, 64},
              4,
