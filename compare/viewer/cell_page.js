@@ -1,8 +1,10 @@
 // The state of the open cell's page, and what buttons and keys do to it.
 
 let openPage = null; // the cell's page that is shown, or null
+let timesLeft = 0;
 
 function leaveCell() {
+  ++timesLeft;
   if (!openPage) return;
   clearInterval(openPage.blinking);
   openPage.resizes.disconnect();
@@ -174,12 +176,11 @@ async function showCell(results, scene, cell, params) {
     main.replaceChildren(head, alertLine(cell.error), howMade(results, { scene, cell }));
     return;
   }
-  const hash = location.hash;
+  const before = timesLeft;
   main.replaceChildren(head, element('p', { class: 'quiet' }, 'Loading…'));
   const opened = await openCell(scene, cell);
   const { page, body } = await filledPage(results, opened, params);
-  if (location.hash !== hash) return; // left while it loaded
-  leaveCell();
+  if (timesLeft !== before) return; // left while it loaded
   openPage = page;
   main.replaceChildren(head, ...warnings(opened), body);
   page.update();

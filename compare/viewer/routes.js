@@ -15,20 +15,25 @@ function routeText(cell, params) {
   return `#${cell}${query.length ? `?${query.join('&')}` : ''}`;
 }
 
+let followed = '';      // the address that is shown, as far as we know
 let pendingLink = null;
 
 /** Updates the address to what is shown. Browsers limit how often that may be done. */
 function rememberLink(text) {
   clearTimeout(pendingLink);
   pendingLink = setTimeout(() => {
-    pendingLink = null;
-    if (location.hash !== text) history.replaceState(null, '', text);
+    // Somebody has followed a link, and its hashchange is on its way.
+    if (location.hash !== followed) return;
+    if (followed !== text) history.replaceState(null, '', text);
+    followed = location.hash;
   }, 150);
 }
 
-function forgetLink() {
+/** The address that is to be shown now. What was to be remembered of the last one is dropped. */
+function followedLink() {
   clearTimeout(pendingLink);
-  pendingLink = null;
+  followed = location.hash;
+  return followed;
 }
 
 const pairOf = (text) => {

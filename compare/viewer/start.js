@@ -33,9 +33,8 @@ function cellOf(results, path) {
 }
 
 async function follow(results) {
-  forgetLink();
   leaveCell();
-  const { cell: path, params } = parsedRoute(location.hash);
+  const { cell: path, params } = parsedRoute(followedLink());
   const target = path ? cellOf(results, path) : null;
   scrollTo(0, 0);
   if (target) {

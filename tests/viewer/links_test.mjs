@@ -68,6 +68,24 @@ test('panes move as one: what one is zoomed to, all are', async () => {
   assert.equal(await text(page, '.inspector h2'), first);
 });
 
+test('a link that is followed stands, though what was shown before was still to be remembered', async () => {
+  const { page } = await openReport(folder, { hash: '#near_plane/zpass' });
+  await settledLink(page);
+  // The timer of the old view runs out between the new address and its event.
+  await page.evaluate(() => {
+    const { setTimeout } = window;
+    let late;
+    window.setTimeout = (call) => { late = call; return 0; };
+    document.dispatchEvent(new KeyboardEvent('keydown', { key: '+' }));
+    window.setTimeout = setTimeout;
+    location.hash = '#near_plane/zfail?pixel=10,10';
+    late();
+  });
+  await page.waitForFunction(() => /zfail/.test(document.querySelector('h1').textContent));
+  assert.equal(await settledLink(page), '#near_plane/zfail?pixel=10,10');
+  assert.equal(await text(page, '.inspector h2'), 'Pixel (10, 10)');
+});
+
 test('back and forth in the history follows, and an unknown cell is named', async () => {
   const { page, open } = await openReport(folder);
   await page.locator('.matrix td a').first().click();
