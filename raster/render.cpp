@@ -40,9 +40,11 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
             return triangle < scene.triangles.size() || triangle == no_triangle;
         }))
         refuse("picture shows triangles that the scene does not have");
-    if (!std::ranges::all_of(frame.claim.pixels, [](Visibility claim) {
+    if (!std::ranges::all_of(frame.claim.pixels, [&](Visibility claim) {
             return claim == Visibility::background || claim == Visibility::shadowed ||
-                   claim == Visibility::lit;
+                   claim == Visibility::lit ||
+                   (claim == Visibility::partly_lit && frame.mapped &&
+                    !frame.mapped->lit_comparisons.pixels.empty());
         }))
         refuse("claim is neither background nor shadowed nor lit");
 }

@@ -23,6 +23,7 @@ enum class Cause : std::uint8_t {
     acne,         ///< the receiver shadows itself: the bias or epsilon is too small
     leak,         ///< an occluder lies within the bias or epsilon, which is too large
     range,        ///< outside of what the light's camera keeps
+    filter,       ///< the texels around the point's own were averaged with it
     missed,       ///< a float ray slipped between two triangles, or met one that it passes
     precision,    ///< disappears when the surface moves by one quantum of the depth format, or
                   ///< when a float ray is not rounded
@@ -37,7 +38,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 18> all_causes{{
+inline constexpr std::array<CauseWords, 19> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -52,6 +53,7 @@ inline constexpr std::array<CauseWords, 18> all_causes{{
     {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
     {Cause::range, "range", "outside the light's near and far plane"},
+    {Cause::filter, "filter", "averaged with its neighbours: its own texel is right"},
     {Cause::missed, "missed", "a float ray slipped between triangles, or met one that it passes"},
     {Cause::precision, "precision", "within the rounding of depths or rays"},
     {Cause::shading, "shading", "the colour is beyond its bound"},

@@ -19,8 +19,9 @@
 
 namespace shadowproof {
 
-/// What a pixel shows; the values are those of the class map, 8-bit gray.
-enum class Visibility : std::uint8_t { background = 0, shadowed = 64, lit = 255 };
+/// What a pixel shows; the values are those of the class map, 8-bit gray. Only claims are partly
+/// lit: how much, their evidence tells.
+enum class Visibility : std::uint8_t { background = 0, shadowed = 64, partly_lit = 160, lit = 255 };
 
 /// A part of a frame, and its time.
 struct Stage {

@@ -47,6 +47,10 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
     model.value = settings.value.value_or(model.value);
     model.format = settings.format.value_or(model.format);
     model.culling = settings.culling.value_or(model.culling);
+    if (model.filter > 0) {
+        model.filter = settings.filter.value_or(model.filter);
+        model.average = settings.average.value_or(model.average);
+    }
     // A light without casters has a map all the same.
     const double farthest = farthest_caster(scene, light.position) * scene.unit;
     // Window depths at the far plane are 2 near (far - depth) / far away from being clipped: 16

@@ -32,9 +32,19 @@ enum class MapCulling : std::uint8_t {
     back,
 };
 
+/// What is averaged over a block of texels.
+enum class MapAverage : std::uint8_t {
+    comparisons, ///< percentage-closer filtering: the claim is the share of texels that say `lit`
+    values,      ///< what the texels hold, which is compared once
+};
+
 inline constexpr std::array all_map_values{MapValue::distance, MapValue::depth};
 inline constexpr std::array all_map_formats{MapFormat::d16, MapFormat::d24, MapFormat::d32f};
 inline constexpr std::array all_map_cullings{MapCulling::none, MapCulling::front, MapCulling::back};
+inline constexpr std::array all_map_averages{MapAverage::comparisons, MapAverage::values};
+
+/// Texels a side of the largest block: the shares of one byte.
+inline constexpr int largest_map_filter = 13;
 
 constexpr std::string_view name_of(MapValue value) {
     return value == MapValue::distance ? "distance" : "depth";
@@ -64,6 +74,10 @@ constexpr std::string_view name_of(MapCulling culling) {
     return "back";
 }
 
+constexpr std::string_view name_of(MapAverage average) {
+    return average == MapAverage::comparisons ? "comparisons" : "values";
+}
+
 constexpr DepthFormat depth_format_of(MapFormat format) {
     if (format == MapFormat::d32f) return {32, true};
     return {format == MapFormat::d24 ? 24 : 16, false};
@@ -78,6 +92,8 @@ struct MapSettings {
     std::optional<MapCulling> culling{};
     std::optional<double> near{}; ///< in the file's units of length
     std::optional<double> far{};  ///< likewise
+    std::optional<int> filter{};  ///< texels a side of the block
+    std::optional<MapAverage> average{};
 };
 
 /// How a map is made and asked. The claim is `shadowed` where value + bias < what the receiver's
@@ -95,8 +111,14 @@ struct MapModel {
     MapCulling culling = MapCulling::none;
     double near = 0; ///< of the light's camera, world units
     double far = 1;
+    /// Texels a side of the block that is averaged, around the point's place in the map; beside the
+    /// map its border is repeated. 0: the texel at that place alone.
+    int filter = 0;
+    MapAverage average = MapAverage::comparisons;
 
     std::size_t faces() const { return shape == Shape::cube ? 6 : 1; }
+    /// How many texels a point asks.
+    int asked() const { return filter > 0 ? filter * filter : 1; }
 };
 
 /// The evidence of a claim made by a shadow map.
@@ -105,6 +127,8 @@ struct MapEvidence {
     /// As read back, one per face, in OpenGL's order for a cube; rows from the top of the picture
     /// that the face's camera takes.
     std::vector<Image<float>> faces;
+    /// Where comparisons are averaged: how many of MapModel::asked say `lit`, at each pixel.
+    Image<std::uint8_t> lit_comparisons{};
     DepthFormat format{};        ///< of the texture, as the driver names it
     double map_milliseconds = 0; ///< drawing the map, in a frame that waited for it
 };

@@ -64,14 +64,15 @@ std::string bench_csv(const BenchRun& run) {
     for (const BenchPoint& point : run.points) {
         const TimeInterval ms = median_interval(point.samples);
         const BenchError& error = point.error;
-        const auto share = [&](std::uint64_t pixels) {
-            return static_cast<double>(pixels) / static_cast<double>(error.pixels);
+        const auto share = [&](double pixels) {
+            return pixels / static_cast<double>(error.pixels);
         };
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
-                           field(point.technique), field(words_of(point.settings)), ms.median,
-                           ms.low, ms.high, point.samples.size(), is_settled(point.samples),
-                           error.pixels, wrong_pixels(error), share(wrong_pixels(error)),
-                           share(error.falsely_lit), share(error.falsely_shadowed));
+        csv +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
+                        field(point.technique), field(words_of(point.settings)), ms.median, ms.low,
+                        ms.high, point.samples.size(), is_settled(point.samples), error.pixels,
+                        wrong_pixels(error), share(static_cast<double>(wrong_pixels(error))),
+                        share(error.falsely_lit), share(error.falsely_shadowed));
         csv += error.color ? fmt::format(",{},{},{}", error.color->rmse, error.color->percentile999,
                                          error.color->largest)
                            : ",,,";

@@ -79,8 +79,8 @@ void point(const Place& place) {
                    {"pixels", size},
                    {"causes", causes},
                    {"differing", count},
-                   {"falsely_lit", count},
-                   {"falsely_shadowed", count},
+                   {"falsely_lit", milliseconds},
+                   {"falsely_shadowed", milliseconds},
                    {"color", color, Need::optional},
                    {"command", text}});
     if (place.value.contains("stages"))
@@ -93,9 +93,10 @@ void point(const Place& place) {
     if (differing != sum) refuse(place.at("causes"), "do not add up to \"differing\"");
     if (differing > place.value.at("pixels"))
         refuse(place.at("differing"), "is more than the picture has");
-    if (place.value.at("falsely_lit").get<std::uint64_t>() +
-            place.value.at("falsely_shadowed").get<std::uint64_t>() >
-        sum)
+    // Shares of many pixels, added up in doubles.
+    if (place.value.at("falsely_lit").get<double>() +
+            place.value.at("falsely_shadowed").get<double>() >
+        static_cast<double>(sum) * (1 + 1e-9))
         refuse(place.at("falsely_lit"), "is more than what differs, with \"falsely_shadowed\"");
 }
 

@@ -10,8 +10,8 @@ namespace shadowproof {
 
 namespace {
 
-double share(std::uint64_t pixels, std::uint64_t all) {
-    return 100.0 * static_cast<double>(pixels) / static_cast<double>(all);
+double share(double pixels, std::uint64_t all) {
+    return 100.0 * pixels / static_cast<double>(all);
 }
 
 std::string causes_beyond_edges(const BenchError& error) {
@@ -86,7 +86,8 @@ std::vector<std::string> bench_table(const BenchRun& run, const std::string& sce
         std::string line = fmt::format(
             "{} {:<{}}  {:>9.2f}  {:>8.2f} {:>8.2f}  {:>3}  {:>9.4f}  {:>9.4f}  {:>9.4f}",
             is_on_front(run, *point) ? "*" : " ", name_of(*point), width, ms.median, ms.low,
-            ms.high, point->samples.size(), share(wrong_pixels(error), error.pixels),
+            ms.high, point->samples.size(),
+            share(static_cast<double>(wrong_pixels(error)), error.pixels),
             share(error.falsely_lit, error.pixels), share(error.falsely_shadowed, error.pixels));
         if (error.color)
             line += fmt::format("{:>7.2f}{:>8.2f}{:>8.2f}", error.color->rmse,

@@ -136,6 +136,13 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                     "Near plane of the light's camera (close to the light)");
     add_length_flag(command, "--map-far", settings.far, 0,
                     "Far plane of the light's camera (just beyond the farthest caster)");
+    command
+        .add_option("--map-filter", settings.filter,
+                    "spot_map_pcf: texels a side of the block that is averaged (4)")
+        ->type_name("N")
+        ->check(CLI::Range(1, largest_map_filter));
+    add_choice("--map-average", all_map_averages, settings.average,
+               "spot_map_pcf: what is averaged");
 }
 
 void add_ray_flags(CLI::App& command, RaySettings& settings) {
@@ -307,6 +314,8 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
     if (map.near) add("--map-near", fmt::format("{}", *map.near));
     if (map.far) add("--map-far", fmt::format("{}", *map.far));
+    if (map.filter) add("--map-filter", fmt::format("{}", *map.filter));
+    if (map.average) add("--map-average", std::string(name_of(*map.average)));
     const RaySettings& rays = technique.asked.rays;
     if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
     if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));

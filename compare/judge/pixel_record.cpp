@@ -51,6 +51,8 @@ std::string_view name_of(Visibility visibility) {
     switch (visibility) {
     case Visibility::lit:
         return "lit";
+    case Visibility::partly_lit:
+        return "partly_lit";
     case Visibility::shadowed:
         return "shadowed";
     case Visibility::background:

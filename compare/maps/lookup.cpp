@@ -25,6 +25,17 @@ int clamped(const MapModel& model, double place) {
     return static_cast<int>(std::clamp(std::floor(place), 0.0, model.size - 1.0));
 }
 
+/// The first texel of what is asked at a place in the map: of a block, as near as no block lies
+/// farther beside the map, or the one there.
+glm::ivec2 first_of(const MapModel& model, const glm::dvec2& place) {
+    if (model.filter == 0) return {clamped(model, place.x), clamped(model, place.y)};
+    const auto first = [&](double at) {
+        return static_cast<int>(std::clamp(std::floor(at - 0.5 * (model.filter - 1)),
+                                           -1.0 * model.filter, 1.0 * model.size));
+    };
+    return {first(place.x), first(place.y)};
+}
+
 /// Where a vector from the light pierces the face camera's picture, in texels.
 glm::dvec2 place_of(const Camera& camera, const glm::dvec3& from_light) {
     return project(camera, camera.eye + from_light);
@@ -84,12 +95,22 @@ Lookup lookup(const LightView& light, const glm::dvec3& from_light) {
     const glm::dvec2 place = place_of(camera, from_light);
     found.texel = {static_cast<std::uint32_t>(face), clamped(model, place.x),
                    clamped(model, place.y)};
+    found.first = first_of(model, place);
     return found;
+}
+
+Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place) {
+    if (model.filter == 0 || place.face != asked.texel.face) return asked.texel;
+    const auto nearest = [&](int at, int first) {
+        return std::clamp(std::clamp(at, first, first + model.filter - 1), 0, model.size - 1);
+    };
+    return {place.face, nearest(place.x, asked.first.x), nearest(place.y, asked.first.y)};
 }
 
 // Seen from a face, a box's picture is within the rectangle of its corners' as long as all lie
 // before the camera. The division, the halving, the sum and the product with the size round by v
-// of at most the map's size each: 4 v, of which the quotient's counts twice.
+// of at most the map's size each: 4 v, of which the quotient's counts twice; and where a block is
+// asked, the difference to its first texel.
 std::optional<PossibleLookup>
 find_possible_lookup(const LightView& light, const UncertainPoint& point,
                      const std::function<bool(const PossibleLookup&)>& holds) {
@@ -112,11 +133,18 @@ find_possible_lookup(const LightView& light, const UncertainPoint& point,
             high = glm::max(high, place);
         }
         const auto [least, most] = range_of_value(model, camera, asked);
-        const double rounding = 5 * v * model.size;
-        for (int y = clamped(model, low.y - rounding); y <= clamped(model, high.y + rounding); ++y)
-            for (int x = clamped(model, low.x - rounding); x <= clamped(model, high.x + rounding);
-                 ++x) {
-                const PossibleLookup found{{static_cast<std::uint32_t>(face), x, y}, least, most};
+        const double rounding = (model.filter > 0 ? 6 : 5) * v * model.size;
+        const glm::ivec2 from = first_of(model, low - rounding);
+        const glm::ivec2 to = first_of(model, high + rounding);
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x) {
+                Lookup lookup;
+                lookup.texel.face = static_cast<std::uint32_t>(face);
+                if (model.filter > 0)
+                    lookup.first = {x, y};
+                else
+                    lookup.texel = {static_cast<std::uint32_t>(face), x, y};
+                const PossibleLookup found{lookup, least, most};
                 if (holds(found)) return found;
             }
     }
@@ -148,6 +176,47 @@ bool is_shadowed(const MapModel& model, double stored, double value) {
     const double nearer = value - model.bias;
     if (nearer <= model.near) return false;
     return stored < model.far / (model.far - model.near) * (1 - model.near / nearer);
+}
+
+namespace {
+
+/// The mean of what the texels hold, as they were read back.
+double mean_stored(const LightView& light, const Lookup& lookup) {
+    double sum = 0;
+    visit_asked(light.model(), lookup, [&](const Texel& texel) { sum += light.stored(texel); });
+    return sum / light.model().asked();
+}
+
+} // namespace
+
+int lit_comparisons(const LightView& light, const Lookup& lookup) {
+    const MapModel& model = light.model();
+    if (model.average == MapAverage::values)
+        return is_shadowed(model, mean_stored(light, lookup), lookup.value) ? 0 : model.asked();
+    int lit = 0;
+    visit_asked(model, lookup, [&](const Texel& texel) {
+        lit += is_shadowed(model, light.stored(texel), lookup.value) ? 0 : 1;
+    });
+    return lit;
+}
+
+// A mean of n values: n - 1 sums and a quotient.
+LitRange lit_range(const LightView& light, const PossibleLookup& possible) {
+    const MapModel& model = light.model();
+    if (model.average == MapAverage::values) {
+        const double mean = mean_stored(light, possible.lookup);
+        const double error = model.asked() * v * mean;
+        const Answers less = compare(model, mean - error, possible.low, possible.high);
+        const Answers more = compare(model, mean + error, possible.low, possible.high);
+        return {less.shadowed ? 0 : model.asked(), more.lit ? model.asked() : 0};
+    }
+    LitRange range;
+    visit_asked(model, possible.lookup, [&](const Texel& texel) {
+        const Answers answers = compare(model, light.stored(texel), possible.low, possible.high);
+        range.least += answers.shadowed ? 0 : 1;
+        range.most += answers.lit ? 1 : 0;
+    });
+    return range;
 }
 
 } // namespace shadowproof

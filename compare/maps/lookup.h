@@ -4,7 +4,9 @@
 
 #include "compare/maps/light_view.h"
 
+#include <algorithm>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -12,12 +14,26 @@ namespace shadowproof {
 
 /// What a point asks. Given relative to the light.
 struct Lookup {
-    Texel texel;
-    double value = 0;   ///< the point's own: distance or depth, world units
-    double depth = 0;   ///< along the face's axis
-    bool in_map = true; ///< false behind a spot's camera or beside its square
+    Texel texel;            ///< the one at the point's place
+    glm::ivec2 first{0, 0}; ///< of the block that is averaged, if one is; it may lie beside the map
+    double value = 0;       ///< the point's own: distance or depth, world units
+    double depth = 0;       ///< along the face's axis
+    bool in_map = true;     ///< false behind a spot's camera or beside its square
 };
 Lookup lookup(const LightView& light, const glm::dvec3& from_light);
+
+/// Calls visit(texel) for each texel that is asked.
+template <class Visit>
+void visit_asked(const MapModel& model, const Lookup& lookup, const Visit& visit) {
+    if (model.filter == 0) return visit(lookup.texel);
+    for (int y = 0; y < model.filter; ++y)
+        for (int x = 0; x < model.filter; ++x)
+            visit(Texel{lookup.texel.face, std::clamp(lookup.first.x + x, 0, model.size - 1),
+                        std::clamp(lookup.first.y + y, 0, model.size - 1)});
+}
+
+/// Of the texels that `asked` asks, the nearest to `place`.
+Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place);
 
 /// A point relative to the light, with bounds of its components' errors.
 struct UncertainPoint {
@@ -25,13 +41,13 @@ struct UncertainPoint {
     glm::dvec3 error{0, 0, 0};
 };
 
-/// A texel that may be asked, and bounds of the point's own value.
+/// What may be asked, and bounds of the point's own value.
 struct PossibleLookup {
-    Texel texel;
+    Lookup lookup;  ///< its texels alone: where a block is asked, `first` and the face
     double low = 0; ///< of the value
     double high = 0;
 };
-/// The first of all texels that may be asked for which `holds`.
+/// The first of all questions that may be asked for which `holds`.
 std::optional<PossibleLookup>
 find_possible_lookup(const LightView& light, const UncertainPoint& point,
                      const std::function<bool(const PossibleLookup&)>& holds);
@@ -45,5 +61,17 @@ Answers compare(const MapModel& model, double stored, double low, double high);
 
 /// The comparison without any rounding.
 bool is_shadowed(const MapModel& model, double stored, double value);
+
+/// How many of the comparisons, MapModel::asked in number, say `lit`; without any rounding. Where
+/// values are averaged, all or none.
+int lit_comparisons(const LightView& light, const Lookup& lookup);
+
+/// How many may say so.
+struct LitRange {
+    int least = 0;
+    int most = 0;
+    bool holds(int lit) const { return least <= lit && lit <= most; }
+};
+LitRange lit_range(const LightView& light, const PossibleLookup& possible);
 
 } // namespace shadowproof

@@ -47,6 +47,13 @@ PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
 } // namespace
 
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
+    const MapModel& model = light.model();
+    if (model.filter > 0) {
+        const bool own_says_lit =
+            !wrong.lookup.in_map ||
+            !is_shadowed(model, light.stored(wrong.lookup.texel), wrong.lookup.value);
+        if (own_says_lit != wrong.claims_light) return {Cause::filter, {}};
+    }
     return wrong.claims_light ? of_false_light(light, wrong) : of_false_shadow(light, scene, wrong);
 }
 

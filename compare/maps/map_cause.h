@@ -15,7 +15,8 @@ struct WrongAnswer {
     bool claims_light = false;      ///< falsely lit, else falsely shadowed
 };
 
-/// The first of these that makes the answer right. Falsely shadowed: a map that reaches the point
+/// The first of these that makes the answer right. Where a block is averaged, its own texel alone
+/// (filter); what follows is of that texel's answer. Falsely shadowed: a map that reaches the point
 /// (range), exact values (precision); else the ray through the point itself, as no caster lies on
 /// it: acne where the texel shows the receiver or a triangle that has a corner in common with it,
 /// resolution where it shows another. Falsely lit: exact values (precision), the ray through the

@@ -44,10 +44,9 @@ public:
         if (triangle == no_triangle) return !claim_.differs(p);
         const Asked asked = asked_at(p);
         if (!asked.asks) return !claim_.differs(p);
-        const LightView::Shown shown = shown_by(asked.lookup.texel);
-        if (asked.lookup.in_map && !shown.shows) return false;
-        if (answer(asked) != claim_.frame.claim.at(p.x, p.y)) return false;
-        if (claim_.differs(p)) cause = cause_at(p, triangle, asked, shown);
+        if (asked.lookup.in_map && !are_shown(asked.lookup)) return false;
+        if (answer(asked) != claimed_lit(p)) return false;
+        if (claim_.differs(p)) cause = cause_at(p, triangle, asked);
         return true;
     }
 
@@ -93,11 +92,18 @@ public:
     }
 
     EvidenceSummary summary(const EvidenceCheck& check,
-                            const Image<std::uint8_t>& /*cause*/) const override {
-        const auto wrong = std::count_if(shown_.begin(), shown_.end(),
-                                         [](const auto& shown) { return !shown.shows; });
-        return summary_of_map(*claim_.frame.mapped, check.in_band, texels_.size(),
-                              static_cast<std::size_t>(wrong), claim_.traced.scene().unit);
+                            const Image<std::uint8_t>& cause) const override {
+        MapFigures figures{
+            .straddling = check.in_band, .asked = texels_.size(), .unexplained = not_shown_.size()};
+        for (int y = 0; y < cause.height; ++y)
+            for (int x = 0; x < cause.width; ++x) {
+                const PixelPlace p{x, y};
+                if (claim_.frame.claim.at(x, y) == Visibility::partly_lit) ++figures.partly_lit;
+                if (cause.at(x, y) != no_difference &&
+                    cause.at(x, y) != static_cast<std::uint8_t>(Cause::edge))
+                    figures.wrongness += wrongness(p);
+            }
+        return summary_of_map(*claim_.frame.mapped, figures, claim_.traced.scene().unit);
     }
 
     std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
@@ -114,6 +120,7 @@ public:
         const std::optional<PixelLookup> pixel = lookup_at({record.x, record.y});
         if (!pixel) {
             account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
+            if (light_.model().filter > 0) account.columns.push_back({"lit", "-"});
             account.remark = {"shows", "not asked"};
             members["map"] = nullptr;
         } else {
@@ -125,6 +132,9 @@ public:
             account.remark = {"shows", pixel->shown == no_triangle
                                            ? std::string("nothing")
                                            : fmt::format("triangle {}", pixel->shown)};
+            if (light_.model().filter > 0)
+                account.columns.push_back(
+                    {"lit", fmt::format("{}/{}", pixel->lit, light_.model().asked())});
             members["map"] = {{"face", texel.face},
                               {"texel", {texel.x, texel.y}},
                               {"stored", pixel->stored * unit},
@@ -133,6 +143,10 @@ public:
                               {"shows", pixel->shown == no_triangle
                                             ? nlohmann::ordered_json(nullptr)
                                             : nlohmann::ordered_json(pixel->shown)}};
+            if (light_.model().filter > 0) {
+                members["map"]["lit"] = pixel->lit;
+                members["map"]["of"] = light_.model().asked();
+            }
         }
         account.members = members.dump();
         return account;
@@ -144,7 +158,7 @@ private:
     LightView light_;
     std::vector<Texel> texels_;           ///< that pixels' centres ask, in order
     std::vector<LightView::Shown> shown_; ///< by each
-    std::vector<FromLight> traced_;       ///< at each one's centre
+    std::vector<Texel> not_shown_;        ///< those that no rasterizer would store, in order
 
     glm::dvec3 direction_at(PixelPlace p) const {
         return ray_direction(claim_.traced.scene().camera, p.x + 0.5, p.y + 0.5);
@@ -182,19 +196,55 @@ private:
         return asked;
     }
 
-    /// What the map answers at the pixel's centre, as it was read back.
-    Visibility answer(const Asked& asked) const {
-        const bool shadowed =
-            asked.lookup.in_map &&
-            is_shadowed(light_.model(), light_.stored(asked.lookup.texel), asked.lookup.value);
-        return shadowed ? Visibility::shadowed : Visibility::lit;
+    /// How many comparisons the claim says to have found light; -1 where it contradicts itself.
+    int claimed_lit(PixelPlace p) const {
+        const MapModel& model = light_.model();
+        const Image<std::uint8_t>& lit = claim_.frame.mapped->lit_comparisons;
+        switch (claim_.frame.claim.at(p.x, p.y)) {
+        case Visibility::lit:
+            return model.asked();
+        case Visibility::shadowed:
+            return 0;
+        case Visibility::partly_lit:
+            if (lit.width != claim_.frame.claim.width || lit.height != claim_.frame.claim.height ||
+                model.average != MapAverage::comparisons || lit.at(p.x, p.y) == 0 ||
+                lit.at(p.x, p.y) >= model.asked())
+                return -1;
+            return lit.at(p.x, p.y);
+        case Visibility::background:
+            break;
+        }
+        return -1;
+    }
+
+    /// How far the claim is from the truth: 1 where it is quite another, else the share of light by
+    /// which it is off.
+    double wrongness(PixelPlace p) const {
+        if (claim_.frame.claim.at(p.x, p.y) != Visibility::partly_lit) return 1;
+        const Visibility truth = claim_.traced.truth().visibility.at(p.x, p.y);
+        const double share = 1.0 * std::max(claimed_lit(p), 0) / light_.model().asked();
+        if (truth == Visibility::lit) return 1 - share;
+        return truth == Visibility::shadowed ? share : 1;
+    }
+
+    /// Whether a pixel that differs shows light where there is none.
+    bool claims_light(PixelPlace p) const {
+        const Visibility claim = claim_.frame.claim.at(p.x, p.y);
+        if (claim != Visibility::partly_lit) return claim == Visibility::lit;
+        return claim_.traced.truth().visibility.at(p.x, p.y) != Visibility::lit;
+    }
+
+    /// How many comparisons find light at the pixel's centre, by the map as it was read back.
+    int answer(const Asked& asked) const {
+        return asked.lookup.in_map ? lit_comparisons(light_, asked.lookup) : light_.model().asked();
     }
 
     std::optional<PixelLookup> lookup_at(PixelPlace p) const {
         const Asked asked = asked_at(p);
         if (!asked.asks || !asked.lookup.in_map) return std::nullopt;
         const Texel& texel = asked.lookup.texel;
-        return PixelLookup{asked.lookup, world(light_.stored(texel)), shown_by(texel).triangle};
+        return PixelLookup{asked.lookup, world(light_.stored(texel)), shown_by(texel).triangle,
+                           std::max(claimed_lit(p), 0)};
     }
 
     void trace_texels() {
@@ -204,7 +254,8 @@ private:
             std::vector<Texel> row;
             for (int x = 0; x < claim.width; ++x)
                 if (const Asked asked = asked_at({x, y}); asked.asks && asked.lookup.in_map)
-                    row.push_back(asked.lookup.texel);
+                    visit_asked(light_.model(), asked.lookup,
+                                [&](const Texel& texel) { row.push_back(texel); });
             std::sort(row.begin(), row.end());
             row.erase(std::unique(row.begin(), row.end()), row.end());
             const std::lock_guard lock(mutex);
@@ -212,15 +263,27 @@ private:
         });
         std::sort(texels_.begin(), texels_.end());
         texels_.erase(std::unique(texels_.begin(), texels_.end()), texels_.end());
-        traced_ = light_.trace(texels_);
+        const std::vector<FromLight> at_centres = light_.trace(texels_);
         shown_.resize(texels_.size());
         constexpr std::size_t piece = 256;
         const auto pieces = static_cast<int>((texels_.size() + piece - 1) / piece);
         parallel_for(pieces, claim_.traced.tracer().threads(), [&](int k, int) {
             const std::size_t first = static_cast<std::size_t>(k) * piece;
             for (std::size_t i = first; i < std::min(first + piece, texels_.size()); ++i)
-                shown_[i] = light_.shown(texels_[i], traced_[i]);
+                shown_[i] = light_.shown(texels_[i], at_centres[i]);
         });
+        for (std::size_t i = 0; i < texels_.size(); ++i)
+            if (!shown_[i].shows) not_shown_.push_back(texels_[i]);
+    }
+
+    /// Whether what all texels hold that a pixel's centre asks is as predicted.
+    bool are_shown(const Lookup& lookup) const {
+        if (not_shown_.empty()) return true;
+        bool all = true;
+        visit_asked(light_.model(), lookup, [&](const Texel& texel) {
+            all = all && !std::binary_search(not_shown_.begin(), not_shown_.end(), texel);
+        });
+        return all;
     }
 
     LightView::Shown shown_by(const Texel& texel) const {
@@ -230,11 +293,10 @@ private:
         return light_.shown(texel, light_.trace(std::span(&texel, 1)).front());
     }
 
-    PixelCause cause_at(PixelPlace p, std::uint32_t receiver, const Asked& asked,
-                        const LightView::Shown& shown) const {
+    PixelCause cause_at(PixelPlace p, std::uint32_t receiver, const Asked& asked) const {
         return cause_of(light_, claim_.traced.scene(),
-                        {receiver, asked.from_light, asked.lookup, shown,
-                         claim_.frame.claim.at(p.x, p.y) == Visibility::lit});
+                        {receiver, asked.from_light, asked.lookup, shown_by(asked.lookup.texel),
+                         claims_light(p)});
     }
 
     /// The point of a triangle's plane at the pixel as the light pass has it: interpolated over the
@@ -331,18 +393,18 @@ private:
             return true;
         }
         const auto answers_so = [&](const PossibleLookup& possible) {
-            const Answers answers =
-                compare(light_.model(), light_.stored(possible.texel), possible.low, possible.high);
-            return (claim == Visibility::lit ? answers.lit : answers.shadowed) &&
-                   shown_by(possible.texel).shows;
+            if (!lit_range(light_, possible).holds(claimed_lit(p))) return false;
+            bool shown = true;
+            visit_asked(light_.model(), possible.lookup,
+                        [&](const Texel& texel) { shown = shown && shown_by(texel).shows; });
+            return shown;
         };
         const std::optional<PossibleLookup> found = find_possible_lookup(light_, point, answers_so);
         if (!found) return false;
         Lookup asked = exact;
-        asked.texel = found->texel;
-        cause = cause_of(
-            light_, claim_.traced.scene(),
-            {drawn, point.from_light, asked, shown_by(found->texel), claim == Visibility::lit});
+        asked.texel = own_texel(light_.model(), found->lookup, exact.texel);
+        cause = cause_of(light_, claim_.traced.scene(),
+                         {drawn, point.from_light, asked, shown_by(asked.texel), claims_light(p)});
         return true;
     }
 };

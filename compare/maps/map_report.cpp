@@ -18,13 +18,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json settings_of(const MapModel& model, double unit) {
-    return {{"size", model.size},
-            {"bias", model.bias * unit},
-            {"value", name_of(model.value)},
-            {"format", name_of(model.format)},
-            {"culling", name_of(model.culling)},
-            {"near", model.near * unit},
-            {"far", model.far * unit}};
+    Json json{{"size", model.size},
+              {"bias", model.bias * unit},
+              {"value", name_of(model.value)},
+              {"format", name_of(model.format)},
+              {"culling", name_of(model.culling)},
+              {"near", model.near * unit},
+              {"far", model.far * unit}};
+    if (model.filter > 0) {
+        json["filter"] = model.filter;
+        json["average"] = name_of(model.average);
+    }
+    return json;
 }
 
 /// Brighter where the texel's surface is closer to the light; the texels as a chequered pattern.
@@ -59,6 +64,7 @@ public:
             stored_.push_back(static_cast<float>(pixel.stored * unit));
             own_.push_back(static_cast<float>(pixel.lookup.value * unit));
             shown_.push_back(pixel.shown);
+            lit_.push_back(static_cast<std::uint8_t>(pixel.lit));
         }
     }
 
@@ -71,7 +77,7 @@ public:
         return {{"map_asked", block(asked_)},   {"map_face", block(face_)},
                 {"map_x", block(x_)},           {"map_y", block(y_)},
                 {"map_stored", block(stored_)}, {"map_own", block(own_)},
-                {"map_shown", block(shown_)}};
+                {"map_shown", block(shown_)},   {"map_lit", block(lit_)}};
     }
 
 private:
@@ -85,20 +91,24 @@ private:
     std::vector<float> stored_;
     std::vector<float> own_;
     std::vector<std::uint32_t> shown_;
+    std::vector<std::uint8_t> lit_; ///< comparisons
 };
 
 } // namespace
 
-EvidenceSummary summary_of_map(const MapEvidence& map, std::uint64_t straddling, std::size_t asked,
-                               std::size_t unexplained, double unit) {
+EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures, double unit) {
     EvidenceSummary summary;
-    if (unexplained > 0)
+    if (figures.unexplained > 0)
         summary.unexplained.push_back(
-            fmt::format("{} of the map unexplained", counted(unexplained, "texel")));
+            fmt::format("{} of the map unexplained", counted(figures.unexplained, "texel")));
     Json results = settings_of(map.model, unit);
-    results["texels"] = asked;
-    results["texels_unexplained"] = unexplained;
-    results["straddling"] = straddling;
+    results["texels"] = figures.asked;
+    results["texels_unexplained"] = figures.unexplained;
+    results["straddling"] = figures.straddling;
+    if (map.model.filter > 0) {
+        results["partly_lit"] = figures.partly_lit;
+        results["wrongness"] = figures.wrongness;
+    }
     results["ms"] = map.map_milliseconds;
     summary.results = Json{{"map", std::move(results)}}.dump();
     summary.pictures = {"texels"};

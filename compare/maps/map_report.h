@@ -17,12 +17,19 @@ struct PixelLookup {
     Lookup lookup;
     double stored = 0; ///< in the terms of Lookup::value
     std::uint32_t shown = no_triangle;
+    int lit = 0; ///< comparisons that find light, of MapModel::asked
 };
 
-/// Members of the cell in results.json. `straddling`: pixels that another texel than the centre's
-/// explains; `asked`, `unexplained`: texels. Lengths are multiplied by `unit` (Scene::unit).
-EvidenceSummary summary_of_map(const MapEvidence& map, std::uint64_t straddling, std::size_t asked,
-                               std::size_t unexplained, double unit);
+struct MapFigures {
+    std::uint64_t straddling = 0;  ///< pixels that another texel than the centre's explains
+    std::uint64_t asked = 0;       ///< texels
+    std::uint64_t unexplained = 0; ///< texels
+    std::uint64_t partly_lit = 0;  ///< pixels
+    double wrongness = 0; ///< of all pixels but those of edge: the light by which they are off
+};
+
+/// Members of the cell in results.json. Lengths are multiplied by `unit` (Scene::unit).
+EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures, double unit);
 
 /// `at`: one for each pixel, in rows from the top; none where the map is not asked.
 std::shared_ptr<const EvidenceReport> report_map(const MapEvidence& map,

@@ -30,6 +30,7 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
     {0xCC, 0x79, 0xA7}, // acne: reddish purple
     {0x00, 0x9E, 0x73}, // leak: bluish green
     {0xFF, 0xFF, 0xFF}, // range: white
+    {0x00, 0x72, 0xB2}, // filter: blue, as maps have no volume that ends
     {0x00, 0x72, 0xB2}, // missed: blue, as traced rays have no volume that ends
     {0xF0, 0xE4, 0x42}, // precision: yellow
     {0xFF, 0xFF, 0xFF}, // shading: white
@@ -37,7 +38,12 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
 }};
 
 /// How a claim can contradict the truth.
-enum class Contradiction : std::uint8_t { falsely_lit, falsely_shadowed, other_surface };
+enum class Contradiction : std::uint8_t {
+    falsely_lit,
+    falsely_shadowed,
+    other_surface,
+    partly_lit,
+};
 
 struct ContradictionWords {
     Contradiction contradiction;
@@ -45,7 +51,7 @@ struct ContradictionWords {
     std::string_view name;
     std::string_view meaning;
 };
-inline constexpr std::array<ContradictionWords, 3> all_contradictions{{
+inline constexpr std::array<ContradictionWords, 4> all_contradictions{{
     {Contradiction::falsely_lit,
      {0xE6, 0x9F, 0x00},
      "falsely lit",
@@ -58,6 +64,10 @@ inline constexpr std::array<ContradictionWords, 3> all_contradictions{{
      {0xCC, 0x79, 0xA7},
      "other surface",
      "one sees a surface, the other background"},
+    {Contradiction::partly_lit,
+     {0xF0, 0xE4, 0x42},
+     "partly lit",
+     "claims a share of the light where there is all of it or none"},
 }};
 
 /// How two different values contradict each other. If both see a surface, they disagree on the
@@ -65,6 +75,7 @@ inline constexpr std::array<ContradictionWords, 3> all_contradictions{{
 constexpr Contradiction contradiction(Visibility truth, Visibility claim) {
     if (truth == Visibility::background || claim == Visibility::background)
         return Contradiction::other_surface;
+    if (claim == Visibility::partly_lit) return Contradiction::partly_lit;
     return claim == Visibility::lit ? Contradiction::falsely_lit : Contradiction::falsely_shadowed;
 }
 
@@ -75,6 +86,7 @@ constexpr std::uint8_t dimmed_index(Visibility claim) {
     switch (claim) {
     case Visibility::lit:
         return dimmed_lit;
+    case Visibility::partly_lit:
     case Visibility::shadowed:
         return dimmed_shadowed;
     case Visibility::background:
@@ -88,6 +100,7 @@ constexpr Rgb dimmed(Visibility claim) {
     switch (claim) {
     case Visibility::lit:
         return {88, 88, 92};
+    case Visibility::partly_lit:
     case Visibility::shadowed:
         return {40, 40, 44};
     case Visibility::background:

@@ -194,6 +194,10 @@ void map(const Place& place) {
                    {"texels", count},
                    {"texels_unexplained", count},
                    {"straddling", count},
+                   {"filter", size, Need::optional},
+                   {"average", text, Need::optional},
+                   {"partly_lit", count, Need::optional},
+                   {"wrongness", milliseconds, Need::optional},
                    {"ms", milliseconds}});
 }
 

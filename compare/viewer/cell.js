@@ -148,7 +148,7 @@ function causeRows(page) {
 
 function contradictionRows({ visibility, claim, differing }) {
   if (!visibility || !claim) return [];
-  const counts = [0, 0, 0];
+  const counts = received.legend.contradictions.map(() => 0);
   differing.forEach((pixel) => {
     const kind = contradictionOf(visibility[pixel], claim[pixel]);
     if (kind >= 0) ++counts[kind];
@@ -161,7 +161,8 @@ function contradictionRows({ visibility, claim, differing }) {
 function valueRows({ visibility, claim }) {
   const truth = visibility && tallied(visibility);
   const said = claim && tallied(claim);
-  return [255, 64, 0].map((value) => element('tr', {},
+  const values = said?.[160] ? [255, 160, 64, 0] : [255, 64, 0];
+  return values.map((value) => element('tr', {},
     element('th', { scope: 'row' }, swatch(`rgb(${value},${value},${value})`),
             visibilityNames[value]),
     element('td', { class: 'number' }, truth ? grouped(truth[value]) : '?'),

@@ -4,7 +4,8 @@
 const valueChip = (label, value, color) => element('span', { class: 'value' },
   `${label} `, swatch(color), element('b', {}, value));
 
-const grays = { background: '#000000', shadowed: '#404040', lit: '#ffffff' };
+const grays = { background: '#000000', shadowed: '#404040', 'partly lit': '#a0a0a0',
+                lit: '#ffffff' };
 
 /** Truth and claim side by side, and the cause. */
 function verdictLine(truth, claim, cause) {

@@ -30,6 +30,30 @@ void set_test(const GlFunctions& gl, const Program& light, const Scene& scene,
         glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
                                   camera.up / camera.tan_half_height, camera.forward)));
     gl.ProgramUniformMatrix3fv(light.name(), 18, 1, GL_FALSE, glm::value_ptr(map_from_world));
+    if (model.filter == 0) return;
+    gl.ProgramUniform1i(light.name(), 21, model.filter);
+    gl.ProgramUniform1i(light.name(), 22, model.average == MapAverage::values ? 1 : 0);
+}
+
+std::string_view light_shader(const MapModel& model) {
+    if (model.shape == MapModel::Shape::cube) return "map_light_cube.frag";
+    return model.filter > 0 ? "map_light_spot_filtered.frag" : "map_light_spot.frag";
+}
+
+/// The shares of comparisons that say `lit`, which map_light_spot_filtered.frag adds to `shadowed`,
+/// taken out of the claim.
+Image<std::uint8_t> take_shares(const MapModel& model, Image<Visibility>& claim) {
+    Image<std::uint8_t> shares(claim.width, claim.height);
+    for (std::size_t i = 0; i < claim.pixels.size(); ++i) {
+        const auto byte = static_cast<std::uint8_t>(claim.pixels[i]);
+        const int lit = byte - static_cast<int>(Visibility::shadowed);
+        if (claim.pixels[i] == Visibility::lit)
+            shares.pixels[i] = static_cast<std::uint8_t>(model.asked());
+        if (lit <= 0 || lit >= model.asked()) continue;
+        shares.pixels[i] = static_cast<std::uint8_t>(lit);
+        claim.pixels[i] = Visibility::partly_lit;
+    }
+    return shares;
 }
 
 /// What is drawn with, made once.
@@ -50,9 +74,7 @@ struct Frames {
           visible{static_cast<float>(scene.camera.near), static_cast<float>(scene.camera.far)} {
         const ClipTransform transform = clip_transform(scene, depth_model);
         surface = link_projection(gl, "surface.frag", transform, geometry);
-        light = link_light(gl, scene, transform, geometry, Between::nothing,
-                           model.shape == MapModel::Shape::cube ? "map_light_cube.frag"
-                                                                : "map_light_spot.frag");
+        light = link_light(gl, scene, transform, geometry, Between::nothing, light_shader(model));
         set_test(gl, light, scene, model);
         check(gl, "making the passes");
     }
@@ -85,6 +107,7 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
                                .faces = read_map(gl, frames.map),
                                .format = depth_format(gl, frames.map.texture),
                                .map_milliseconds = time.stages.front().milliseconds};
+    if (model.filter > 0) frame.mapped->lit_comparisons = take_shares(model, frame.claim);
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
     frame.milliseconds = time.milliseconds;

@@ -49,6 +49,13 @@ std::span<const SweptSetting> swept_settings() {
             "map-culling", names_of(all_map_cullings),
             [](const Frame& f, double) { return std::string(name_of(f.mapped->model.culling)); }},
         SweptSetting{
+            "map-filter",
+            {"1", "2", "4", "8"},
+            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.filter); }},
+        SweptSetting{
+            "map-average", names_of(all_map_averages),
+            [](const Frame& f, double) { return std::string(name_of(f.mapped->model.average)); }},
+        SweptSetting{
             "ray-epsilon",
             {"0", "1e-6", "1e-5", "1e-4", "0.001", "0.01", "0.1"},
             [](const Frame& f, double unit) { return length(f.rays->model.distance, unit); }},

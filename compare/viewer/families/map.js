@@ -41,13 +41,23 @@ function mapRecord({ blocks, cellFile }, rank) {
   return { face: blocks.map_face[rank], x: blocks.map_x[rank], y: blocks.map_y[rank],
            stored: blocks.map_stored[rank], own: blocks.map_own[rank],
            shown: blocks.map_shown[rank], bias: cellFile.map.bias, size: cellFile.map.size,
-           value: cellFile.map.value };
+           value: cellFile.map.value, lit: blocks.map_lit[rank],
+           filter: cellFile.map.filter ?? 0, average: cellFile.map.average };
+}
+
+/** What the block of texels around the point's own one says. */
+function filterWords({ filter, average, lit }) {
+  if (filter === 0) return '';
+  const block = `Of its own texel. The claim averages ${filter} × ${filter} texels`;
+  return element('p', { id: 'averaged' }, average === 'values'
+    ? `${block}: their values, which are compared once.`
+    : `${block}: ${lit} of ${filter * filter} comparisons find light.`);
 }
 
 familySections.map = {
   blocks: (pixels, differing) => ({
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
-    map_stored: differing, map_own: differing, map_shown: differing,
+    map_stored: differing, map_own: differing, map_shown: differing, map_lit: differing,
   }),
   pictures: ['texels'],
   drawn: () => [],
@@ -62,6 +72,7 @@ familySections.map = {
         `${short(record.stored)} + ${short(record.bias)} is ` +
         `${inFront ? 'less than' : 'not less than'} ${short(record.own)}: ` +
         `${inFront ? 'shadowed' : 'lit'}.`),
+      filterWords(record),
       facts([
         ['Texel', `(${record.x}, ${record.y}) of face ${record.face}, ${record.size} a side`],
         ['Stored', `${short(record.stored)} (${record.value})`],

@@ -13,14 +13,15 @@ namespace shadowproof {
 namespace {
 
 BenchPoint point(const std::string& technique, double ms, std::uint64_t wrong) {
-    BenchPoint point{.scene = "ordinary",
-                     .technique = technique,
-                     .family = "stencil",
-                     .settings = {},
-                     .own = {},
-                     .samples = std::vector<double>(6, ms),
-                     .error = {.pixels = 100, .differing = wrong + 2, .falsely_lit = wrong},
-                     .command = "shadowproof bench ordinary --technique " + technique};
+    BenchPoint point{
+        .scene = "ordinary",
+        .technique = technique,
+        .family = "stencil",
+        .settings = {},
+        .own = {},
+        .samples = std::vector<double>(6, ms),
+        .error = {.pixels = 100, .differing = wrong + 2, .falsely_lit = static_cast<double>(wrong)},
+        .command = "shadowproof bench ordinary --technique " + technique};
     point.error.causes = {{"edge", 2}};
     if (wrong > 0) point.error.causes.emplace_back("near_plane", wrong);
     return point;

@@ -1,0 +1,41 @@
+#include "raster/maps/map_shadows.h"
+#include "raster/technique.h"
+
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+/// As spot_map, but the comparisons with 4 x 4 texels around the point are averaged: its claim is a
+/// share of light.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    return draw_map_shadows(gpu, scene, plan,
+                            {.model = {.shape = MapModel::Shape::spot,
+                                       .value = MapValue::depth,
+                                       .format = MapFormat::d24,
+                                       .filter = 4}});
+}
+
+template <class T>
+std::vector<T> joined(std::vector<T> list, std::initializer_list<T> more) {
+    list.insert(list.end(), more);
+    return list;
+}
+
+} // namespace
+
+Technique spot_map_pcf_technique() {
+    return {.name = "spot_map_pcf",
+            .summary = "a spot light's map, whose comparisons are averaged over 4 x 4 texels",
+            .source = "Percentage-closer filtering: Reeves et al. 1987; CS448 lecture 11",
+            .needs = "a spot light with a cone narrower than 86 degrees to each side",
+            .cost = 2.6,
+            .fails_at = joined(map_failings(), {Cause::filter}),
+            .by_nature = joined(map_failings_by_nature(), {Cause::filter}),
+            .lights = {Light::Kind::spot},
+            .settings = joined<std::string_view>(map_settings(), {"map-filter", "map-average"}),
+            .run = run};
+}
+
+} // namespace shadowproof
