@@ -241,8 +241,9 @@ TEST_F(FilteredMap, claims_shares_of_light_that_are_those_of_its_texels_comparis
             if (frame.claim.pixels[i] == Visibility::partly_lit)
                 ++pixels.at(frame.mapped->lit_comparisons.pixels[i]);
         EXPECT_EQ(pixels[0], 0);
-        for (std::size_t share = 1; share < pixels.size(); ++share)
-            EXPECT_GT(pixels[share] + (filter > 4 ? 1 : 0), 0) << share << " of " << filter;
+        // The penumbra is too small for each of 63 shares.
+        for (std::size_t share = 1; share < pixels.size() && filter <= 4; ++share)
+            EXPECT_GT(pixels[share], 0) << share << " of " << filter;
         const Comparison comparison = compared(spot, frame);
         EXPECT_TRUE(is_explained(comparison)) << filter;
         EXPECT_GT(pixels_of(comparison, Cause::filter), 0U) << filter;
