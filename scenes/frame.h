@@ -54,6 +54,13 @@ struct Frame {
     bool shows_surface() const { return !triangle.pixels.empty(); }
 };
 
+/// How much of the light the claim shows at a pixel, given by its index: 0 to 1.
+inline double lit_share(const Frame& frame, std::size_t pixel) {
+    if (frame.claim.pixels[pixel] != Visibility::partly_lit)
+        return frame.claim.pixels[pixel] == Visibility::lit ? 1 : 0;
+    return 1.0 * frame.mapped->lit_comparisons.pixels[pixel] / frame.mapped->model.asked();
+}
+
 /// The driver that drew a frame, as it identifies itself.
 struct DriverInfo {
     std::string version;

@@ -65,7 +65,7 @@ void any_object(const Place& place) {
 }
 
 void color(const Place& place) {
-    object(place, {{"rmse", milliseconds}, {"largest", milliseconds}, {"p999", milliseconds}});
+    object(place, {{"rmse", amount}, {"largest", amount}, {"p999", amount}});
 }
 
 void point(const Place& place) {
@@ -79,8 +79,8 @@ void point(const Place& place) {
                    {"pixels", size},
                    {"causes", causes},
                    {"differing", count},
-                   {"falsely_lit", milliseconds},
-                   {"falsely_shadowed", milliseconds},
+                   {"falsely_lit", amount},
+                   {"falsely_shadowed", amount},
                    {"color", color, Need::optional},
                    {"command", text}});
     if (place.value.contains("stages"))
@@ -93,10 +93,12 @@ void point(const Place& place) {
     if (differing != sum) refuse(place.at("causes"), "do not add up to \"differing\"");
     if (differing > place.value.at("pixels"))
         refuse(place.at("differing"), "is more than the picture has");
-    // Shares of many pixels, added up in doubles.
+    // Shares of at most one are added up, pixel by pixel: each share and each sum rounds by at most
+    // 2^-53 of what all come to.
+    const auto most = static_cast<double>(sum);
     if (place.value.at("falsely_lit").get<double>() +
             place.value.at("falsely_shadowed").get<double>() >
-        static_cast<double>(sum) * (1 + 1e-9))
+        most + 2 * most * 0x1p-53 * most)
         refuse(place.at("falsely_lit"), "is more than what differs, with \"falsely_shadowed\"");
 }
 

@@ -2,6 +2,7 @@
 #include "compare/driver/setup_error.h"
 #include "compare/judge/judge.h"
 #include "compare/maps/map_cause.h"
+#include "compare/maps/map_claim.h"
 #include "compare/maps/map_report.h"
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
@@ -45,7 +46,7 @@ public:
         const Asked asked = asked_at(p);
         if (!asked.asks) return !claim_.differs(p);
         if (asked.lookup.in_map && !are_shown(asked.lookup)) return false;
-        if (answer(asked) != claimed_lit(p)) return false;
+        if (answer(asked) != claimed_lit(claim_, p)) return false;
         if (claim_.differs(p)) cause = cause_at(p, triangle, asked);
         return true;
     }
@@ -101,7 +102,7 @@ public:
                 if (claim_.frame.claim.at(x, y) == Visibility::partly_lit) ++figures.partly_lit;
                 if (cause.at(x, y) != no_difference &&
                     cause.at(x, y) != static_cast<std::uint8_t>(Cause::edge))
-                    figures.wrongness += wrongness(p);
+                    figures.wrongness += wrongness(claim_, p);
             }
         return summary_of_map(*claim_.frame.mapped, figures, claim_.traced.scene().unit);
     }
@@ -196,44 +197,6 @@ private:
         return asked;
     }
 
-    /// How many comparisons the claim says to have found light; -1 where it contradicts itself.
-    int claimed_lit(PixelPlace p) const {
-        const MapModel& model = light_.model();
-        const Image<std::uint8_t>& lit = claim_.frame.mapped->lit_comparisons;
-        switch (claim_.frame.claim.at(p.x, p.y)) {
-        case Visibility::lit:
-            return model.asked();
-        case Visibility::shadowed:
-            return 0;
-        case Visibility::partly_lit:
-            if (lit.width != claim_.frame.claim.width || lit.height != claim_.frame.claim.height ||
-                model.average != MapAverage::comparisons || lit.at(p.x, p.y) == 0 ||
-                lit.at(p.x, p.y) >= model.asked())
-                return -1;
-            return lit.at(p.x, p.y);
-        case Visibility::background:
-            break;
-        }
-        return -1;
-    }
-
-    /// How far the claim is from the truth: 1 where it is quite another, else the share of light by
-    /// which it is off.
-    double wrongness(PixelPlace p) const {
-        if (claim_.frame.claim.at(p.x, p.y) != Visibility::partly_lit) return 1;
-        const Visibility truth = claim_.traced.truth().visibility.at(p.x, p.y);
-        const double share = 1.0 * std::max(claimed_lit(p), 0) / light_.model().asked();
-        if (truth == Visibility::lit) return 1 - share;
-        return truth == Visibility::shadowed ? share : 1;
-    }
-
-    /// Whether a pixel that differs shows light where there is none.
-    bool claims_light(PixelPlace p) const {
-        const Visibility claim = claim_.frame.claim.at(p.x, p.y);
-        if (claim != Visibility::partly_lit) return claim == Visibility::lit;
-        return claim_.traced.truth().visibility.at(p.x, p.y) != Visibility::lit;
-    }
-
     /// How many comparisons find light at the pixel's centre, by the map as it was read back.
     int answer(const Asked& asked) const {
         return asked.lookup.in_map ? lit_comparisons(light_, asked.lookup) : light_.model().asked();
@@ -244,7 +207,7 @@ private:
         if (!asked.asks || !asked.lookup.in_map) return std::nullopt;
         const Texel& texel = asked.lookup.texel;
         return PixelLookup{asked.lookup, world(light_.stored(texel)), shown_by(texel).triangle,
-                           std::max(claimed_lit(p), 0)};
+                           std::max(claimed_lit(claim_, p), 0)};
     }
 
     void trace_texels() {
@@ -296,7 +259,7 @@ private:
     PixelCause cause_at(PixelPlace p, std::uint32_t receiver, const Asked& asked) const {
         return cause_of(light_, claim_.traced.scene(),
                         {receiver, asked.from_light, asked.lookup, shown_by(asked.lookup.texel),
-                         claims_light(p)});
+                         claims_light(claim_, p)});
     }
 
     /// The point of a triangle's plane at the pixel as the light pass has it: interpolated over the
@@ -393,7 +356,7 @@ private:
             return true;
         }
         const auto answers_so = [&](const PossibleLookup& possible) {
-            if (!lit_range(light_, possible).holds(claimed_lit(p))) return false;
+            if (!lit_range(light_, possible).holds(claimed_lit(claim_, p))) return false;
             bool shown = true;
             visit_asked(light_.model(), possible.lookup,
                         [&](const Texel& texel) { shown = shown && shown_by(texel).shows; });
@@ -403,8 +366,9 @@ private:
         if (!found) return false;
         Lookup asked = exact;
         asked.texel = own_texel(light_.model(), found->lookup, exact.texel);
-        cause = cause_of(light_, claim_.traced.scene(),
-                         {drawn, point.from_light, asked, shown_by(asked.texel), claims_light(p)});
+        cause = cause_of(
+            light_, claim_.traced.scene(),
+            {drawn, point.from_light, asked, shown_by(asked.texel), claims_light(claim_, p)});
         return true;
     }
 };

@@ -38,8 +38,11 @@ inline void count(const Place& place) {
 inline void size(const Place& place) {
     require(is_count(place.value, 1), place, "a whole number from 1");
 }
-inline void milliseconds(const Place& place) {
+inline void amount(const Place& place) {
     require(place.value.is_number() && place.value.get<double>() >= 0, place, "a number from 0");
+}
+inline void milliseconds(const Place& place) {
+    amount(place);
 }
 inline void number(const Place& place) {
     require(place.value.is_number(), place, "a number");

@@ -197,7 +197,7 @@ void map(const Place& place) {
                    {"filter", size, Need::optional},
                    {"average", text, Need::optional},
                    {"partly_lit", count, Need::optional},
-                   {"wrongness", milliseconds, Need::optional},
+                   {"wrongness", amount, Need::optional},
                    {"ms", milliseconds}});
 }
 

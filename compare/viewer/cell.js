@@ -161,7 +161,7 @@ function contradictionRows({ visibility, claim, differing }) {
 function valueRows({ visibility, claim }) {
   const truth = visibility && tallied(visibility);
   const said = claim && tallied(claim);
-  const values = said?.[160] ? [255, 160, 64, 0] : [255, 64, 0];
+  const values = said?.[partlyLit] ? [255, partlyLit, 64, 0] : [255, 64, 0];
   return values.map((value) => element('tr', {},
     element('th', { scope: 'row' }, swatch(`rgb(${value},${value},${value})`),
             visibilityNames[value]),

@@ -3,7 +3,8 @@
 
 const noDifference = 255;
 const noTriangle = 0xffffffff;
-const visibilityNames = { 0: 'background', 64: 'shadowed', 160: 'partly lit', 255: 'lit' };
+const partlyLit = 160;
+const visibilityNames = { 0: 'background', 64: 'shadowed', [partlyLit]: 'partly lit', 255: 'lit' };
 const exactnessNames = ['filtered', 'exact', 'degenerate'];
 const statusNames = ['counted', 'beyond', 'lost_near', 'lost_far', 'lost_cap'];
 

@@ -19,7 +19,7 @@ const comparedFirst = (cell) =>
   (cell.color ? ['true_color', 'claimed_color'] : ['truth', 'claim']);
 
 const zooms = [0.25, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
-const valueNames = { 0: 'none', 64: 'dark', 160: 'part', 255: 'lit' };
+const valueNames = { 0: 'none', 64: 'dark', [partlyLit]: 'part', 255: 'lit' };
 
 /** A PNG of the report: { image } or { problem } in words. */
 function loadedImage(path, width, height) {

@@ -77,6 +77,6 @@ const explainCommand = (command, x, y) =>
 const contradictionOf = (truth, claim) => {
   if (truth === claim) return -1;
   if (truth === 0 || claim === 0) return 2;
-  if (claim === 160) return 3;
+  if (claim === partlyLit) return 3;
   return claim === 255 ? 0 : 1;
 };

@@ -40,6 +40,9 @@ std::string_view light_shader(const MapModel& model) {
     return model.filter > 0 ? "map_light_spot_filtered.frag" : "map_light_spot.frag";
 }
 
+static_assert(static_cast<int>(Visibility::shadowed) + largest_map_filter * largest_map_filter <=
+              static_cast<int>(Visibility::lit));
+
 /// The shares of comparisons that say `lit`, which map_light_spot_filtered.frag adds to `shadowed`,
 /// taken out of the claim.
 Image<std::uint8_t> take_shares(const MapModel& model, Image<Visibility>& claim) {

@@ -19,6 +19,11 @@ struct MapRecipe {
     MapMaking making = MapMaking::pass_per_face;
 };
 
+/// A spot's map as the documents have it: window depths of 24 bits.
+inline MapModel spot_model() {
+    return {.shape = MapModel::Shape::spot, .value = MapValue::depth, .format = MapFormat::d24};
+}
+
 /// What all of them are known to fail at: Technique::fails_at and by_nature. Open casters matter
 /// where one of their sides is culled.
 inline std::vector<Cause> map_failings() {

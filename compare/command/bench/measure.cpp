@@ -45,13 +45,6 @@ Frame draw(Trial& trial, const Technique& technique, const BenchSettings& settin
     return render(technique, trial.scene, trial.plan, trial.work.gpu);
 }
 
-/// How much of the light a claim shows at the i-th pixel.
-double lit_share(const Frame& frame, std::size_t i) {
-    if (frame.claim.pixels[i] != Visibility::partly_lit)
-        return frame.claim.pixels[i] == Visibility::lit ? 1 : 0;
-    return 1.0 * frame.mapped->lit_comparisons.pixels[i] / frame.mapped->model.asked();
-}
-
 BenchError error_of(const Trial& trial, std::string_view technique, const Frame& frame) {
     const std::unique_ptr<Judge> judge = judge_of(trial.traced, frame);
     const Comparison comparison = classify(trial.traced, frame, *judge);
@@ -63,12 +56,14 @@ BenchError error_of(const Trial& trial, std::string_view technique, const Frame&
     for (std::size_t i = 0; i < comparison.cause.pixels.size(); ++i) {
         const std::uint8_t cause = comparison.cause.pixels[i];
         if (cause == no_difference || cause == static_cast<std::uint8_t>(Cause::edge)) continue;
-        const Visibility claim = frame.claim.pixels[i];
         const Visibility truth = trial.truth.visibility.pixels[i];
-        if (claim == Visibility::background || truth == Visibility::background) continue;
+        if (frame.claim.pixels[i] == Visibility::background || truth == Visibility::background)
+            continue;
         const double light = lit_share(frame, i);
-        (truth == Visibility::lit ? error.falsely_shadowed : error.falsely_lit) +=
-            truth == Visibility::lit ? 1 - light : light;
+        if (truth == Visibility::lit)
+            error.falsely_shadowed += 1 - light;
+        else
+            error.falsely_lit += light;
     }
     if (const std::optional<ColorCheck>& colors = comparison.colors)
         error.color = BenchColor{colors->rmse, colors->largest, colors->percentile999};

@@ -8,10 +8,7 @@ namespace {
 /// The light's depths in one square that holds the cone, looked up at the point projected into it:
 /// s/r, t/r.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan,
-                            {.model = {.shape = MapModel::Shape::spot,
-                                       .value = MapValue::depth,
-                                       .format = MapFormat::d24}});
+    return draw_map_shadows(gpu, scene, plan, {.model = spot_model()});
 }
 
 } // namespace

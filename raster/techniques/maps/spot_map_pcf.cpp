@@ -1,7 +1,9 @@
 #include "raster/maps/map_shadows.h"
 #include "raster/technique.h"
 
-#include <utility>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
 
 namespace shadowproof {
 
@@ -10,11 +12,9 @@ namespace {
 /// As spot_map, but the comparisons with 4 x 4 texels around the point are averaged: its claim is a
 /// share of light.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan,
-                            {.model = {.shape = MapModel::Shape::spot,
-                                       .value = MapValue::depth,
-                                       .format = MapFormat::d24,
-                                       .filter = 4}});
+    MapModel model = spot_model();
+    model.filter = 4;
+    return draw_map_shadows(gpu, scene, plan, {.model = model});
 }
 
 template <class T>

@@ -4,6 +4,7 @@ const shadows = 'raster/maps/map_shadows.cpp';
 const test = 'raster/glsl/map_test.glsl';
 const cube = 'raster/glsl/map_light_cube.frag';
 const spot = 'raster/glsl/map_light_spot.frag';
+const filtered = 'raster/glsl/map_light_spot_filtered.frag';
 const camera = (change) => ({ file: pass, right: 'seen_from_light.camera = map_camera(chosen_light(scene), model, face);', wrong: `seen_from_light.camera = map_camera(chosen_light(scene), model, face); Camera& c = seen_from_light.camera; ${change};` });
 const asked = (wrong) => ({ file: cube, right: 'texture(map, surface.from_light).r', wrong });
 const placed = (wrong) => ({ file: spot, right: 'vec3(0.5 * (place.xy + place.z), place.z)', wrong });
@@ -68,4 +69,16 @@ export const faults = [
   { name: 'depth_not_made_a_window_depth', file: test, right: 'planes.y / (planes.y - planes.x) * (1 - planes.x / nearer)', wrong: 'nearer / planes.y' },
   { name: 'map_not_asked', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'false && is_shadowed' },
   { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed' },
+  // The filter.
+  ...[
+    ['block_a_texel_aside', 'floor(texel - 0.5 * float(side - 1))', 'floor(texel - 0.5 * float(side + 1))'],
+    ['block_half_a_texel_aside', 'floor(texel - 0.5 * float(side - 1))', 'floor(texel - 0.5 * float(side))'],
+    ['block_of_a_row_less', 'int y = 0; y < side; ++y', 'int y = 1; y < side; ++y'],
+    ['block_not_clamped', 'clamp(first + ivec2(x, y), 0, size - 1)', '(first + ivec2(x, y)) % size'],
+    ['block_of_one_texel', 'clamp(first + ivec2(x, y), 0, size - 1)', 'clamp(first, 0, size - 1)'],
+    ['share_of_shadow', 'if (!is_shadowed(stored, place.z)) ++lit;', 'if (is_shadowed(stored, place.z)) ++lit;'],
+    ['share_one_too_high', 'if (lit < all) claim = float(64 + lit) / 255;', 'if (lit < all - 1) claim = float(65 + lit) / 255;'],
+    ['share_rounded_to_all_or_none', 'if (lit == 0) discard;', 'if (2 * lit < all) discard; lit = all;'],
+    ['values_averaged_instead', 'if (averages_values) lit', 'if (true) lit'],
+  ].map(([name, right, wrong]) => ({ name: `pcf_${name}`, file: filtered, right, wrong, techniques: 'spot_map_pcf' })),
 ].map((fault) => ({ kind: 'map', ...fault }));

@@ -1,0 +1,19 @@
+// What a shadow map's claim says of the light at a pixel: all, none or a share of it.
+#pragma once
+
+#include "compare/judge/judge.h"
+
+namespace shadowproof {
+
+/// How many comparisons, of MapModel::asked, the claim says to have found light; -1 where it shows
+/// background or contradicts itself.
+int claimed_lit(const JudgedClaim& claim, PixelPlace p);
+
+/// Whether the claim shows light at a pixel that differs, where there is none.
+bool claims_light(const JudgedClaim& claim, PixelPlace p);
+
+/// How far the claim is from the truth at a pixel that differs: by a share of the light, or 1 where
+/// it is not partly lit.
+double wrongness(const JudgedClaim& claim, PixelPlace p);
+
+} // namespace shadowproof
