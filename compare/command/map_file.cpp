@@ -1,8 +1,8 @@
 #include "compare/command/map_file.h"
 
 #include "compare/command/options.h"
-#include "compare/command/picture_bytes.h"
 #include "compare/output/write_file.h"
+#include "scenes/load/encode_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,25 +13,17 @@ namespace shadowproof {
 
 namespace {
 
-using OIIO::TypeDesc;
-
-OIIO::ImageSpec spec_of(const Image<glm::dvec4>& map, TypeDesc type) {
-    OIIO::ImageSpec spec(map.width, map.height, 4, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // alpha is not coverage
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "    :  :     :  :  "); // unknown: as in truth_exr.cpp
-    return spec;
-}
-
 /// Integers are passed as such: rounding is done here.
 template <class T, class Convert>
-void write_as(const Image<glm::dvec4>& map, const char* format, TypeDesc type,
+void write_as(const Image<glm::dvec4>& map, PictureLayout::Format format, PictureLayout::Type type,
               const std::string& file, const Convert& convert) {
     std::vector<T> values;
     values.reserve(4 * map.pixels.size());
     for (const glm::dvec4& texel : map.pixels)
         for (int k = 0; k < 4; ++k) values.push_back(convert(texel[k]));
-    write_file(file, picture_bytes(format, spec_of(map, type), type, values.data(), file));
+    const PictureLayout layout{
+        format, map.width, map.height, {{"R", type}, {"G", type}, {"B", type}, {"A", type}}};
+    write_file(file, encode_picture(layout, values.data(), file));
 }
 
 template <class T>
@@ -48,12 +40,14 @@ bool is_map_file(const std::string& file) {
 }
 
 void write_map(const Image<glm::dvec4>& map, int bits, const std::string& file) {
+    using Format = PictureLayout::Format;
+    using Type = PictureLayout::Type;
     if (extension_of(file) == ".exr")
-        return write_as<float>(map, "openexr", TypeDesc::FLOAT, file,
+        return write_as<float>(map, Format::openexr, Type::f32, file,
                                [](double value) { return static_cast<float>(value); });
     if (bits == 16)
-        return write_as<std::uint16_t>(map, "png", TypeDesc::UINT16, file, rounded<std::uint16_t>);
-    write_as<std::uint8_t>(map, "png", TypeDesc::UINT8, file, rounded<std::uint8_t>);
+        return write_as<std::uint16_t>(map, Format::png, Type::u16, file, rounded<std::uint16_t>);
+    write_as<std::uint8_t>(map, Format::png, Type::u8, file, rounded<std::uint8_t>);
 }
 
 } // namespace shadowproof

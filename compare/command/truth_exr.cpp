@@ -1,15 +1,17 @@
 #include "compare/command/truth_exr.h"
 
-#include "compare/command/picture_bytes.h"
 #include "compare/output/write_file.h"
+#include "scenes/load/encode_picture.h"
 
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <string>
 
 namespace shadowproof {
 
 namespace {
 
-/// One pixel as it lies in the buffer: the channels of spec_of, without gaps.
+/// One pixel as it lies in the buffer: the channels of layout_of, without gaps.
 struct Pixel {
     float position[3];
     float normal[3];
@@ -34,28 +36,21 @@ struct LitPixel {
 };
 static_assert(sizeof(LitPixel) == 40 + 96);
 
-OIIO::ImageSpec spec_of(const Scene& scene, bool lit) {
-    using OIIO::TypeDesc;
-    OIIO::ImageSpec spec(scene.camera.width, scene.camera.height, 10, TypeDesc::FLOAT);
-    spec.channelnames = {"P.X",       "P.Y",   "P.Z",     "N.X",
-                         "N.Y",       "N.Z",   "depth.Z", "visibility." + chosen_light(scene).name,
-                         "exactness", "primId"};
-    spec.channelformats.assign(9, TypeDesc::FLOAT);
-    spec.channelformats.emplace_back(TypeDesc::UINT32);
-    if (lit) {
-        for (const std::string group :
-             {"", "diffuse.", "specular.", "ambient.", "reflection.", "Albedo."})
-            for (const char* name : {"R", "G", "B"}) spec.channelnames.push_back(group + name);
-        for (const char* name : {"Ns.X", "Ns.Y", "Ns.Z", "T.X", "T.Y", "T.Z"})
-            spec.channelnames.emplace_back(name);
-        spec.nchannels = static_cast<int>(spec.channelnames.size());
-        spec.channelformats.resize(spec.channelnames.size(), TypeDesc::FLOAT);
-    }
-    spec.attribute("compression", "zip");
-    // Otherwise the writer inserts the time of day, and no two files are the same. Blank is how
-    // Exif 2.3 (4.6.4) writes an unknown time.
-    spec.attribute("DateTime", "    :  :     :  :  ");
-    return spec;
+PictureLayout layout_of(const Scene& scene, bool lit) {
+    PictureLayout layout{
+        .width = scene.camera.width, .height = scene.camera.height, .channels = {}};
+    const auto add = [&](std::initializer_list<std::string> names) {
+        for (const std::string& name : names) layout.channels.push_back({name});
+    };
+    add({"P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z", "depth.Z",
+         "visibility." + chosen_light(scene).name, "exactness"});
+    layout.channels.push_back({"primId", PictureLayout::Type::u32});
+    if (!lit) return layout;
+    for (const std::string group :
+         {"", "diffuse.", "specular.", "ambient.", "reflection.", "Albedo."})
+        add({group + "R", group + "G", group + "B"});
+    add({"Ns.X", "Ns.Y", "Ns.Z", "T.X", "T.Y", "T.Z"});
+    return layout;
 }
 
 /// Unit normal of the side that the eye sees.
@@ -102,11 +97,9 @@ LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
 }
 
 template <class T>
-void write_pixels(const OIIO::ImageSpec& spec, const Image<T>& picture,
+void write_pixels(const PictureLayout& layout, const Image<T>& picture,
                   const std::filesystem::path& file) {
-    // An unknown type means: each channel in its own.
-    write_file(file, picture_bytes("openexr", spec, OIIO::TypeDesc::UNKNOWN, picture.pixels.data(),
-                                   file.string()));
+    write_file(file, encode_picture(layout, picture.pixels.data(), file.string()));
 }
 
 } // namespace
@@ -117,11 +110,11 @@ void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<S
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) picture.at(x, y) = pixel_of(scene, truth, x, y);
     const bool lit = !shadings.pixels.empty();
-    if (!lit) return write_pixels(spec_of(scene, lit), picture, file);
+    if (!lit) return write_pixels(layout_of(scene, lit), picture, file);
     Image<LitPixel> lit_picture(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         lit_picture.pixels[i] = lit_pixel(picture.pixels[i], shadings.pixels[i]);
-    write_pixels(spec_of(scene, lit), lit_picture, file);
+    write_pixels(layout_of(scene, lit), lit_picture, file);
 }
 
 } // namespace shadowproof

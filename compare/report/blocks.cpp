@@ -1,9 +1,9 @@
 #include "compare/report/blocks.h"
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <bit>
 #include <memory>
 #include <new>
@@ -25,6 +25,22 @@ struct FreeDecompressor {
     void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
 };
 
+/// RFC 4648, section 4.
+std::string to_base64(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view alphabet =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8U | (k < left ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= left ? alphabet[bits >> (18U - 6U * k) & 63U] : '=';
+    }
+    return text;
+}
+
 /// The six bits of a base64 character; nothing for any other character.
 std::optional<std::uint32_t> sextet(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -35,7 +51,6 @@ std::optional<std::uint32_t> sextet(char c) {
     return std::nullopt;
 }
 
-/// OpenImageIO encodes base64 but does not decode it.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
     if (text.size() % 4 != 0) return std::nullopt;
     std::size_t padding = 0;
@@ -63,10 +78,11 @@ std::string packed(std::span<const std::byte> bytes) {
     const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
         libdeflate_alloc_compressor(compression_level));
     if (!compressor) throw std::bad_alloc();
-    std::string stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+    std::vector<std::uint8_t> stream(
+        libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
     stream.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
                                            stream.data(), stream.size()));
-    return OIIO::Strutil::base64_encode(stream);
+    return to_base64(stream);
 }
 
 std::optional<std::vector<std::uint8_t>> unpacked(std::string_view text, std::size_t size) {

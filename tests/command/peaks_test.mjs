@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { evenPng, textured, triangle } from './hostile.mjs';
 import { scratch, shadowproof } from './shadowproof.mjs';
 
-const program = 240e6; // program_bytes in scenes/memory_budget.h
+const program = 180e6; // program_bytes in scenes/memory_budget.h
 
 function peakOf(args) {
   const file = join(scratch, 'peak');

@@ -122,7 +122,7 @@ function(a_missing_dependency_is_named)
     set(ENV{PKG_CONFIG_LIBDIR} ${WORK}/nothing)
     configure(refused ${WORK}/without_dependency)
     unset(ENV{PKG_CONFIG_LIBDIR})
-    expect_in("${output}" "pkg-config does not find OpenImageIO, which shadowproof links; install")
+    expect_in("${output}" "pkg-config does not find osmesa, which shadowproof links; install")
 endfunction()
 
 # A scene of the prefix is changed, and the command's answer with it: it looks there, and not in
@@ -137,6 +137,18 @@ function(the_command_finds_its_scenes_beside_itself)
     run(1 ${CMAKE_COMMAND} -E compare_files ${WORK}/changed.png ${WORK}/ordinary.png)
 endfunction()
 
+# Where programs load what OpenImageIO does for them: the command beside itself, whoever links the
+# libraries by the path in which their package lies.
+function(openimageio_is_found_in_the_package)
+    file(GLOB_RECURSE library ${PREFIX}/*/libshadowproof_openimageio.so)
+    run(0 ${CMAKE_COMMAND} -E env LD_DEBUG=files
+        ${PREFIX}/${BIN}/shadowproof render ordinary --size 8x8 -o ${WORK}/truth.exr)
+    expect_in("${output}" "file=${library}")
+    get_filename_component(folder ${library} DIRECTORY)
+    run(0 ${OBJDUMP} -p ${WORK}/build/counts)
+    expect_in("${output}" "${folder}")
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 install_and_move()
 outside_project_builds_and_its_tests_pass()
@@ -144,5 +156,6 @@ the_test_that_fails_does_so_for_its_shadows()
 every_argument_reaches_the_command()
 wrong_calls_are_refused_by_name()
 a_missing_dependency_is_named()
+openimageio_is_found_in_the_package()
 the_command_finds_its_scenes_beside_itself()
 file(REMOVE_RECURSE ${WORK})
