@@ -3,7 +3,7 @@
 // arithmetic predicts the colour.
 #pragma once
 
-#include "compare/color/lighting_arithmetic.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 

@@ -1,7 +1,7 @@
 #include "compare/color/color_judge.h"
 
-#include "compare/color/error_budget.h"
 #include "compare/driver/error_bounds.h"
+#include "compare/driver/lighting/error_budget.h"
 #include "compare/driver/setup_error.h"
 
 #include <algorithm>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "compare/color/color_check.h"
-#include "compare/color/lighting_arithmetic.h"
-#include "compare/color/lighting_inputs.h"
 #include "compare/driver/interpolated.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
+#include "compare/driver/lighting/lighting_inputs.h"
 #include "compare/driver/scrutiny.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"

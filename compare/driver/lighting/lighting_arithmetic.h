@@ -2,7 +2,7 @@
 // gives, step by step, and those that its error budget allows around the truth.
 #pragma once
 
-#include "compare/color/lighting_inputs.h"
+#include "compare/driver/lighting/lighting_inputs.h"
 
 namespace shadowproof {
 

@@ -1,7 +1,7 @@
-#include "compare/color/lighting_inputs.h"
+#include "compare/driver/lighting/lighting_inputs.h"
 
-#include "compare/color/lighting_ranges.h"
-#include "compare/color/lighting_tables.h"
+#include "compare/driver/lighting/lighting_ranges.h"
+#include "compare/driver/lighting/lighting_tables.h"
 #include "scenes/driver.h"
 
 #include <bit>

@@ -1,4 +1,4 @@
-#include "compare/color/lighting_tables.h"
+#include "compare/driver/lighting/lighting_tables.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
 #include "scenes/surface/relief.h"

@@ -14,7 +14,7 @@
 // Rounding to bytes between stages is not part of it: see color_bound in lighting_arithmetic.h.
 #pragma once
 
-#include "compare/color/lighting_inputs.h"
+#include "compare/driver/lighting/lighting_inputs.h"
 
 #include <glm/vec3.hpp>
 

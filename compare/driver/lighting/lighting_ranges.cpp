@@ -1,4 +1,4 @@
-#include "compare/color/lighting_ranges.h"
+#include "compare/driver/lighting/lighting_ranges.h"
 
 #include "scenes/driver.h"
 #include "scenes/spot_cone.h"

@@ -1,8 +1,8 @@
-#include "compare/color/error_budget.h"
+#include "compare/driver/lighting/error_budget.h"
 
-#include "compare/color/lighting_ranges.h"
-#include "compare/color/lighting_tables.h"
-#include "compare/color/texel_ranges.h"
+#include "compare/driver/lighting/lighting_ranges.h"
+#include "compare/driver/lighting/lighting_tables.h"
+#include "compare/driver/lighting/texel_ranges.h"
 #include "scenes/driver.h"
 
 #include <algorithm>

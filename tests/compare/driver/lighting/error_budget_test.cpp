@@ -1,7 +1,7 @@
 // The error budget of colours: wide enough for what it is stated for, and no wider than that.
-#include "compare/color/error_budget.h"
-#include "compare/color/lighting_arithmetic.h"
-#include "compare/color/lighting_tables.h"
+#include "compare/driver/lighting/error_budget.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
+#include "compare/driver/lighting/lighting_tables.h"
 #include "reference/trace/trace.h"
 #include "scenes/load/catalog.h"
 #include "tests/dice.h"

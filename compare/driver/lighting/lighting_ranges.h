@@ -3,9 +3,9 @@
 // are counted beside each formula.
 #pragma once
 
-#include "compare/color/lighting_inputs.h"
-#include "compare/color/vector_range.h"
 #include "compare/driver/interpolated.h"
+#include "compare/driver/lighting/lighting_inputs.h"
+#include "compare/driver/lighting/vector_range.h"
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>

@@ -1,4 +1,4 @@
-#include "compare/color/lighting_arithmetic.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
 
 #include "scenes/byte_blending.h"
 #include "scenes/driver.h"

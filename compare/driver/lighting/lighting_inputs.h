@@ -2,9 +2,9 @@
 // depend on how it normalises vectors, on the form of its bump map and on its float roundings.
 #pragma once
 
-#include "compare/color/texel_ranges.h"
-#include "compare/color/vector_range.h"
 #include "compare/driver/interpolated.h"
+#include "compare/driver/lighting/texel_ranges.h"
+#include "compare/driver/lighting/vector_range.h"
 #include "reference/shade/shading.h"
 #include "scenes/lighting_settings.h"
 #include "scenes/scene.h"
