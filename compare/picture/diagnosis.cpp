@@ -282,8 +282,7 @@ private:
     /// What is claimed where shadow volumes are counted so.
     static Image<Visibility> counted(const TracedScene& traced, const Counting& counting,
                                      const DepthModel& depth_model) {
-        const Prediction prediction(traced.tracer(), traced.silhouette(), traced.truth(),
-                                    traced.depths(), counting, depth_model);
+        const Prediction prediction(traced.volumes(), counting, depth_model);
         const GroundTruth& truth = traced.truth();
         Image<Visibility> predicted = truth.visibility;
         for (std::size_t i = 0; i < predicted.pixels.size(); ++i) {
@@ -346,8 +345,8 @@ private:
             [&](double value) {
                 const ShadowDepths depths = count_shadow_depths(traced_.tracer(), truth_, value);
                 const DepthModel model{.near = near, .far = value};
-                const Prediction prediction(traced_.tracer(), traced_.silhouette(), truth_, depths,
-                                            behind, model);
+                const VolumeStore volumes(traced_.tracer(), traced_.silhouette(), truth_, depths);
+                const Prediction prediction(volumes, behind, model);
                 return changed([&](std::size_t i, Visibility) {
                     return stored(prediction.counts().pixels[i], behind) == 0 && in_cone(i)
                                ? Visibility::lit

@@ -72,8 +72,7 @@ Finding find_in_band(const CountedClaim& judged, PixelPlace p, const Neighbourho
 class StencilJudge final : public Judge {
 public:
     StencilJudge(const TracedScene& traced, const Frame& frame)
-        : prediction_(traced.tracer(), traced.silhouette(), traced.truth(), traced.depths(),
-                      frame.counted->counting, frame.depth_model),
+        : prediction_(traced.volumes(), frame.counted->counting, frame.depth_model),
           claim_{{traced, frame}, prediction_, receiving_triangles(traced.scene())} {}
 
     std::string_view evidence() const override { return "counter"; }

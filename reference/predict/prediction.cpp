@@ -182,40 +182,32 @@ std::int64_t counted(const CountedRay& ray, double far, const Counting& counting
                             counting);
 }
 
-/// Volumes other than the technique's own, and the shadow depths in them.
-struct Prediction::Lifted {
-    Volumes volumes;
-    ShadowDepths depths;
-};
-
 /// Results for limitations requested so far.
 struct Prediction::Cache {
     std::mutex mutex;
     std::map<Limitations, CountingModel> models;
-    std::map<Limitations, std::unique_ptr<Lifted>> volumes; ///< by those of of_volumes
+    std::map<Limitations, std::shared_ptr<const CountedVolumes>> volumes; ///< by of_volumes
     std::map<Limitations, std::unique_ptr<Image<std::int32_t>>> counts;
 };
 
-Prediction::Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
-                       const ShadowDepths& depths, const Counting& counting,
+Prediction::Prediction(const VolumeStore& store, const Counting& counting,
                        const DepthModel& depth_model)
-    : tracer_(&tracer), silhouette_(&silhouette), truth_(&truth),
-      given_(&depths), model_{counting, depth_model}, volumes_(tracer, silhouette, counting),
-      depths_(volumes_.shadow_depths(truth, depths)), cache_(std::make_unique<Cache>()) {
-    if (!volumes_.are_ideal()) ideal_depths_ = volumes_.ideal_depths(truth, depths);
-    counts_ = count_all(volumes_, depths_, model_);
-}
+    : store_(&store), model_{counting, depth_model}, own_(store.counted(counting)),
+      counts_(count_all(*own_, model_)), cache_(std::make_unique<Cache>()) {}
 Prediction::~Prediction() = default;
 Prediction::Prediction(Prediction&&) noexcept = default;
 
-Image<std::int32_t> Prediction::count_all(const Volumes& volumes, const ShadowDepths& depths,
+Image<std::int32_t> Prediction::count_all(const CountedVolumes& made,
                                           const CountingModel& model) const {
-    const Camera& camera = tracer_->scene().camera;
+    const ShadowDepths& depths = *made.depths;
+    const Scene& scene = store_->tracer().scene();
+    const GroundTruth& truth = store_->truth();
+    const Camera& camera = scene.camera;
     Image<std::int32_t> counts(camera.width, camera.height);
     const bool simple = follows_from_depths(model.counting);
     const int columns = (camera.width + region_side - 1) / region_side;
     const int rows = (camera.height + region_side - 1) / region_side;
-    parallel_for(columns * rows, tracer_->threads(), [&](int region, int) {
+    parallel_for(columns * rows, store_->tracer().threads(), [&](int region, int) {
         const int left = region % columns * region_side;
         const int top = region / columns * region_side;
         const int right = std::min(left + region_side, camera.width);
@@ -223,18 +215,18 @@ Image<std::int32_t> Prediction::count_all(const Volumes& volumes, const ShadowDe
         if (simple) {
             for (int y = top; y < bottom; ++y)
                 for (int x = left; x < right; ++x)
-                    counts.at(x, y) = count_from_depths(depths, *truth_, x, y, model);
+                    counts.at(x, y) = count_from_depths(depths, truth, x, y, model);
             return;
         }
-        RegionLedger ledger = volumes.ledger(corner_rays(camera, left, top, right, bottom));
+        RegionLedger ledger = made.volumes.ledger(corner_rays(camera, left, top, right, bottom));
         std::vector<Crossing> crossings;
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
                 const glm::dvec3 direction = ray_direction(camera, x + 0.5, y + 0.5);
                 ledger.crossings(direction, crossings);
-                const std::uint32_t seen = truth_->triangle.at(x, y);
+                const std::uint32_t seen = truth.triangle.at(x, y);
                 const double surface =
-                    seen == no_triangle ? 0 : depth_on_triangle(tracer_->scene(), seen, direction);
+                    seen == no_triangle ? 0 : depth_on_triangle(scene, seen, direction);
                 const CountedRay ray{crossings, surface, seen, depths.at_eye,
                                      depths.at_near.at(x, y)};
                 counts.at(x, y) = static_cast<std::int32_t>(
@@ -253,14 +245,10 @@ const CountingModel& Prediction::without(Limitations limitations) const {
         .first->second;
 }
 
-const Prediction::Lifted& Prediction::lifted(Limitations limitations) const {
-    std::unique_ptr<Lifted>& found = cache_->volumes[limitations & of_volumes];
-    if (!found) {
-        Volumes volumes(*tracer_, *silhouette_,
-                        shadowproof::without(model_, limitations & of_volumes).counting);
-        ShadowDepths depths = volumes.shadow_depths(*truth_, *given_);
-        found = std::make_unique<Lifted>(Lifted{std::move(volumes), std::move(depths)});
-    }
+const CountedVolumes& Prediction::lifted(Limitations limitations) const {
+    std::shared_ptr<const CountedVolumes>& found = cache_->volumes[limitations & of_volumes];
+    if (!found)
+        found = store_->counted(shadowproof::without(model_, limitations & of_volumes).counting);
     return *found;
 }
 
@@ -269,41 +257,39 @@ std::int64_t Prediction::count_without(Limitations limitations, int x, int y) co
     const CountingModel& model = without(limitations);
     const bool own_volumes = (limitations & of_volumes).empty();
     const bool simple = follows_from_depths(model.counting);
-    if (own_volumes && simple) return count_from_depths(depths_, *truth_, x, y, model);
+    const GroundTruth& truth = store_->truth();
+    if (own_volumes && simple) return count_from_depths(*own_->depths, truth, x, y, model);
     const std::lock_guard lock(cache_->mutex);
-    const Lifted* other = own_volumes ? nullptr : &lifted(limitations);
-    const ShadowDepths& depths = other != nullptr ? other->depths : depths_;
-    if (simple) return count_from_depths(depths, *truth_, x, y, model);
+    const CountedVolumes& made = own_volumes ? *own_ : lifted(limitations);
+    if (simple) return count_from_depths(*made.depths, truth, x, y, model);
     std::unique_ptr<Image<std::int32_t>>& counts = cache_->counts[limitations];
-    if (!counts)
-        counts = std::make_unique<Image<std::int32_t>>(
-            count_all(other != nullptr ? other->volumes : volumes_, depths, model));
+    if (!counts) counts = std::make_unique<Image<std::int32_t>>(count_all(made, model));
     return counts->at(x, y);
 }
 
 std::int64_t Prediction::count_without(Limitations limitations, const SurfaceRay& ray) const {
     const CountingModel& model = without(limitations);
-    const Volumes* volumes = &volumes_;
-    std::int32_t at_eye = depths_.at_eye;
+    const Tracer& tracer = store_->tracer();
+    const double far = store_->depths().far;
+    const CountedVolumes* made = own_.get();
     if (!(limitations & of_volumes).empty()) {
         const std::lock_guard lock(cache_->mutex);
-        const Lifted& other = lifted(limitations);
-        volumes = &other.volumes;
-        at_eye = other.depths.at_eye;
+        made = &lifted(limitations);
     }
-    RegionLedger ledger = volumes->ledger(ray.corners);
+    const std::int32_t at_eye = made->depths->at_eye;
+    RegionLedger ledger = made->volumes.ledger(ray.corners);
     std::vector<Crossing> crossings;
     ledger.crossings(ray.direction, crossings);
     std::int32_t at_near = at_eye;
     for (Crossing& crossing : crossings) {
-        if (crossing.depth < tracer_->scene().camera.near) at_near += crossing.change;
+        if (crossing.depth < tracer.scene().camera.near) at_near += crossing.change;
         // A visible triangle's cap lies in its surface, which hides what is not in front of it.
         if (crossing.part == Crossing::Part::light_cap && crossing.depth < ray.depth &&
-            crossing.triangle < tracer_->scene().triangles.size() &&
-            sides_of(*tracer_, crossing.triangle).visible && crossing.depth < given_->far)
+            crossing.triangle < tracer.scene().triangles.size() &&
+            sides_of(tracer, crossing.triangle).visible && crossing.depth < far)
             crossing.depth = ray.depth;
     }
-    return counted({crossings, ray.depth, ray.seen, at_eye, at_near}, given_->far, model.counting,
+    return counted({crossings, ray.depth, ray.seen, at_eye, at_near}, far, model.counting,
                    model.depth_model);
 }
 

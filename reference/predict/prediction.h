@@ -4,13 +4,12 @@
 #pragma once
 
 #include "reference/predict/limitation.h"
-#include "reference/predict/volumes.h"
+#include "reference/predict/volume_store.h"
 #include "scenes/frame.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -83,9 +82,8 @@ struct SurfaceRay {
 
 class Prediction {
 public:
-    /// Keeps references to the first four.
-    Prediction(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
-               const ShadowDepths& depths, const Counting& counting, const DepthModel& depth_model);
+    /// Keeps a reference to the store.
+    Prediction(const VolumeStore& store, const Counting& counting, const DepthModel& depth_model);
     ~Prediction();
     Prediction(Prediction&&) noexcept;
     Prediction& operator=(Prediction&&) noexcept = delete;
@@ -107,31 +105,24 @@ public:
     /// seen through their caps.
     std::int64_t count_without(Limitations limitations, const SurfaceRay& ray) const;
 
-    const Volumes& volumes() const { return volumes_; }
+    const Volumes& volumes() const { return own_->volumes; }
     /// Shadow depths in the volumes that are counted, which may be cut off.
-    const ShadowDepths& depths() const { return depths_; }
+    const ShadowDepths& depths() const { return *own_->depths; }
     /// Shadow depths in the volumes that give the right shadows (Volumes::are_ideal).
-    const ShadowDepths& ideal_depths() const { return ideal_depths_ ? *ideal_depths_ : depths_; }
+    const ShadowDepths& ideal_depths() const { return *own_->ideal_depths; }
 
 private:
-    struct Lifted;
     struct Cache;
 
-    const Tracer* tracer_;
-    const Silhouette* silhouette_;
-    const GroundTruth* truth_;
-    const ShadowDepths* given_; ///< in the casters' own volumes
+    const VolumeStore* store_;
     CountingModel model_;
-    Volumes volumes_;
-    ShadowDepths depths_;
-    std::optional<ShadowDepths> ideal_depths_; ///< where they are not the same
+    std::shared_ptr<const CountedVolumes> own_;
     Image<std::int32_t> counts_;
     std::unique_ptr<Cache> cache_;
 
-    Image<std::int32_t> count_all(const Volumes& volumes, const ShadowDepths& depths,
-                                  const CountingModel& model) const;
-    /// The cache must be locked.
-    const Lifted& lifted(Limitations limitations) const;
+    Image<std::int32_t> count_all(const CountedVolumes& counted, const CountingModel& model) const;
+    /// The volumes without these limitations. The cache must be locked.
+    const CountedVolumes& lifted(Limitations limitations) const;
 };
 
 } // namespace shadowproof

@@ -338,8 +338,9 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     }
     if (ends_) cross_ends(direction, found);
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
-        return std::tuple(a.depth, !a.is_side() ? 0 : 1, a.change, a.triangle) <
-               std::tuple(b.depth, !b.is_side() ? 0 : 1, b.change, b.triangle);
+        if (a.depth != b.depth) return a.depth < b.depth;
+        return std::tuple(!a.is_side() ? 0 : 1, a.change, a.triangle) <
+               std::tuple(!b.is_side() ? 0 : 1, b.change, b.triangle);
     });
 }
 

@@ -13,8 +13,10 @@ struct TracedScene::State {
     double far = 0;
     std::once_flag has_silhouette{};
     std::once_flag has_depths{};
+    std::once_flag has_volumes{};
     std::optional<Silhouette> silhouette{};
     std::optional<ShadowDepths> depths{};
+    std::optional<VolumeStore> volumes{};
 };
 
 TracedScene::TracedScene(const Tracer& tracer, const GroundTruth& truth)
@@ -46,6 +48,13 @@ const ShadowDepths& TracedScene::depths() const {
         state_->depths = count_shadow_depths(state_->tracer, state_->truth, state_->far);
     });
     return *state_->depths;
+}
+
+const VolumeStore& TracedScene::volumes() const {
+    std::call_once(state_->has_volumes, [&] {
+        state_->volumes.emplace(state_->tracer, silhouette(), state_->truth, depths());
+    });
+    return *state_->volumes;
 }
 
 } // namespace shadowproof

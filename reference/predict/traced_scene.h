@@ -3,6 +3,7 @@
 
 #include "reference/predict/ledger.h"
 #include "reference/predict/region_ledger.h"
+#include "reference/predict/volume_store.h"
 #include "reference/trace/trace.h"
 
 #include <memory>
@@ -30,6 +31,8 @@ public:
     const Silhouette& silhouette() const;
     /// Shadow depths at the points of each pixel's ray.
     const ShadowDepths& depths() const;
+    /// The volumes that techniques count.
+    const VolumeStore& volumes() const;
 
 private:
     struct State;

@@ -47,6 +47,8 @@ public:
     /// infinity, and flipped where the technique flips. Where they do not, ideal_ledger and
     /// ideal_depths are of those that do.
     bool are_ideal() const { return are_ideal_; }
+    /// Whether those are the casters' own, whose depths are known.
+    bool ideal_are_the_casters() const { return are_ideal_ ? are_the_casters() : !ideal_; }
     RegionLedger ideal_ledger(const std::array<glm::dvec3, 4>& corners) const;
     ShadowDepths ideal_depths(const GroundTruth& truth, const ShadowDepths& depths) const;
 

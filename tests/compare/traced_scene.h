@@ -30,8 +30,7 @@ struct TracedScene {
 };
 
 inline Prediction prediction_of(const TracedScene& traced, const Frame& frame) {
-    return {traced.tracer, traced.silhouette,       traced.truth,
-            traced.depths, frame.counted->counting, frame.depth_model};
+    return {traced.traced.volumes(), frame.counted->counting, frame.depth_model};
 }
 
 /// The counter at the pixel's centre, as stored.

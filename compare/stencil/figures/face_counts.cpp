@@ -143,13 +143,23 @@ public:
 
     int bands() const { return (height_ + band_height - 1) / band_height; }
 
-    void add(const std::vector<PicturedFace>& faces, int band) {
+    /// The rows in which a face may have fragments.
+    PixelRun rows_of(const PicturedFace& face) const {
+        const PixelRun own = face.possible.rows(height_);
+        if (!face.stands_for_both || !face.is_one_of_two) return own;
+        const PixelRun both = face.certain_of_both.rows(height_);
+        if (both.length() == 0) return own;
+        if (own.length() == 0) return both;
+        return {std::min(own.first, both.first), std::max(own.end, both.end)};
+    }
+
+    /// `rows`: those of each face.
+    void add(const std::vector<PicturedFace>& faces, const std::vector<PixelRun>& rows, int band) {
         std::vector<double> errors(static_cast<std::size_t>(width_));
-        for (const PicturedFace& face : faces) {
-            const PixelRun rows = all_rows(face);
-            const int first = std::max(rows.first, band * band_height);
-            const int end = std::min(rows.end, (band + 1) * band_height);
-            for (int y = first; y < end; ++y) add_row(face, y, errors);
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            const int first = std::max(rows[i].first, band * band_height);
+            const int end = std::min(rows[i].end, (band + 1) * band_height);
+            for (int y = first; y < end; ++y) add_row(faces[i], y, errors);
         }
     }
 
@@ -173,21 +183,12 @@ private:
     double constant_error_;
     double share_error_; ///< of its size
 
-    PixelRun all_rows(const PicturedFace& face) const {
-        const PixelRun own = face.possible.rows(height_);
-        if (!face.stands_for_both) return own;
-        const PixelRun both = face.certain_of_both.rows(height_);
-        if (both.length() == 0) return own;
-        if (own.length() == 0) return both;
-        return {std::min(own.first, both.first), std::max(own.end, both.end)};
-    }
-
     static PixelRun common(const PixelRun& one, const PixelRun& other) {
         return {std::max(one.first, other.first), std::min(one.end, other.end)};
     }
 
-    void count_fragments(const PicturedFace& face, int y, const PixelRun& possible) {
-        const PixelRun certain = face.certain_of_both.row(y, width_);
+    void count_fragments(const PicturedFace& face, int y, const PixelRun& possible,
+                         const PixelRun& certain) {
         FigureRange& row = fragments_[static_cast<std::size_t>(y)];
         const int counted = face.stands_for_both ? certain.length() : 0;
         const int others = possible.length() - common(certain, possible).length();
@@ -197,9 +198,11 @@ private:
 
     void add_row(const PicturedFace& face, int y, std::vector<double>& errors) {
         const PixelRun possible = face.possible.row(y, width_);
-        count_fragments(face, y, possible);
+        const PixelRun covered = face.certain.row(y, width_);
+        count_fragments(face, y, possible,
+                        face.is_one_of_two ? face.certain_of_both.row(y, width_) : covered);
         if (depths_ == nullptr || possible.length() == 0) return;
-        const PixelRun certain = common(face.certain.row(y, width_), possible);
+        const PixelRun certain = common(covered, possible);
         std::int32_t* low = &counts_.low.at(0, y);
         std::int32_t* high = &counts_.high.at(0, y);
         if (face.in_front || face.edge_on) {
@@ -268,14 +271,17 @@ FaceCounts counted(const DrawnPicture& picture, const Image<double>* depths, int
     Rows rows(picture, depths, counts);
     for (std::size_t first = 0; first < pictured.count(); first += batch_size) {
         std::vector<PicturedFace> faces(std::min(batch_size, pictured.count() - first));
+        std::vector<PixelRun> runs(faces.size());
         constexpr std::size_t together = 64;
         const auto pieces = static_cast<int>((faces.size() + together - 1) / together);
         parallel_for(pieces, threads, [&](int piece, int) {
             const std::size_t begin = static_cast<std::size_t>(piece) * together;
-            for (std::size_t i = begin; i < std::min(begin + together, faces.size()); ++i)
+            for (std::size_t i = begin; i < std::min(begin + together, faces.size()); ++i) {
                 faces[i] = pictured.face(first + i);
+                runs[i] = rows.rows_of(faces[i]);
+            }
         });
-        parallel_for(rows.bands(), threads, [&](int band, int) { rows.add(faces, band); });
+        parallel_for(rows.bands(), threads, [&](int band, int) { rows.add(faces, runs, band); });
     }
     counts.fragments = rows.fragments();
     return counts;

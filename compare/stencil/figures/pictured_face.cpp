@@ -20,12 +20,17 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// The last pixel centre, as a column's number, that is not past a place; and the first.
+/// The last pixel centre, as a column's number, that is not past a place; and the first. The place
+/// is a number. (std::floor and std::ceil are calls on machines without SSE 4.1, and these are
+/// asked for every row of every face.)
 int last_column(double place, int width) {
-    return static_cast<int>(std::clamp(std::floor(place - 0.5), -1.0, double(width)));
+    const double centre = std::clamp(place - 0.5, -1.0, double(width));
+    return centre < 0 ? -1 : static_cast<int>(centre);
 }
 int first_column(double place, int width) {
-    return static_cast<int>(std::clamp(std::ceil(place - 0.5), -1.0, double(width)));
+    const double centre = std::clamp(place - 0.5, -1.0, double(width));
+    const int towards_zero = static_cast<int>(centre);
+    return towards_zero + (centre > towards_zero ? 1 : 0);
 }
 
 } // namespace
@@ -210,6 +215,7 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
         const std::optional<double> margin = margin_of(making, both);
         const bool known = has_direction(polygon.back()) && margin;
         face.certain_of_both = known ? ConvexRegion(both, *margin) : ConvexRegion();
+        face.is_one_of_two = true;
     }
     face.possible = regions.possible;
     face.inverse_depth = in_pixels(making.camera, plane_of(seen));

@@ -64,6 +64,7 @@ struct PicturedFace {
     /// Pixels with a certain fragment of exactly one of two faces: this one and the one that shares
     /// an edge with it. Without the latter, as `certain`. One of the two stands for both.
     ConvexRegion certain_of_both;
+    bool is_one_of_two = false;
     bool stands_for_both = true;
     bool in_front = false;                    ///< in front of everything
     bool edge_on = false;                     ///< it may have any depth

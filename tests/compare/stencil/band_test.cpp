@@ -58,14 +58,14 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
     const Silhouette silhouette(tracer);
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
+    const VolumeStore volumes(tracer, silhouette, truth, depths);
     Gpu gpu(GlPlatform::osmesa);
     for (const Technique& technique : all_techniques()) {
         if (!suits(technique, scene)) continue;
         SCOPED_TRACE(technique.name);
         const Frame frame = render(technique, scene, plan, gpu);
         if (!frame.counted) continue;
-        const Prediction prediction(tracer, silhouette, truth, depths, frame.counted->counting,
-                                    frame.depth_model);
+        const Prediction prediction(volumes, frame.counted->counting, frame.depth_model);
         std::vector<Crossing> crossings;
         int asked = 0;
         for (int y = 0; y < 67; y += 3)

@@ -116,7 +116,8 @@ TEST(LedgerTable, a_cell_without_a_difference_has_an_empty_table) {
     const GroundTruth truth = trace(tracer);
     const ShadowDepths depths = count_shadow_depths(tracer, truth, finite_far(scene));
     const Silhouette silhouette(tracer);
-    const Prediction prediction(tracer, silhouette, truth, depths, {}, {});
+    const VolumeStore volumes(tracer, silhouette, truth, depths);
+    const Prediction prediction(volumes, {}, {});
     Frame counted;
     counted.counted.emplace();
     const LedgerTable table = list_ledgers(tracer, truth, counted, prediction,

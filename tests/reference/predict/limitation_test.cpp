@@ -206,12 +206,14 @@ struct Traced {
     Silhouette silhouette;
     GroundTruth truth;
     ShadowDepths depths;
+    VolumeStore volumes;
 
     explicit Traced(const std::string& name)
         : scene(
               load_scene(name, {.camera = {}, .light = {}, .time = 0, .width = 24, .height = 24})),
           tracer(scene), silhouette(tracer), truth(trace(tracer)),
-          depths(count_shadow_depths(tracer, truth, finite_far(scene))) {}
+          depths(count_shadow_depths(tracer, truth, finite_far(scene))),
+          volumes(tracer, silhouette, truth, depths) {}
 };
 
 TEST(Limitation, counts_without_it_are_those_of_casters_counted_one_by_one) {
@@ -223,8 +225,7 @@ TEST(Limitation, counts_without_it_are_those_of_casters_counted_one_by_one) {
         const Camera& camera = scene.camera;
         const CountingModel model = each.technique(scene);
         SCOPED_TRACE(each.scene + " " + std::to_string(each.lifted.bits()));
-        const Prediction prediction(traced->tracer, traced->silhouette, traced->truth,
-                                    traced->depths, model.counting, model.depth_model);
+        const Prediction prediction(traced->volumes, model.counting, model.depth_model);
         EXPECT_TRUE(prediction.limitations().contains(each.lifted));
         const Casters casters(scene, each.flipped);
         int wrong = 0;

@@ -1,0 +1,46 @@
+// The shadow volumes that techniques count, made once for all techniques that count the same.
+#pragma once
+
+#include "reference/predict/ledger.h"
+#include "reference/predict/volumes.h"
+
+#include <memory>
+
+namespace shadowproof {
+
+/// Volumes, and the shadow depths in them.
+struct CountedVolumes {
+    Volumes volumes;
+    std::shared_ptr<const ShadowDepths> depths;
+    /// In the volumes that give the right shadows (Volumes::are_ideal).
+    std::shared_ptr<const ShadowDepths> ideal_depths;
+};
+
+class VolumeStore {
+public:
+    /// Keeps references. `depths`: those in the casters' own volumes.
+    VolumeStore(const Tracer& tracer, const Silhouette& silhouette, const GroundTruth& truth,
+                const ShadowDepths& depths);
+    ~VolumeStore();
+    VolumeStore(const VolumeStore&) = delete;
+    VolumeStore& operator=(const VolumeStore&) = delete;
+
+    const Tracer& tracer() const { return *tracer_; }
+    const GroundTruth& truth() const { return *truth_; }
+    const ShadowDepths& depths() const { return *depths_; }
+
+    /// Those that a technique counts, made anew unless they are among the last few that were asked
+    /// for. May be called by any thread; refers to the store's tracer and silhouette.
+    std::shared_ptr<const CountedVolumes> counted(const Counting& counting) const;
+
+private:
+    struct Kept;
+
+    const Tracer* tracer_;
+    const Silhouette* silhouette_;
+    const GroundTruth* truth_;
+    const ShadowDepths* depths_;
+    std::unique_ptr<Kept> kept_;
+};
+
+} // namespace shadowproof
