@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -155,6 +156,12 @@ void add_ray_flags(CLI::App& command, RaySettings& settings) {
                                 customary_epsilon));
 }
 
+void add_volume_flags(CLI::App& command, VolumeSettings& settings) {
+    add_length_flag(
+        command, "--extrusion", settings.extrusion, 0,
+        "zfail_truncated: how far volumes reach (half the diagonal of the scene's box)");
+}
+
 } // namespace
 
 SceneRequest SceneOptions::request() const {
@@ -281,6 +288,7 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "Where OpenGL comes from: osmesa or egl (osmesa)")
         ->type_name("PLATFORM");
     add_lighting_flags(command, options.asked.lighting);
+    add_volume_flags(command, options.asked.volumes);
     add_map_flags(command, options.asked.map);
     add_ray_flags(command, options.asked.rays);
 }
@@ -306,6 +314,8 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     const LightingSettings& lighting = technique.asked.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
+    if (const std::optional<double>& extrusion = technique.asked.volumes.extrusion)
+        add("--extrusion", fmt::format("{}", *extrusion));
     const MapSettings& map = technique.asked.map;
     if (map.size) add("--map-size", fmt::format("{}", *map.size));
     if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));

@@ -2,16 +2,19 @@
 #include "raster/volumes/stencil.h"
 #include "scenes/mesh/extrusion.h"
 
+#include <optional>
+
 namespace shadowproof {
 
 namespace {
 
 /// zfail_reversed with finite volumes: extruded by half the diagonal of the scene's bounding box,
-/// and capped there.
+/// or as far as was asked for, and capped there.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.dark_cap = true; // at the finite end
-    recipe.counting.extrusion = finite_extrusion(scene);
+    const std::optional<double>& asked = plan.asked.volumes.extrusion;
+    recipe.counting.extrusion = asked ? *asked / scene.unit : finite_extrusion(scene);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 
@@ -24,6 +27,7 @@ Technique zfail_truncated_technique() {
             .needs = "shadows that end within the distance",
             .cost = 0.95,
             .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
+            .settings = {"extrusion"},
             .run = run};
 }
 

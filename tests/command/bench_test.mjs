@@ -101,22 +101,42 @@ test('a frame\'s stages are told for each sample', () => {
       assert.equal(samples.length, ms.samples.length, technique);
 });
 
+const wrongPixels = ({ differing, causes }) => differing - (causes.edge ?? 0);
+
 /** Not one wrong pixel more at each setting than at the one before. */
-function assertFalls(name, values) {
-  const wrong = values.map((value) => {
-    const { differing, causes } = shadows.points.find(({ technique, own }) =>
-      technique === 'cube_map_six_pass' && own[name] === value &&
-      Object.entries(own).every(([key, each]) => key === name || each === usual[key]));
-    return differing - (causes.edge ?? 0);
-  });
+function assertFalls(technique, name, values) {
+  const usual = ownOf(technique);
+  const wrong = values.map((value) => wrongPixels(shadows.points.find((point) =>
+    point.technique === technique && point.own[name] === value &&
+    Object.entries(point.own).every(([key, each]) => key === name || each === usual[key]))));
   wrong.forEach((pixels, i) => assert.ok(i === 0 || pixels <= wrong[i - 1], wrong.join(' ')));
   assert.ok(wrong.at(-1) < wrong[0], wrong.join(' '));
 }
-const usual = pointOf(shadows, { technique: 'cube_map_six_pass', settings: {} }).own;
+const ownOf = (technique) => pointOf(shadows, { technique, settings: {} }).own;
 
 test('errors come in the order that theory gives', () => {
-  assertFalls('map-size', ['64', '256', '1024', '4096']);
-  assertFalls('map-bias', ['0', '0.01', usual['map-bias']]); // acne, up to what the bias must be
+  const map = 'cube_map_six_pass';
+  assertFalls(map, 'map-size', ['64', '256', '1024', '4096']);
+  assertFalls(map, 'map-bias', ['0', '0.01', ownOf(map)['map-bias']]); // acne, up to what it must be
+  const lengths = shadows.points.filter(({ technique }) => technique === 'zfail_truncated')
+    .map(({ own }) => own.extrusion).sort((a, b) => Number(a) - Number(b));
+  assert.equal(lengths.length, 6);
+  assertFalls('zfail_truncated', 'extrusion', lengths);
+});
+
+test('auto is not slower than the fastest technique that is right, beyond both intervals', () => {
+  const isSlower = (attempt) => {
+    const run = shadowproof(['bench', 'idle_casters', '--quick', '--repeats', '9', '-q', '--technique',
+      'zpass,zfail,zfail_clamp,zfail_infinite,zfail_reversed,zp_plus,auto', '--json', `auto${attempt}.json`]);
+    assert.equal(run.code, 0, run.err);
+    const { points } = written(`auto${attempt}.json`);
+    const right = points.filter((point) => point.technique !== 'truth' && wrongPixels(point) === 0);
+    const auto = right.find(({ technique }) => technique === 'auto');
+    assert.ok(auto && right.length > 1);
+    return auto.ms.low > Math.min(...right.map(({ ms }) => ms.high));
+  };
+  // A moment in which the machine is busy with something else is measured again.
+  assert.ok([1, 2, 3].some((attempt) => !isSlower(attempt)));
 });
 
 test('wrong usage and bad input are named, with a remedy', () => {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace shadowproof {
 
@@ -31,6 +33,12 @@ std::span<const SweptSetting> swept_settings() {
         SweptSetting{
             "bumps", names_of(all_bump_forms),
             [](const Frame& f, double) { return std::string(name_of(f.color_model.bump_form)); }},
+        SweptSetting{
+            "extrusion",
+            {},
+            [](const Frame& f, double unit) { return length(f.counted->counting.extrusion, unit); },
+            {},
+            {0.25, 0.5, 2, 4, 16}},
         SweptSetting{"map-size",
                      {"64", "128", "256", "512", "1024", "2048", "4096", "8192"},
                      [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.size); },
@@ -87,24 +95,34 @@ BenchSettings own_settings(const Technique& technique, const Frame& frame, doubl
     return own;
 }
 
+namespace {
+
+/// The values that are tried beside the technique's own, if it heeds the setting.
+std::vector<std::string> values_beside(const SweptSetting& setting, const std::string& own,
+                                       bool quick) {
+    std::vector<std::string> values;
+    for (const std::string_view value : setting.values)
+        if (value != own && !(quick && std::ranges::count(setting.costly, value) > 0))
+            values.emplace_back(value);
+    for (const double factor : setting.factors)
+        if (const std::optional<double> number = parse_number(own))
+            values.push_back(length(factor * *number, 1));
+    return values;
+}
+
+} // namespace
+
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
                                  const BenchSettings& own, bool quick) {
-    const auto has = [](const BenchSettings& settings, const auto& matches) {
-        return std::any_of(settings.begin(), settings.end(), matches);
+    const auto find = [](const BenchSettings& settings, std::string_view name) {
+        return std::ranges::find_if(settings, [&](const auto& each) { return each.first == name; });
     };
     std::vector<BenchSettings> all;
     for (const SweptSetting& setting : swept_settings()) {
-        if (!heeds(technique, setting.name) ||
-            has(fixed, [&](const auto& each) { return each.first == setting.name; }))
-            continue;
-        for (const std::string_view value : setting.values) {
-            if (quick && std::find(setting.costly.begin(), setting.costly.end(), value) !=
-                             setting.costly.end())
-                continue;
-            if (has(own, [&](const auto& each) {
-                    return each.first == setting.name && each.second == value;
-                }))
-                continue;
+        if (!heeds(technique, setting.name) || find(fixed, setting.name) != fixed.end()) continue;
+        const auto its_own = find(own, setting.name);
+        for (const std::string& value :
+             values_beside(setting, its_own == own.end() ? "" : its_own->second, quick)) {
             BenchSettings settings = fixed;
             settings.emplace_back(setting.name, value);
             all.push_back(std::move(settings));

@@ -19,6 +19,8 @@ struct SweptSetting {
     /// The value by which a frame was made, as the flag would have it. `unit`: Scene::unit.
     std::string (*own)(const Frame& frame, double unit);
     std::vector<std::string_view> costly{}; ///< values that take seconds each: not with --quick
+    /// Further values: so many times the technique's own, where lengths fit a scene and no other.
+    std::vector<double> factors{};
 };
 
 /// All of them, in the order in which they are swept.

@@ -1,0 +1,159 @@
+// Measures four scenes, and writes docs/results.md with their plots.
+//   SHADOWPROOF=build/release/shadowproof node tests/bench/results_page.mjs [SECONDS PER SCENE]
+// Nothing else should run meanwhile: times are compared within one run.
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const scenes = ['near_plane', 'thin_caster', 'idle_casters', 'walking_figure'];
+const seconds = process.argv[2] ?? '60';
+const program = process.env.SHADOWPROOF;
+assert.ok(program, 'SHADOWPROOF names no program');
+const docs = fileURLToPath(new URL('../../docs', import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), 'shadowproof-results-'));
+
+function measured() {
+  const args = ['bench', ...scenes, '--seconds', seconds, '--out', folder];
+  const { status } = spawnSync(program, args, { stdio: 'inherit' });
+  assert.equal(status, 0, `shadowproof ${args.join(' ')} ended with ${status}`);
+  return JSON.parse(readFileSync(join(folder, 'results.json'), 'utf8'));
+}
+
+/** Each scene's plot, as the page's own button saves it. */
+async function savePlots() {
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: process.getuid?.() === 0 ? ['--no-sandbox'] : [],
+  });
+  const page = await browser.newPage({ viewport: { width: 1000, height: 800 } });
+  await page.goto(pathToFileURL(join(folder, 'index.html')).href);
+  mkdirSync(join(docs, 'results'), { recursive: true });
+  for (const scene of scenes) {
+    await page.selectOption('#scene', scene);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#svg')]);
+    await download.saveAs(join(docs, 'results', `${scene}.svg`));
+  }
+  await browser.close();
+}
+
+const run = measured();
+await savePlots();
+rmSync(folder, { recursive: true });
+
+const isOwn = (point, settings) =>
+  Object.entries(settings).every(([name, value]) => (point.settings[name] ?? point.own?.[name]) === value);
+/** The point of a technique whose settings are these, and else its own. */
+const pointOf = (scene, technique, settings = {}) => run.points.find((point) =>
+  point.scene === scene && point.technique === technique && isOwn(point, settings) &&
+  Object.keys(point.settings).every((name) => name in settings));
+const wrong = (point, cause) => (cause ? point.causes[cause] ?? 0
+  : point.differing - (point.causes.edge ?? 0));
+const percent = (pixels, point) => {
+  const share = 100 * pixels / point.pixels;
+  return share === 0 ? '0' : `${Number(share.toPrecision(2))} %`;
+};
+const ms = ({ ms: { median, low, high } }) =>
+  `${median.toPrecision(3)} (${low.toPrecision(3)} to ${high.toPrecision(3)})`;
+const times = (a, b) => `${(a.ms.median / b.ms.median).toFixed(2)} times`;
+const stageShare = (point, name) => {
+  const sum = Object.values(point.stages).reduce((all, { median }) => all + median, 0);
+  return `${Math.round(100 * point.stages[name].median / sum)} %`;
+};
+const table = (head, rows) => [head, head.map(() => '---'), ...rows]
+  .map((row) => `| ${row.join(' | ')} |`).join('\n');
+
+const volumes = (scene) => pointOf(scene, 'zfail_reversed');
+const map = (scene, settings) => pointOf(scene, 'cube_map_six_pass', settings);
+
+/** The biases that were tried, least first. */
+const biases = [...new Set(run.points.filter((point) => 'map-bias' in (point.own ?? {}))
+  .map((point) => point.settings['map-bias'] ?? point.own['map-bias']))]
+  .sort((a, b) => Number(a) - Number(b));
+const withBias = (scene, bias) => map(scene, { 'map-bias': bias });
+function bestBias(scene) {
+  const tried = biases.map((bias) => [bias, withBias(scene, bias)]).filter(([, point]) => point);
+  return tried.reduce((best, each) => (wrong(each[1]) < wrong(best[1]) ? each : best));
+}
+const [least, most] = [biases[0], biases.at(-1)];
+
+const summary = table(
+  ['the lecture', ...scenes.map((scene) => `\`${scene}\``)],
+  [
+    ['**Volumes** "consume lots of fill rate": share of the frame that counting takes',
+     ...scenes.map((scene) => stageShare(volumes(scene), 'counting'))],
+    ['**Volumes** are "relatively accurate": pixels wrong',
+     ...scenes.map((scene) => percent(wrong(volumes(scene)), volumes(scene)))],
+    ['**Maps** are "relatively efficient", "one additional drawing only": time of the frame, ' +
+     'beside the volumes\'', ...scenes.map((scene) => times(map(scene), volumes(scene)))],
+    ['... of which drawing the map, six times for a point light',
+     ...scenes.map((scene) => stageShare(map(scene), 'map'))],
+    ['**Maps**, pixels wrong',
+     ...scenes.map((scene) => percent(wrong(map(scene)), map(scene)))],
+    [`"Precision and biasing issues": self-shadowed (\`acne\`) without bias`,
+     ...scenes.map((scene) => percent(wrong(withBias(scene, least), 'acne'), map(scene)))],
+    [`... light that leaks (\`leak\`) at a bias of ${most}`,
+     ...scenes.map((scene) => percent(wrong(withBias(scene, most), 'leak'), map(scene)))],
+    ['"Hand tuning per scene": the bias, of those tried, with the fewest wrong pixels',
+     ...scenes.map((scene) => bestBias(scene)[0])],
+    ['... pixels wrong with it', ...scenes.map((scene) =>
+      percent(wrong(bestBias(scene)[1]), map(scene)))],
+  ]);
+
+const gains = table(['scene', '`auto`, ms', '`zfail_reversed`, ms', '`auto` takes', 'wrong, both'],
+  scenes.map((scene) => {
+    const auto = pointOf(scene, 'auto');
+    return [`\`${scene}\``, ms(auto), ms(volumes(scene)), times(auto, volumes(scene)),
+            `${wrong(auto)}, ${wrong(volumes(scene))}`];
+  }));
+
+const truths = table(['scene', 'truth, ms', '`zfail_reversed`, ms', 'truth takes'],
+  scenes.map((scene) => {
+    const truth = pointOf(scene, 'truth');
+    return [`\`${scene}\``, ms(truth), ms(volumes(scene)), times(truth, volumes(scene))];
+  }));
+
+const { gl, embree, machine, version } = run;
+writeFileSync(join(docs, 'results.md'), `# Results
+
+What [\`shadowproof bench\`](bench.md) measured on four bundled scenes at ${run.scenes[0].width}x${run.scenes[0].height}. This page is made
+by one command, which measures anew:
+
+\`\`\`
+SHADOWPROOF=build/release/shadowproof node tests/bench/results_page.mjs ${seconds}
+\`\`\`
+
+shadowproof ${version}, ${gl.renderer}, OpenGL ${gl.version}, Embree ${embree}; ${machine.processor},
+${machine.cores} cores, ${machine.system}. This is OpenGL in software: times compare techniques with each other
+on this machine, and say nothing of a graphics card. Milliseconds are medians, with their 95 %
+intervals. Pixels that differ at an edge are not wrong.
+
+## Maps against volumes
+
+The lecture CS448 (Akeley and Hanrahan, Stanford, Fall 2001, lecture 11) ends with a summary of shadow
+volumes and shadow maps. These are its statements and what they come to here. Volumes are
+\`zfail_reversed\`; maps are \`cube_map_six_pass\` with its own settings (${
+  Object.entries(map(scenes[0]).own).map(([name, value]) => `${name} ${value}`).join(', ')}) where none are named.
+
+${summary}
+
+## What \`auto\` gains
+
+${gains}
+
+## What the truth costs
+
+${truths}
+
+## All techniques and settings
+
+Further left is quicker, lower is more right; points that are exactly right have a row each below. The
+broken line is the front.
+${scenes.map((scene) => `
+### ${scene}
+
+![Error against run time on ${scene}](results/${scene}.svg)
+`).join('')}`);
