@@ -57,9 +57,9 @@ bool others_are_at_work() {
     return false;
 }
 
-/// Libraries start threads while they are loaded (log4cplus, which comes with OpenImageIO). One
-/// that is still starting may hold a lock, such as an allocator's, that would never be released in
-/// a child: waits until all of them sleep.
+/// Libraries start threads while they are loaded (log4cplus, which comes with OpenImageIO once a
+/// picture needs it). One that is still starting may hold a lock, such as an allocator's, that
+/// would never be released in a child: waits until all of them sleep.
 void let_other_threads_settle() {
     constexpr int most_tries = 2000;
     constexpr std::chrono::milliseconds moment{1};

@@ -3,9 +3,12 @@
 
 #include "compare/gate.h"
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
 
 namespace shadowproof {
 

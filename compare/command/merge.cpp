@@ -1,6 +1,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/rebuild.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 namespace shadowproof {

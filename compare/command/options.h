@@ -8,12 +8,16 @@
 #include "scenes/memory_budget.h"
 #include "scenes/technique_settings.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+class Validator;
+} // namespace CLI
 
 namespace shadowproof {
 

@@ -4,10 +4,13 @@
 
 #include "scenes/memory_budget.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+} // namespace CLI
 
 namespace shadowproof {
 
