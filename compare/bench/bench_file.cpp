@@ -60,6 +60,19 @@ void stage(const Place& place, std::size_t count) {
         refuse(place.at("median"), "is not that of the samples");
 }
 
+/// A cell of the report beside the plot. The plot links to it, and it may lead nowhere else.
+void cell_address(const Place& place) {
+    constexpr std::string_view page = "pictures/index.html#";
+    constexpr std::string_view plain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/";
+    const auto leads_there = [&](const std::string& text) {
+        return text.starts_with(page) &&
+               text.find_first_not_of(plain, page.size()) == std::string::npos;
+    };
+    require(place.value.is_string() && leads_there(place.value.get_ref<const std::string&>()),
+            place, "the address of a cell, as \"pictures/index.html#near_plane/zpass\"");
+}
+
 void any_object(const Place& place) {
     require(place.value.is_object(), place, "an object");
 }
@@ -82,7 +95,8 @@ void point(const Place& place) {
                    {"falsely_lit", amount},
                    {"falsely_shadowed", amount},
                    {"color", color, Need::optional},
-                   {"command", text}});
+                   {"command", text},
+                   {"pictures", cell_address, Need::optional}});
     if (place.value.contains("stages"))
         for (const auto& [name, each] : place.value.at("stages").items())
             stage(place.at("stages").at(name), place.value.at("ms").at("samples").size());

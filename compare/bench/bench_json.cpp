@@ -50,6 +50,7 @@ Json point_json(const BenchPoint& point) {
         json["color"] = {
             {"rmse", color->rmse}, {"largest", color->largest}, {"p999", color->percentile999}};
     json["command"] = point.command;
+    if (!point.pictures.empty()) json["pictures"] = point.pictures;
     return json;
 }
 
@@ -92,7 +93,8 @@ BenchPoint point_of(const Json& json) {
                                .differing = json.at("differing"),
                                .falsely_lit = json.at("falsely_lit"),
                                .falsely_shadowed = json.at("falsely_shadowed")},
-                     .command = json.at("command")};
+                     .command = json.at("command"),
+                     .pictures = json.value("pictures", "")};
     if (json.contains("stages"))
         for (const auto& [name, stage] : json.at("stages").items())
             point.stages.push_back({name, stage.at("samples").get<std::vector<double>>()});

@@ -57,6 +57,8 @@ struct BenchPoint {
     std::vector<BenchStage> stages{}; ///< of frames that waited for each of them
     BenchError error{};
     std::string command{}; ///< that measures it again
+    /// Where its pictures are, relative to the folder of the plot; empty: they were not kept.
+    std::string pictures{};
 };
 
 struct BenchScene {

@@ -65,4 +65,15 @@ private:
     Unfinished unfinished_; ///< last: its removal needs all the others
 };
 
+/// What lies below a folder of the new content: "pictures/", or all of it where that is empty.
+struct FolderPart {
+    const ReplacedFolder& whole;
+    std::string below{};
+
+    /// As ReplacedFolder::add; `name` is relative to this part.
+    void add(const std::string& name, std::string_view bytes) const {
+        whole.add(below + name, bytes);
+    }
+};
+
 } // namespace shadowproof

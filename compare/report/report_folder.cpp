@@ -10,12 +10,12 @@ ReportFolder::ReportFolder(const std::filesystem::path& folder)
 
 void ReportFolder::add_scene(const SceneResult& scene) const {
     const auto lock = hold_unfinished();
-    write_scene(scene, files_);
+    write_scene(scene, {files_});
 }
 
 void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) const {
     const auto lock = hold_unfinished();
-    write_cell(scene, cell, files_, threads);
+    write_cell(scene, cell, {files_}, threads);
 }
 
 void ReportFolder::add_file(const std::string& name, std::string_view bytes) const {

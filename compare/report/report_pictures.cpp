@@ -117,14 +117,14 @@ PalettePicture color_error_picture(const ColorCheck& colors) {
     return picture;
 }
 
-void write_scene(const SceneResult& scene, const ReplacedFolder& report) {
+void write_scene(const SceneResult& scene, const FolderPart& report) {
     report.add(truth_path(scene), to_png(scene.truth.visibility));
     if (!scene.color.pixels.empty())
         report.add(color_path(scene), to_png(color_picture(scene.color)));
     report.add(folder_of(scene) + "/scene.js", scene_script(scene));
 }
 
-void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads) {
+void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, int threads) {
     if (!cell.error.empty()) return;
     const auto add = [&](const char* kind, const auto& picture) {
         report.add(picture_path(scene, cell, kind), to_png(picture));

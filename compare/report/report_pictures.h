@@ -19,9 +19,9 @@ PalettePicture cause_picture(const Cell& cell);
 PalettePicture color_error_picture(const ColorCheck& colors);
 
 /// Writes the truth, at truth_path and color_path, and the data that the cells share into `report`.
-void write_scene(const SceneResult& scene, const ReplacedFolder& report);
+void write_scene(const SceneResult& scene, const FolderPart& report);
 /// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
 /// threads 0: one per core.
-void write_cell(const SceneResult& scene, Cell& cell, const ReplacedFolder& report, int threads);
+void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, int threads);
 
 } // namespace shadowproof

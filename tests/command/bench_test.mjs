@@ -1,21 +1,25 @@
-// `shadowproof bench` as its users meet it. No test holds a time: what is judged is recorded, or
-// does not depend on the clock.
+// `shadowproof bench` as its users meet it. No test holds a time, and one an order of times: all
+// else that is judged is recorded, or does not depend on the clock.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import Ajv from 'ajv/dist/2020.js';
-import { isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
+import { filesBelow, isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
 
 const schema = JSON.parse(readFileSync(new URL('../../docs/bench.schema.json', import.meta.url)));
 const validate = new Ajv({ strict: true, allErrors: true }).compile(schema);
+const reportSchema = JSON.parse(readFileSync(new URL('../../docs/results.schema.json', import.meta.url)));
+const validateReport = new Ajv({ strict: true, allErrors: true }).compile(reportSchema);
+const assertReport = (report) =>
+  assert.ok(validateReport(report), JSON.stringify(validateReport.errors, null, 1));
 const assertValid = (run) => assert.ok(validate(run), JSON.stringify(validate.errors, null, 1));
 const written = (name) => JSON.parse(readFileSync(join(scratch, name), 'utf8'));
 const write = (name, json) => writeFileSync(join(scratch, name), JSON.stringify(json));
 
 /** As little measuring as there can be: one sample of each point. */
-const least = ['--quick', '--size', '48x48', '--repeats', '1', '-q'];
+const least = ['--quick', '--size', '48x48', '--repeats', '1', '--no-pictures', '-q'];
 
 /** The point of a run that has the technique and settings of another. */
 const pointOf = (run, { technique, settings }) => run.points.find(
@@ -124,7 +128,7 @@ test('errors come in the order that theory gives', () => {
   assertFalls('zfail_truncated', 'extrusion', lengths);
 });
 
-test('auto is not slower than the fastest technique that is right, beyond both intervals', () => {
+test('where most casters are idle, auto is not slower than any technique that is right', () => {
   const isSlower = (attempt) => {
     const run = shadowproof(['bench', 'idle_casters', '--quick', '--repeats', '9', '-q', '--technique',
       'zpass,zfail,zfail_clamp,zfail_infinite,zfail_reversed,zp_plus,auto', '--json', `auto${attempt}.json`]);
@@ -164,6 +168,50 @@ test('a run redraws its plot without measuring, and its folder gives the same ag
   assert.equal(redraw('plot', 'plot'), first);
   for (const file of ['index.html', 'results.js', 'results.json', 'manifest.json'])
     assert.ok(existsSync(join(scratch, 'plot', file)), file);
+});
+
+test('each point leads to its pictures, which move with the folder of the plot', () => {
+  const measured = shadowproof(['bench', 'near_plane', '--technique', 'zpass,cube_map_six_pass',
+    '--quick', '--size', '48x48', '--repeats', '1', '--out', 'seen', '-q']);
+  assert.equal(measured.code, 0, measured.err);
+  const run = written('seen/results.json');
+  assertValid(run);
+  const report = written('seen/pictures/results.json');
+  assertReport(report);
+  const drawn = run.points.filter(({ technique }) => technique !== 'truth');
+  assert.ok(drawn.some(({ settings }) => settings['map-size'] === '64'));
+  const addresses = drawn.map(({ pictures }) => pictures);
+  assert.equal(new Set(addresses).size, drawn.length);
+  for (const { technique, pictures, causes, settings } of drawn) {
+    const [folder, name] = pictures.replace('pictures/index.html#', '').split('/');
+    const cell = report.scenes.find((scene) => scene.folder === folder)
+      .techniques.find((each) => each.name === name);
+    assert.equal(name, technique);
+    assert.deepEqual(cell.causes, causes);
+    for (const [flag, value] of Object.entries(settings))
+      assert.match(cell.command, new RegExp(`^shadowproof verify near_plane .*--${flag} ${value} `));
+    for (const picture of Object.values(cell.images))
+      assert.ok(existsSync(join(scratch, 'seen/pictures', picture)), picture);
+  }
+
+  const redraw = (from, out) => shadowproof(['bench', '--from', from, '--out', out, '-q']);
+  assert.equal(redraw('seen', 'moved').code, 0);
+  assert.deepEqual(filesBelow(join(scratch, 'moved/pictures')), filesBelow(join(scratch, 'seen/pictures')));
+  assert.deepEqual(written('moved/results.json').points, run.points);
+  // A file alone has none.
+  write('alone.json', run);
+  assert.equal(redraw('alone.json', 'bare').code, 0);
+  assert.ok(written('bare/results.json').points.every(({ pictures }) => pictures === undefined));
+  assert.ok(!existsSync(join(scratch, 'bare/pictures')));
+  // Nor does a file lead a reader of the plot anywhere else.
+  for (const address of ['javascript:alert(1)', 'https://example.com/', '../../etc/passwd',
+                         'pictures/index.html#a/b"onclick="x']) {
+    run.points[1].pictures = address;
+    write('hostile.json', run);
+    const refused = redraw('hostile.json', 'hostile');
+    assert.equal(refused.code, 3);
+    assert.match(refused.err, /\/points\/1\/pictures must be the address of a cell/);
+  }
 });
 
 test('a folder keeps what the program did not write', () => {

@@ -34,7 +34,7 @@ export const recordedRun = () => ({
     pointOf('zpass', 3, 700), pointOf('zp_plus', 4), pointOf('invert', 3.1, 690),
     pointOf('zfail_clamp', 3.2, 710), pointOf('zfail_saturate', 3.3, 720),
     pointOf('zfail_truncated', 3.2, 5),
-    pointOf('bump_one_pass', 20, 1, { stages: { volumes: { median: 2, samples: [2, 2, 2] },
+    pointOf('bump_one_pass', 20, 1, { pictures: 'pictures/index.html#ordinary/bump_one_pass', stages: { volumes: { median: 2, samples: [2, 2, 2] },
                                                 lighting: { median: 18, samples: [18, 20, 16] } },
                                       color: { rmse: 1.5, largest: 9, p999: 7 },
                                       own: { normalise: 'cube-map', bumps: 'normal-map' } }),

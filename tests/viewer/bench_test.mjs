@@ -1,6 +1,6 @@
 // The plot of a benchmark: redrawn from recorded runs, opened from disk.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
@@ -15,8 +15,11 @@ const { frontOf, placeLabels, overlap, textWidth, spreadOut } =
         ['frontOf', 'placeLabels', 'overlap', 'textWidth', 'spreadOut']);
 
 function plotOf(name, run, older) {
-  writeFileSync(join(scratch, `${name}.json`), JSON.stringify(run));
-  const args = ['bench', '--from', `${name}.json`, '--out', name, '-q'];
+  const recorded = join(scratch, `${name}-recorded`);
+  mkdirSync(join(recorded, 'pictures'), { recursive: true });
+  writeFileSync(join(recorded, 'pictures', 'index.html'), 'The report of its pictures.');
+  writeFileSync(join(recorded, 'results.json'), JSON.stringify(run));
+  const args = ['bench', '--from', recorded, '--out', name, '-q'];
   if (older) {
     writeFileSync(join(scratch, `${name}-older.json`), JSON.stringify(older));
     args.push('--against', `${name}-older.json`);
@@ -129,6 +132,8 @@ test('a mark names technique and settings where it is pointed at, and by keyboar
   assert.match(chosen, /shadowproof verify ordinary --technique bump_one_pass/);
   assert.match(chosen, /normalise=cube-map bumps=normal-map/);
   assert.match(chosen, /volumes 2\.00 ms, lighting 18\.0 ms/);
+  assert.equal(await page.locator('#pictures').getAttribute('href'),
+               'pictures/index.html#ordinary/bump_one_pass');
 });
 
 test('another error shows the points that have it alone', async () => {

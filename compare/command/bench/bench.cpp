@@ -105,7 +105,7 @@ struct Outcome {
     bool complete = true;
 };
 
-Outcome measured(const BenchOptions& options, Console& console) {
+Outcome measured(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
     Gpu gpu(options.technique.platform);
     gpu.tell_stages(!options.scaling);
     Outcome outcome{begin_run(options, gpu)};
@@ -113,25 +113,29 @@ Outcome measured(const BenchOptions& options, Console& console) {
     if (options.resume) kept = kept_run(options.json, outcome.run);
     const bool in_folder = name_in_report(options.json, options.out).has_value();
     BenchKeeper keeper(in_folder ? std::string() : options.json);
+    BenchPictures pictures(folder);
     const BenchWork work{.options = options,
                          .gpu = gpu,
                          .console = console,
                          .run = outcome.run,
                          .kept = kept ? &*kept : nullptr,
-                         .keeper = keeper};
+                         .keeper = keeper,
+                         .pictures = options.pictures ? &pictures : nullptr};
     outcome.complete = options.scaling ? measure_growth(work) : measure_scenes(work);
     outcome.run.finished = true;
+    pictures.finish(outcome.run);
     return outcome;
 }
 
 /// Measures, or takes over what was measured.
-Outcome outcome_of(const BenchOptions& options, Console& console) {
-    if (options.from.empty()) return measured(options, console);
+Outcome outcome_of(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
+    if (options.from.empty()) return measured(options, console, folder);
     Outcome outcome{read_bench(options.from)};
     refuse_to_lose(std::filesystem::is_directory(options.from)
                        ? std::filesystem::path(options.from) / results_name
                        : std::filesystem::path(options.from),
                    options.out);
+    take_over_pictures(options.from, outcome.run, folder);
     print_run(outcome.run, console);
     return outcome;
 }
@@ -201,7 +205,7 @@ int bench(const BenchOptions& options) {
     std::optional<BenchRun> older;
     if (!options.against.empty()) older = read_bench(options.against);
     ReplacedFolder folder(options.out, {page_name, results_name, results_script_name});
-    const auto [run, complete] = outcome_of(options, console);
+    const auto [run, complete] = outcome_of(options, console, folder);
     write_outputs(folder, options, run, older);
     for (const std::string& note : folder.notes()) console.always(note);
     const bool nothing_lost = !older || print_changes(*older, run, console);
@@ -253,6 +257,8 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
                     "Seconds for the samples of a scene, after its points are judged (120)")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1e6));
+    command.add_flag("!--no-pictures", options.pictures,
+                     "Keep no pictures of the points beside the plot");
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
 }
 

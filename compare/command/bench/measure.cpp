@@ -1,15 +1,16 @@
 #include "compare/command/bench/measure.h"
 
 #include "compare/bench/bench_table.h"
-#include "compare/blank.h"
 #include "compare/command/bench/sweep.h"
+#include "compare/command/judged_cell.h"
+#include "compare/command/scene_result.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
-#include "compare/families.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"
 #include "compare/words.h"
 #include "raster/render.h"
+#include "reference/shade/shading.h"
 #include "reference/trace/trace.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
@@ -39,16 +40,16 @@ struct Trial {
     bool complete = true;
 };
 
-Frame draw(Trial& trial, const Technique& technique, const BenchSettings& settings) {
+/// The plan by which a technique draws with these settings.
+const Plan& plan_with(Trial& trial, const BenchSettings& settings) {
     trial.plan.asked = with_settings(trial.work.options.technique, settings).asked;
     require_map(trial.work.options.scene.memory, trial.plan.asked.map);
-    return render(technique, trial.scene, trial.plan, trial.work.gpu);
+    return trial.plan;
 }
 
-BenchError error_of(const Trial& trial, std::string_view technique, const Frame& frame) {
-    const std::unique_ptr<Judge> judge = judge_of(trial.traced, frame);
-    const Comparison comparison = classify(trial.traced, frame, *judge);
-    refuse_blank(technique, trial.truth, frame, pixels_of(comparison, Cause::unexplained) > 0);
+BenchError error_of(const Trial& trial, const Cell& cell) {
+    const Frame& frame = cell.frame;
+    const Comparison& comparison = cell.comparison;
     BenchError error{.pixels = frame.claim.pixels.size(), .differing = comparison.differing};
     for (const CauseWords& words : all_causes)
         if (const std::uint64_t pixels = pixels_of(comparison, words.cause))
@@ -70,6 +71,20 @@ BenchError error_of(const Trial& trial, std::string_view technique, const Frame&
     return error;
 }
 
+/// The words, after the program's name, that show the same with verify.
+std::vector<std::string> verify_words(const Trial& trial, const Technique& technique,
+                                      const BenchSettings& with) {
+    std::vector<std::string> words{"verify", trial.argument, "--technique",
+                                   std::string(technique.name)};
+    for (const auto& [name, value] : with) words.insert(words.end(), {"--" + name, value});
+    TechniqueOptions platform; // as in bench_command
+    platform.platform = trial.work.options.technique.platform;
+    SceneOptions scene = trial.work.options.scene;
+    if (trial.scene.lights.size() > 1) scene.light = chosen_light(trial.scene).choice;
+    for (const std::string& word : settings(scene, platform)) words.push_back(word);
+    return words;
+}
+
 /// Adds a point, as an earlier run had it or newly drawn and judged. Returns null where it cannot
 /// be drawn; then `why` says so.
 const BenchPoint* add_point(Trial& trial, const Technique& technique, const BenchSettings& settings,
@@ -87,20 +102,29 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
     const BenchPoint* const known = work.kept != nullptr ? find_point(*work.kept, point) : nullptr;
     if (known != nullptr) {
         point = *known;
+        point.pictures.clear(); // which went with the folder of that run
     } else {
         work.console.progress(
             fmt::format("{}: judging {} {}", trial.name, point.technique, words_of(settings)));
+        Cell cell;
         try {
-            const Frame frame = draw(trial, technique, settings);
-            point.family = frame.family;
-            point.own = own_settings(technique, frame, trial.scene.unit);
-            point.error = error_of(trial, technique.name, frame);
+            cell = judged_cell(technique, trial.traced, plan_with(trial, settings), work.gpu,
+                               work.pictures != nullptr)
+                       .cell;
+            point.family = cell.family;
+            point.own = own_settings(technique, cell.frame, trial.scene.unit);
+            point.error = error_of(trial, cell);
         } catch (const std::bad_alloc&) {
             why = out_of_memory;
             return nullptr;
         } catch (const Error& error) {
             why = error.what();
             return nullptr;
+        }
+        if (work.pictures != nullptr) {
+            cell.command = verify_words(trial, technique, settings);
+            point.pictures =
+                work.pictures->add(settings, std::move(cell), work.options.scene.threads);
         }
     }
     trial.techniques.push_back(&technique);
@@ -183,7 +207,8 @@ void measure(Trial& trial) {
                  const Technique* const technique = trial.techniques[i];
                  if (technique == nullptr) return trace(trial.tracer).statistics.milliseconds;
                  BenchPoint& point = run.points[trial.first + i];
-                 const Frame frame = draw(trial, *technique, point.settings);
+                 const Frame frame =
+                     render(*technique, trial.scene, plan_with(trial, point.settings), work.gpu);
                  // As many as the samples: none where an earlier run has samples without stages.
                  if (!stages[i].empty() || samples[i].empty()) add_stages(stages[i], frame);
                  return frame.milliseconds;
@@ -239,10 +264,26 @@ bool take_over(const BenchWork& work, BenchScene& scene) {
     if (kept == nullptr || !kept->finished) return false;
     scene.finished = true;
     for (const BenchPoint& point : work.kept->points)
-        if (point.scene == scene.name) work.run.points.push_back(point);
+        if (point.scene == scene.name) {
+            work.run.points.push_back(point);
+            work.run.points.back().pictures.clear();
+        }
     for (const BenchLeftOut& out : work.kept->left_out)
         if (out.scene == scene.name) work.run.left_out.push_back(out);
     return true;
+}
+
+/// What the report of the pictures tells of the scene.
+SceneResult scene_result(const Trial& trial) {
+    SceneResult result;
+    result.argument = trial.argument;
+    result.name = trial.name;
+    describe(result, trial.scene);
+    result.left_out = trial.plan.left_out;
+    result.truth = trial.truth;
+    result.bump_lit = is_bump_lit(trial.scene);
+    if (result.bump_lit) result.color = shade(trial.tracer, trial.truth);
+    return result;
 }
 
 void print_points(const BenchWork& work, const std::string& scene) {
@@ -299,6 +340,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
                 .name = name,
                 .first = work.run.points.size(),
                 .techniques = {}};
+    if (work.pictures != nullptr) work.pictures->begin(scene_result(trial));
     add_points(trial);
     measure(trial);
     work.run.scenes[at].finished = trial.complete;

@@ -24,6 +24,7 @@ struct BenchOptions {
     std::string out = "report";
     std::string json;
     std::string csv;
+    bool pictures = true;
     bool quiet = false;
 };
 

@@ -17,7 +17,7 @@ std::vector<std::string_view> names_of(const auto& values) {
     return names;
 }
 
-/// A length of the world in the file's units. Both are floats in the techniques.
+/// A length of the world in the file's units, as a float has it.
 std::string length(double in_world, double unit) {
     return fmt::format("{}", static_cast<float>(in_world * unit));
 }
@@ -106,7 +106,7 @@ std::vector<std::string> values_beside(const SweptSetting& setting, const std::s
             values.emplace_back(value);
     for (const double factor : setting.factors)
         if (const std::optional<double> number = parse_number(own))
-            values.push_back(length(factor * *number, 1));
+            values.push_back(fmt::format("{:.3g}", factor * *number));
     return values;
 }
 

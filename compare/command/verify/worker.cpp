@@ -1,13 +1,12 @@
 #include "compare/command/verify/worker.h"
 
 #include "compare/blank.h"
+#include "compare/command/judged_cell.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
 #include "compare/command/verify/messages.h"
-#include "compare/families.h"
 #include "compare/memory.h"
-#include "raster/render.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
 
@@ -59,23 +58,10 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     cell.technique = technique.name;
     cell.summary = technique.summary;
     try {
-        cell.frame = render(technique, trial.scene, trial.plan, run.gpu);
-        cell.family = cell.frame.family;
-        cell.milliseconds = cell.frame.milliseconds;
-        cell.left_out = cell.frame.left_out;
-        const std::unique_ptr<Judge> family = judge_of(trial.traced, cell.frame);
-        cell.comparison = classify(trial.traced, cell.frame, *family);
-        refuse_blank(technique.name, trial.truth, cell.frame,
-                     pixels_of(cell.comparison, Cause::unexplained) > 0);
-        cell.verdict = judge(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
-        cell.excused =
-            excused_causes(trial.scene, technique.fails_at, technique.by_nature, cell.comparison);
-        const Stopwatch stopwatch;
-        cell.evidence = family->report(cell.comparison.cause);
-        report_milliseconds += stopwatch.milliseconds();
+        JudgedCell judged = judged_cell(technique, trial.traced, trial.plan, run.gpu, true);
+        report_milliseconds += judged.evidence_milliseconds;
+        cell = std::move(judged.cell);
     } catch (const std::bad_alloc&) {
-        cell.frame = {};
-        cell.comparison = {};
         cell.error = cell.technique + ": " + out_of_memory;
     } catch (const Error& error) {
         cell.error = error.what();

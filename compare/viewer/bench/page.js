@@ -53,6 +53,8 @@ function choosePoint(index) {
     facts([['Time', timeWords(point.ms)], ['Of which', stageWords(point)], ['Error', errorWords(point)],
            ['Made with', settingsWords(point.own)],
            ['In the older run', before && `${timeWords(before.ms)}; ${errorWords(before)}`]]),
+    ...(point.pictures ? [element('p', {}, element('a', { id: 'pictures', href: point.pictures },
+      'Its pictures, and why pixels are wrong'))] : []),
     commandLine('measure', 'Measures it again', point.command),
     commandLine('verify', 'Shows its pictures, and why pixels are wrong', verify));
 }

@@ -1,0 +1,34 @@
+#include "compare/command/judged_cell.h"
+
+#include "compare/blank.h"
+#include "compare/command/stopwatch.h"
+#include "compare/families.h"
+#include "raster/render.h"
+
+namespace shadowproof {
+
+JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, const Plan& plan,
+                       Gpu& gpu, bool evidence) {
+    JudgedCell judged;
+    Cell& cell = judged.cell;
+    const Scene& scene = traced.scene();
+    cell.technique = technique.name;
+    cell.summary = technique.summary;
+    cell.frame = render(technique, scene, plan, gpu);
+    cell.family = cell.frame.family;
+    cell.milliseconds = cell.frame.milliseconds;
+    cell.left_out = cell.frame.left_out;
+    const std::unique_ptr<Judge> family = judge_of(traced, cell.frame);
+    cell.comparison = classify(traced, cell.frame, *family);
+    refuse_blank(technique.name, traced.truth(), cell.frame,
+                 pixels_of(cell.comparison, Cause::unexplained) > 0);
+    cell.verdict = judge(scene, technique.fails_at, technique.by_nature, cell.comparison);
+    cell.excused = excused_causes(scene, technique.fails_at, technique.by_nature, cell.comparison);
+    if (!evidence) return judged;
+    const Stopwatch stopwatch;
+    cell.evidence = family->report(cell.comparison.cause);
+    judged.evidence_milliseconds = stopwatch.milliseconds();
+    return judged;
+}
+
+} // namespace shadowproof
