@@ -1,18 +1,14 @@
 #include "reference/predict/volume_store.h"
 
 #include <algorithm>
-#include <list>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace shadowproof {
 
 namespace {
-
-/// Techniques of one scene differ in their flips, in whether holes are filled, and in what is left
-/// out. Each but the casters' own takes 16 bytes per pixel, or 32.
-constexpr std::size_t most_kept = 3;
 
 /// All by which volumes differ.
 struct Key {
@@ -35,9 +31,13 @@ Key key_of(const Scene& scene, const Counting& counting) {
 
 } // namespace
 
+/// Volumes that need another scene hold it, with all that is traced in it, and pictures of depths:
+/// of these there is one at a time, beside what somebody still uses.
 struct VolumeStore::Kept {
+    using Entry = std::pair<Key, std::shared_ptr<const CountedVolumes>>;
     std::mutex mutex;
-    std::list<std::pair<Key, std::shared_ptr<const CountedVolumes>>> latest; ///< the last one first
+    std::vector<Entry> of_the_casters;
+    std::optional<Entry> of_others;
 };
 
 VolumeStore::VolumeStore(const Tracer& tracer, const Silhouette& silhouette,
@@ -49,12 +49,11 @@ VolumeStore::~VolumeStore() = default;
 std::shared_ptr<const CountedVolumes> VolumeStore::counted(const Counting& counting) const {
     Key key = key_of(tracer_->scene(), counting);
     const std::lock_guard lock(kept_->mutex);
-    auto& latest = kept_->latest;
-    const auto found = std::ranges::find(latest, key, [](const auto& each) { return each.first; });
-    if (found != latest.end()) {
-        latest.splice(latest.begin(), latest, found);
-        return found->second;
-    }
+    for (const Kept::Entry& each : kept_->of_the_casters)
+        if (each.first == key) return each.second;
+    if (kept_->of_others && kept_->of_others->first == key) return kept_->of_others->second;
+    const bool may_need_others = key != key_of(tracer_->scene(), {});
+    if (may_need_others) kept_->of_others.reset(); // before further memory is taken
     Volumes volumes(*tracer_, *silhouette_, counting);
     const std::shared_ptr<const ShadowDepths> given(std::shared_ptr<void>(), depths_);
     std::shared_ptr<const ShadowDepths> depths = given;
@@ -65,11 +64,11 @@ std::shared_ptr<const CountedVolumes> VolumeStore::counted(const Counting& count
         ideal = volumes.ideal_are_the_casters()
                     ? given
                     : std::make_shared<const ShadowDepths>(volumes.ideal_depths(*truth_, *depths_));
-    latest.emplace_front(std::move(key),
-                         std::make_shared<const CountedVolumes>(CountedVolumes{
-                             std::move(volumes), std::move(depths), std::move(ideal)}));
-    if (latest.size() > most_kept) latest.pop_back();
-    return latest.front().second;
+    const bool are_others = depths != given || ideal != given;
+    Kept::Entry made{std::move(key), std::make_shared<const CountedVolumes>(CountedVolumes{
+                                         std::move(volumes), std::move(depths), std::move(ideal)})};
+    if (are_others) return kept_->of_others.emplace(std::move(made)).second;
+    return kept_->of_the_casters.emplace_back(std::move(made)).second;
 }
 
 } // namespace shadowproof

@@ -29,8 +29,8 @@ public:
     const GroundTruth& truth() const { return *truth_; }
     const ShadowDepths& depths() const { return *depths_; }
 
-    /// Those that a technique counts, made anew unless they are among the last few that were asked
-    /// for. May be called by any thread; refers to the store's tracer and silhouette.
+    /// Those that a technique counts, made anew unless the last ones were the same, or they need no
+    /// scene but the casters'. May be called by any thread; refers to what the store refers to.
     std::shared_ptr<const CountedVolumes> counted(const Counting& counting) const;
 
 private:

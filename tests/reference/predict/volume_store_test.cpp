@@ -1,3 +1,4 @@
+#include "reference/parallel.h"
 #include "reference/predict/volume_store.h"
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
@@ -39,6 +40,15 @@ std::vector<Counting> countings(const Scene& scene) {
             left_out};
 }
 
+void expect_same(const ShadowDepths& one, const ShadowDepths& other) {
+    EXPECT_EQ(one.at_surface.pixels, other.at_surface.pixels);
+    EXPECT_EQ(one.at_near.pixels, other.at_near.pixels);
+    EXPECT_EQ(one.at_far.pixels, other.at_far.pixels);
+    EXPECT_EQ(one.at_infinity.pixels, other.at_infinity.pixels);
+    EXPECT_EQ(one.at_eye, other.at_eye);
+    EXPECT_EQ(one.far, other.far);
+}
+
 TEST(VolumeStore, gives_what_volumes_made_anew_are) {
     for (const char* name : {"light_inside", "open_lid"}) {
         const Traced traced(name);
@@ -51,10 +61,8 @@ TEST(VolumeStore, gives_what_volumes_made_anew_are) {
             const auto stored = traced.volumes.counted(counting);
             EXPECT_EQ(stored->volumes.casters().triangles, anew.casters().triangles);
             const ShadowDepths depths = anew.shadow_depths(traced.truth, traced.depths);
-            EXPECT_EQ(stored->depths->at_surface.pixels, depths.at_surface.pixels);
-            EXPECT_EQ(stored->depths->at_infinity.pixels, depths.at_infinity.pixels);
-            const ShadowDepths ideal = anew.ideal_depths(traced.truth, traced.depths);
-            EXPECT_EQ(stored->ideal_depths->at_surface.pixels, ideal.at_surface.pixels);
+            expect_same(*stored->depths, depths);
+            expect_same(*stored->ideal_depths, anew.ideal_depths(traced.truth, traced.depths));
         }
     }
 }
@@ -74,13 +82,26 @@ TEST(VolumeStore, makes_them_once_for_techniques_that_count_the_same) {
     EXPECT_EQ(traced.volumes.counted({})->depths.get(), &traced.depths);
 }
 
-TEST(VolumeStore, keeps_a_few_alone) {
+TEST(VolumeStore, keeps_one_scene_beside_the_casters) {
     const Traced traced("light_inside");
-    std::weak_ptr<const CountedVolumes> first = traced.volumes.counted({.extrusion = 1});
-    for (const double extrusion : {2.0, 3.0}) traced.volumes.counted({.extrusion = extrusion});
+    const std::weak_ptr<const CountedVolumes> own = traced.volumes.counted({});
+    const std::weak_ptr<const CountedVolumes> first = traced.volumes.counted({.extrusion = 1});
     EXPECT_FALSE(first.expired());
-    traced.volumes.counted({.extrusion = 4});
+    const auto used = traced.volumes.counted({.extrusion = 2});
     EXPECT_TRUE(first.expired());
+    traced.volumes.counted({.extrusion = 3});
+    EXPECT_EQ(used->depths->far, traced.depths.far); // still there for who uses them
+    EXPECT_FALSE(own.expired());
+}
+
+TEST(VolumeStore, may_be_asked_by_many_threads) {
+    const Traced traced("open_lid");
+    const std::vector<Counting> asked = countings(traced.scene);
+    parallel_for(4 * static_cast<int>(asked.size()), 4, [&](int i, int) {
+        const auto stored =
+            traced.volumes.counted(asked[static_cast<std::size_t>(i) % asked.size()]);
+        EXPECT_EQ(stored->depths->at_near.pixels.size(), traced.depths.at_near.pixels.size());
+    });
 }
 
 } // namespace
