@@ -2,8 +2,6 @@
 #include "raster/volumes/stencil.h"
 #include "scenes/mesh/extrusion.h"
 
-#include <optional>
-
 namespace shadowproof {
 
 namespace {
@@ -13,8 +11,7 @@ namespace {
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
     recipe.counting.dark_cap = true; // at the finite end
-    const std::optional<double>& asked = plan.asked.volumes.extrusion;
-    recipe.counting.extrusion = asked ? *asked / scene.unit : finite_extrusion(scene);
+    recipe.counting.extrusion = finite_extrusion(scene, plan.asked.volumes);
     return draw_stencil_shadows(gpu, scene, recipe);
 }
 

@@ -1,5 +1,7 @@
 #include "scenes/mesh/extrusion.h"
 
+#include "scenes/error.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -14,6 +16,14 @@ double finite_extrusion(const Scene& scene) {
         upper = glm::max(upper, position);
     }
     return 0.5 * glm::length(upper - lower);
+}
+
+double finite_extrusion(const Scene& scene, const VolumeSettings& asked) {
+    if (!asked.extrusion) return finite_extrusion(scene);
+    const double distance = *asked.extrusion / scene.unit;
+    if (!(distance < 0x1p62))
+        throw Error("--extrusion", "is further than coordinates may be", "give a smaller length");
+    return distance;
 }
 
 std::vector<glm::vec3> extruded_positions(const Scene& scene, double distance) {

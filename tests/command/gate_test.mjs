@@ -67,6 +67,17 @@ test('two files of one stem have a name and a heading each', () => {
                    [['same', 'one/same.gltf'], ['same-2', 'two/same.gltf']]);
 });
 
+test('settings of techniques stand in the command that reproduces', () => {
+  const run = shadowproof(['verify', 'ordinary', '--size', '64x64', '--technique', 'zfail_truncated',
+                           '--extrusion', '0.25', '-q']);
+  assert.equal(run.code, 1, run.out + run.err); // the scene does not say that shadows are longer
+  assert.match(run.out, /^zfail_truncated +ordinary +defect .*extrusion [\d,]+/m);
+  assert.match(run.out, /^reproduce: .*--technique zfail_truncated .*--extrusion 0\.25$/m);
+  const further = shadowproof(['verify', 'ordinary', '--technique', 'zfail_truncated', '--extrusion', '1e39']);
+  assert.equal(further.code, 3);
+  assert.match(further.err + further.out, /--extrusion: is further than coordinates may be; give a smaller/);
+});
+
 test('what is allowed stands in the command that reproduces', () => {
   const run = shadowproof([...zpass, '--gate', 'differences', '--allow', 'near_plane=1']);
   assert.match(run.out, /^reproduce: .*--gate differences --allow near_plane=1$/m);
