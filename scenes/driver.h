@@ -1,6 +1,6 @@
 // The steps at which an OpenGL driver rounds, and how often: the constants that every error bound
-// is made of. Bounds for the judge are derived in compare/driver and compare/color, those for what
-// is decided before drawing in scenes/plan and scenes/mesh; bytes are in scenes/byte_blending.h.
+// is made of. Bounds for the judge are derived in compare/driver, those for what is
+// decided before drawing in scenes/plan and scenes/mesh; bytes are in scenes/byte_blending.h.
 #pragma once
 
 #include <cmath>

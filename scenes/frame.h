@@ -54,7 +54,8 @@ struct Frame {
     bool shows_surface() const { return !triangle.pixels.empty(); }
 };
 
-/// How much of the light the claim shows at a pixel, given by its index: 0 to 1.
+/// How much of the light the claim shows at a pixel, given by its index: 0 to 1. Where it is partly
+/// lit the frame must have a map, and counts as many as its claim has pixels.
 inline double lit_share(const Frame& frame, std::size_t pixel) {
     if (frame.claim.pixels[pixel] != Visibility::partly_lit)
         return frame.claim.pixels[pixel] == Visibility::lit ? 1 : 0;

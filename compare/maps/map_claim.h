@@ -12,8 +12,8 @@ int claimed_lit(const JudgedClaim& claim, PixelPlace p);
 /// Whether the claim shows light at a pixel that differs, where there is none.
 bool claims_light(const JudgedClaim& claim, PixelPlace p);
 
-/// How far the claim is from the truth at a pixel that differs: by a share of the light, or 1 where
-/// it is not partly lit.
+/// How far the claim is from the truth at a pixel that differs: by a share of the light where it is
+/// partly lit; else, and where it contradicts itself or the truth is background, by 1.
 double wrongness(const JudgedClaim& claim, PixelPlace p);
 
 } // namespace shadowproof

@@ -40,6 +40,7 @@ std::string_view light_shader(const MapModel& model) {
     return model.filter > 0 ? "map_light_spot_filtered.frag" : "map_light_spot.frag";
 }
 
+// All counts of comparisons lie between both.
 static_assert(static_cast<int>(Visibility::shadowed) + largest_map_filter * largest_map_filter <=
               static_cast<int>(Visibility::lit));
 

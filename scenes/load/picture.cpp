@@ -20,8 +20,7 @@ const char* const remedy = "export the picture again";
 /// Decodes with the OpenImageIO reader of files called `name`.
 Picture decode_by(const char* name, Bytes bytes, const std::string& where, const PictureHead& head,
                   const PictureRoom& room) {
-    require_room(head.width, head.height, head.channels, head.decoder_bytes + openimageio_bytes,
-                 where, room);
+    require_room(head.width, head.height, head.channels, head.decoder_bytes, where, room);
     Picture picture;
     const std::string wrong = openimageio().decode(name, bytes, head, picture);
     if (!wrong.empty()) throw Error(where, wrong, remedy);

@@ -64,8 +64,8 @@ struct PicturedFace {
     /// Pixels with a certain fragment of exactly one of two faces: this one and the one that shares
     /// an edge with it. Without the latter, as `certain`. One of the two stands for both.
     ConvexRegion certain_of_both;
-    bool is_one_of_two = false;
-    bool stands_for_both = true;
+    bool is_one_of_two = false;               ///< there is such another face
+    bool stands_for_both = true;              ///< always, where there is none
     bool in_front = false;                    ///< in front of everything
     bool edge_on = false;                     ///< it may have any depth
     std::uint32_t light_cap_of = 0xffffffffU; ///< the triangle whose surface it coincides with

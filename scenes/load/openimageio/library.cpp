@@ -109,7 +109,7 @@ std::string encode(const PictureLayout& layout, const void* pixels,
 
 /// See openimageio_entry.
 extern "C" __attribute__((visibility("default"))) const shadowproof::OpenImageIo*
-shadowproof_openimageio() {
+shadowproof_openimageio_1() {
     static const shadowproof::OpenImageIo functions{shadowproof::decode, shadowproof::encode};
     return &functions;
 }

@@ -28,7 +28,8 @@ struct OpenImageIo {
 /// The library's, loaded at the first call. Throws Error where it is not found.
 const OpenImageIo& openimageio();
 
-/// The name under which the library exports a function that returns it.
-inline constexpr const char* openimageio_entry = "shadowproof_openimageio";
+/// The name under which the library exports a function that returns them. Its number changes with
+/// what passes between both.
+inline constexpr const char* openimageio_entry = "shadowproof_openimageio_1";
 
 } // namespace shadowproof

@@ -5,6 +5,7 @@
 #include "raster/render.h"
 #include "reference/trace/trace.h"
 #include "scenes/load/catalog.h"
+#include "scenes/load/encode_picture.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -53,6 +54,11 @@ void check() {
     expect(pixels(zpass, Cause::unexplained) == 0, "and each of its pixels is explained");
     const Comparison zfail = compare("zfail");
     expect(zfail.differing == pixels(zfail, Cause::edge), "z-fail differs at edges alone");
+
+    const PictureLayout gray{.width = 1, .height = 1, .channels = {{"Y"}}};
+    const float half = 0.5F;
+    expect(encode_picture(gray, &half, "half.exr").starts_with("v/1\x01"),
+           "pictures are encoded by OpenImageIO");
 }
 
 } // namespace

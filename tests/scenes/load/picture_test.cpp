@@ -1,4 +1,5 @@
 #include "scenes/error.h"
+#include "scenes/load/encode_picture.h"
 #include "scenes/load/picture.h"
 #include "tests/scenes/small_gltf.h"
 
@@ -159,6 +160,58 @@ FileBytes written_by_openimageio(const std::string& name, const OIIO::ImageSpec&
     output->write_image(OIIO::TypeDesc::FLOAT, values.data());
     output->close();
     return bytes_of(file);
+}
+
+/// All channels of what `layout` and `pixels` are encoded as, read by OpenImageIO in their own
+/// types.
+template <class Pixel>
+std::vector<Pixel> read_back(const PictureLayout& layout, const std::vector<Pixel>& pixels,
+                             OIIO::ImageSpec& spec) {
+    const Folder folder;
+    const bool is_png = layout.format == PictureLayout::Format::png;
+    const std::string file = (folder.path() / (is_png ? "a.png" : "a.exr")).string();
+    const std::string bytes = encode_picture(layout, pixels.data(), file);
+    write_bytes(file, {bytes.begin(), bytes.end()});
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(file, &config);
+    spec = input->spec();
+    std::vector<Pixel> values(pixels.size());
+    input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, values.data());
+    return values;
+}
+
+TEST(pictures, that_are_encoded_have_the_values_that_another_reader_finds) {
+    using Format = PictureLayout::Format;
+    using Type = PictureLayout::Type;
+    OIIO::ImageSpec spec;
+
+    struct Mixed {
+        float a;
+        std::uint32_t b;
+        float c;
+        bool operator==(const Mixed&) const = default;
+    };
+    const std::vector<Mixed> mixed{{1.5F, 7, -0.25F}, {1e30F, 0xffffffffU, 3}};
+    EXPECT_EQ(read_back({.format = Format::openexr,
+                         .width = 2,
+                         .height = 1,
+                         .channels = {{"m"}, {"n", Type::u32}, {"o"}}},
+                        mixed, spec),
+              mixed);
+    EXPECT_EQ(spec.channelnames, (std::vector<std::string>{"m", "n", "o"}));
+
+    const auto rgba = [](Type type) {
+        return std::vector<PictureLayout::Channel>{
+            {"R", type}, {"G", type}, {"B", type}, {"A", type}};
+    };
+    // Colours above their alpha would be cut off if it were taken for coverage.
+    const std::vector<std::uint8_t> bytes{200, 100, 0, 50, 1, 2, 3, 0};
+    EXPECT_EQ(read_back({Format::png, 2, 1, rgba(Type::u8)}, bytes, spec), bytes);
+    const std::vector<std::uint16_t> words{60000, 300, 0, 5, 1, 2, 3, 65535};
+    EXPECT_EQ(read_back({Format::png, 1, 2, rgba(Type::u16)}, words, spec), words);
+    const std::vector<float> floats{2, 0.5F, 0.25F, 0.125F, -1, 0, 1, 1};
+    EXPECT_EQ(read_back({Format::openexr, 2, 1, rgba(Type::f32)}, floats, spec), floats);
 }
 
 TEST(pictures, in_openexr_and_jpeg_are_read_and_others_are_not) {
