@@ -64,10 +64,12 @@ void stage(const Place& place, std::size_t count) {
 void cell_address(const Place& place) {
     constexpr std::string_view page = "pictures/index.html#";
     constexpr std::string_view plain =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-/";
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
     const auto leads_there = [&](const std::string& text) {
-        return text.starts_with(page) &&
-               text.find_first_not_of(plain, page.size()) == std::string::npos;
+        const std::size_t slash = text.find('/', page.size());
+        return text.starts_with(page) && slash != std::string::npos && slash > page.size() &&
+               slash + 1 < text.size() && text.find_first_not_of(plain, page.size()) == slash &&
+               text.find_first_not_of(plain, slash + 1) == std::string::npos;
     };
     require(place.value.is_string() && leads_there(place.value.get_ref<const std::string&>()),
             place, "the address of a cell, as \"pictures/index.html#near_plane/zpass\"");

@@ -2,7 +2,7 @@
 // else that is judged is recorded, or does not depend on the clock.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import Ajv from 'ajv/dist/2020.js';
@@ -194,10 +194,37 @@ test('each point leads to its pictures, which move with the folder of the plot',
       assert.ok(existsSync(join(scratch, 'seen/pictures', picture)), picture);
   }
 
-  const redraw = (from, out) => shadowproof(['bench', '--from', from, '--out', out, '-q']);
+  const redraw = (from, out, ...more) =>
+    shadowproof(['bench', '--from', from, '--out', out, '-q', ...more]);
+  // What somebody else put there is not taken along, nor followed.
+  writeFileSync(join(scratch, 'seen/pictures/notes.txt'), 'mine');
+  symlinkSync('/etc/hostname', join(scratch, 'seen/pictures/link'));
   assert.equal(redraw('seen', 'moved').code, 0);
+  rmSync(join(scratch, 'seen/pictures/notes.txt'));
+  rmSync(join(scratch, 'seen/pictures/link'));
   assert.deepEqual(filesBelow(join(scratch, 'moved/pictures')), filesBelow(join(scratch, 'seen/pictures')));
   assert.deepEqual(written('moved/results.json').points, run.points);
+  // In its own place too, named as a folder or by its results.
+  for (const from of ['seen', 'seen/results.json']) {
+    assert.equal(redraw(from, 'seen').code, 0);
+    assert.deepEqual(filesBelow(join(scratch, 'seen')), filesBelow(join(scratch, 'moved')));
+    assert.deepEqual(written('seen/results.json').points, run.points);
+  }
+  assert.equal(redraw('seen', 'without', '--no-pictures').code, 0);
+  assert.ok(!existsSync(join(scratch, 'without/pictures')));
+  // A cell that somebody changed is no longer led to.
+  const [changed] = drawn[0].pictures.split('#').slice(1);
+  writeFileSync(join(scratch, 'moved/pictures', changed, 'cell.js'), 'changed');
+  assert.equal(redraw('moved', 'lacking').code, 0);
+  assert.deepEqual(written('lacking/results.json').points.map(({ pictures }) => pictures),
+                   run.points.map(({ pictures }) => (pictures === drawn[0].pictures ? undefined : pictures)));
+  // A run that goes on has those of the points that it knew, too.
+  write('known.json', run);
+  const resumed = shadowproof(['bench', 'near_plane', '--technique', 'zpass,cube_map_six_pass',
+    '--quick', '--size', '48x48', '--repeats', '1', '--json', 'known.json', '--resume', '--out', 'resumed', '-q']);
+  assert.equal(resumed.code, 0, resumed.err);
+  assert.deepEqual(written('resumed/results.json').points, run.points);
+  assert.deepEqual(filesBelow(join(scratch, 'resumed')), filesBelow(join(scratch, 'seen')));
   // A file alone has none.
   write('alone.json', run);
   assert.equal(redraw('alone.json', 'bare').code, 0);
@@ -205,7 +232,8 @@ test('each point leads to its pictures, which move with the folder of the plot',
   assert.ok(!existsSync(join(scratch, 'bare/pictures')));
   // Nor does a file lead a reader of the plot anywhere else.
   for (const address of ['javascript:alert(1)', 'https://example.com/', '../../etc/passwd',
-                         'pictures/index.html#a/b"onclick="x']) {
+                         'pictures/index.html#', 'pictures/index.html#a/', 'pictures/index.html#/b',
+                         'pictures/index.html#a/b/c', 'pictures/index.html#a/b"onclick="x']) {
     run.points[1].pictures = address;
     write('hostile.json', run);
     const refused = redraw('hostile.json', 'hostile');

@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { evenPng, textured, triangle } from './hostile.mjs';
 import { scratch, shadowproof } from './shadowproof.mjs';
 
-const program = 240e6; // program_bytes in scenes/memory_budget.h: the most that it takes by itself
+const program = 250e6; // program_bytes in scenes/memory_budget.h: the most that it takes by itself
 const least = 58e6; // what it takes where it does next to nothing
 
 function peakOf(args) {

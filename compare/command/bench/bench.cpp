@@ -78,6 +78,8 @@ bool measure_scenes(BenchWork work) {
             work.run.left_out.push_back({scenes[i], {}, {}, error.what()});
         }
         complain(work.run.left_out.back().why);
+        std::erase_if(work.run.points,
+                      [](const BenchPoint& point) { return point.samples.empty(); });
         complete = false;
     }
     work.console.clear_progress();
@@ -135,7 +137,7 @@ Outcome outcome_of(const BenchOptions& options, Console& console, const Replaced
                        ? std::filesystem::path(options.from) / results_name
                        : std::filesystem::path(options.from),
                    options.out);
-    take_over_pictures(options.from, outcome.run, folder);
+    take_over_pictures(options.from, outcome.run, folder, options.pictures);
     print_run(outcome.run, console);
     return outcome;
 }
@@ -147,6 +149,10 @@ void check_files(const BenchOptions& options) {
     check_apart(std::vector<std::string>{options.json, options.csv}, read);
     check_output(options.json, options.out, Output::results);
     check_output(options.csv, options.out, Output::other);
+    for (const std::string& file : {options.json, options.csv})
+        if (const auto name = name_in_report(file, options.out);
+            name && std::filesystem::path(*name).begin()->string() == pictures_folder)
+            throw Error(file, "lies in the folder of the plot's pictures", "name another file");
     if (options.resume && name_in_report(options.json, options.out))
         throw Error(options.json, "lies in the folder of the plot, which is written at the end",
                     "name a file elsewhere with --json");
@@ -204,7 +210,12 @@ int bench(const BenchOptions& options) {
     check_files(options);
     std::optional<BenchRun> older;
     if (!options.against.empty()) older = read_bench(options.against);
-    ReplacedFolder folder(options.out, {page_name, results_name, results_script_name});
+    std::vector<std::string> fixed{page_name, results_name, results_script_name};
+    if (options.pictures && !options.scaling) {
+        const std::vector<std::string> pictures = fixed_pictures();
+        fixed.insert(fixed.end(), pictures.begin(), pictures.end());
+    }
+    ReplacedFolder folder(options.out, fixed);
     const auto [run, complete] = outcome_of(options, console, folder);
     write_outputs(folder, options, run, older);
     for (const std::string& note : folder.notes()) console.always(note);

@@ -102,8 +102,9 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
     const BenchPoint* const known = work.kept != nullptr ? find_point(*work.kept, point) : nullptr;
     if (known != nullptr) {
         point = *known;
-        point.pictures.clear(); // which went with the folder of that run
-    } else {
+        point.pictures.clear(); // they are made anew, for this plot
+    }
+    if (known == nullptr || work.pictures != nullptr) {
         work.console.progress(
             fmt::format("{}: judging {} {}", trial.name, point.technique, words_of(settings)));
         Cell cell;
@@ -111,9 +112,6 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
             cell = judged_cell(technique, trial.traced, plan_with(trial, settings), work.gpu,
                                work.pictures != nullptr)
                        .cell;
-            point.family = cell.family;
-            point.own = own_settings(technique, cell.frame, trial.scene.unit);
-            point.error = error_of(trial, cell);
         } catch (const std::bad_alloc&) {
             why = out_of_memory;
             return nullptr;
@@ -121,6 +119,9 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
             why = error.what();
             return nullptr;
         }
+        point.family = cell.family;
+        point.own = own_settings(technique, cell.frame, trial.scene.unit);
+        point.error = error_of(trial, cell);
         if (work.pictures != nullptr) {
             cell.command = verify_words(trial, technique, settings);
             point.pictures =
@@ -257,33 +258,28 @@ BenchScene describe(const BenchRun& run, const Scene& scene, const std::string& 
             .finished = false};
 }
 
-/// Whether an earlier run had finished the scene: its points are taken over.
+/// Whether an earlier run had finished the scene: its points are taken over, but where pictures are
+/// wanted, which are drawn anew.
 bool take_over(const BenchWork& work, BenchScene& scene) {
-    if (work.kept == nullptr) return false;
+    if (work.kept == nullptr || work.pictures != nullptr) return false;
     const BenchScene* const kept = kept_scene(*work.kept, scene);
     if (kept == nullptr || !kept->finished) return false;
     scene.finished = true;
     for (const BenchPoint& point : work.kept->points)
-        if (point.scene == scene.name) {
-            work.run.points.push_back(point);
-            work.run.points.back().pictures.clear();
-        }
+        if (point.scene == scene.name) work.run.points.push_back(point);
     for (const BenchLeftOut& out : work.kept->left_out)
         if (out.scene == scene.name) work.run.left_out.push_back(out);
     return true;
 }
 
-/// What the report of the pictures tells of the scene.
-SceneResult scene_result(const Trial& trial) {
-    SceneResult result;
+/// What the report of the pictures tells of the scene, whose truth lies in it.
+void describe(SceneResult& result, const Trial& trial) {
     result.argument = trial.argument;
     result.name = trial.name;
     describe(result, trial.scene);
     result.left_out = trial.plan.left_out;
-    result.truth = trial.truth;
     result.bump_lit = is_bump_lit(trial.scene);
     if (result.bump_lit) result.color = shade(trial.tracer, trial.truth);
-    return result;
 }
 
 void print_points(const BenchWork& work, const std::string& scene) {
@@ -329,7 +325,9 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     }
     work.console.progress(work.place + name + ": tracing");
     const Tracer tracer(scene, options.scene.threads);
-    const GroundTruth truth = trace(tracer);
+    SceneResult result;
+    result.truth = trace(tracer);
+    const GroundTruth& truth = result.truth;
     Trial trial{.work = work,
                 .argument = argument,
                 .scene = scene,
@@ -340,7 +338,10 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
                 .name = name,
                 .first = work.run.points.size(),
                 .techniques = {}};
-    if (work.pictures != nullptr) work.pictures->begin(scene_result(trial));
+    if (work.pictures != nullptr) {
+        describe(result, trial);
+        work.pictures->begin(result);
+    }
     add_points(trial);
     measure(trial);
     work.run.scenes[at].finished = trial.complete;

@@ -1,15 +1,22 @@
 #include "compare/command/bench/pictures.h"
 
+#include "compare/output/manifest.h"
 #include "compare/output/unfinished.h"
 #include "compare/report/report_data.h"
 #include "compare/report/report_page.h"
 #include "compare/report/report_pictures.h"
+#include "scenes/error.h"
 #include "scenes/load/file_bytes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace shadowproof {
@@ -17,8 +24,6 @@ namespace shadowproof {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* pictures_folder = "pictures";
 
 std::string name_of(const std::string& scene, const BenchSettings& settings) {
     std::string name = scene;
@@ -41,33 +46,53 @@ SceneResult without_pictures(SceneResult& scene) {
 
 } // namespace
 
-void BenchPictures::begin(SceneResult scene) {
-    scene_ = std::move(scene);
-    begun_ = scene_.name;
+std::vector<std::string> fixed_pictures() {
+    std::vector<std::string> files;
+    for (const char* name : {page_name, results_name, results_script_name})
+        files.push_back(std::string(pictures_folder) + "/" + name);
+    return files;
+}
+
+BenchPictures::BenchPictures(const ReplacedFolder& folder)
+    : part_{folder, std::string(pictures_folder) + "/"} {}
+
+void BenchPictures::begin(SceneResult& scene) {
+    scene_ = &scene;
+    begun_ = scene.name;
     group_of_.clear();
 }
 
 std::size_t BenchPictures::begin_group(const BenchSettings& settings) {
     const std::string wanted = name_of(begun_, settings);
-    scene_.name = wanted;
+    scene_->name = wanted;
     const auto is_taken = [&](const SceneResult& other) {
-        return folder_of(other) == folder_of(scene_);
+        return folder_of(other) == folder_of(*scene_);
     };
     for (int number = 2; std::ranges::any_of(groups_, is_taken); ++number)
-        scene_.name = fmt::format("{}-{}", wanted, number);
-    write_scene(scene_, part_);
-    groups_.push_back(without_pictures(scene_));
+        scene_->name = fmt::format("{}-{}", wanted, number);
+    write_scene(*scene_, part_);
+    groups_.push_back(without_pictures(*scene_));
     return groups_.size() - 1;
 }
 
 std::string BenchPictures::add(const BenchSettings& settings, Cell cell, int threads) {
     const auto lock = hold_unfinished();
+    try {
+        return write(settings, std::move(cell), threads);
+    } catch (const std::bad_alloc&) {
+        return {};
+    } catch (const Error& error) {
+        throw std::runtime_error(error.what());
+    }
+}
+
+std::string BenchPictures::write(const BenchSettings& settings, Cell cell, int threads) {
     const auto found = group_of_.find(settings);
     const std::size_t number = found != group_of_.end() ? found->second : begin_group(settings);
     group_of_.emplace(settings, number);
     SceneResult& group = groups_[number];
-    scene_.name = group.name;
-    write_cell(scene_, cell, part_, threads);
+    scene_->name = group.name;
+    write_cell(*scene_, cell, part_, threads);
     cell.frame = {};
     cell.evidence.reset();
     cell.comparison.cause = {};
@@ -100,20 +125,32 @@ void BenchPictures::finish(const BenchRun& run) {
     part_.add(results_script_name, results_script(results));
 }
 
-void take_over_pictures(const std::string& from, BenchRun& run, const ReplacedFolder& folder) {
-    const fs::path older = fs::path(from) / pictures_folder;
-    std::error_code failure;
-    if (!fs::is_regular_file(older / page_name, failure)) {
-        for (BenchPoint& point : run.points) point.pictures.clear();
-        return;
+void take_over_pictures(const std::string& from, BenchRun& run, const ReplacedFolder& folder,
+                        bool wanted) {
+    const fs::path older =
+        fs::path(from).filename() == results_name ? fs::path(from).parent_path() : fs::path(from);
+    const FolderPart part{folder, std::string(pictures_folder) + "/"};
+    const MemoryAccount account;
+    std::set<std::string> taken;
+    const Manifest written =
+        wanted && fs::is_directory(older) ? read_manifest(older).value_or(Manifest()) : Manifest();
+    for (const auto& [name, fingerprint] : written) {
+        if (!name.starts_with(part.below) || name == part.below + page_name) continue;
+        std::error_code failure;
+        if (!fs::is_regular_file(fs::symlink_status(older / name, failure))) continue;
+        const FileBytes bytes = read_bytes(older / name, Place((older / name).string()), account);
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        if (fingerprint_of(text) != fingerprint) continue;
+        folder.add(name, text);
+        taken.insert(name.substr(part.below.size()));
     }
-    const MemoryAccount unlimited;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(older)) {
-        if (!entry.is_regular_file()) continue;
-        const FileBytes bytes = read_bytes(entry.path(), Place(entry.path().string()), unlimited);
-        folder.add((pictures_folder / entry.path().lexically_relative(older)).generic_string(),
-                   {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }
+    const bool whole = taken.contains(results_name) && taken.contains(results_script_name);
+    if (whole) part.add(page_name, report_page());
+    const std::string page = part.below + page_name + "#";
+    for (BenchPoint& point : run.points)
+        if (!whole || point.pictures.size() < page.size() ||
+            !taken.contains(point.pictures.substr(page.size()) + "/cell.js"))
+            point.pictures.clear();
 }
 
 } // namespace shadowproof
