@@ -127,8 +127,8 @@ void BenchPictures::finish(const BenchRun& run) {
 
 void take_over_pictures(const std::string& from, BenchRun& run, const ReplacedFolder& folder,
                         bool wanted) {
-    const fs::path older =
-        fs::path(from).filename() == results_name ? fs::path(from).parent_path() : fs::path(from);
+    const fs::path given = fs::absolute(from);
+    const fs::path older = given.filename() == results_name ? given.parent_path() : given;
     const FolderPart part{folder, std::string(pictures_folder) + "/"};
     const MemoryAccount account;
     std::set<std::string> taken;
