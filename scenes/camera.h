@@ -10,6 +10,9 @@
 
 namespace shadowproof {
 
+/// Most pixels along a side: what a 32-bit float's 24 bits and every OpenGL 4.5 framebuffer hold.
+inline constexpr int largest_side = 16384;
+
 /// World units are the scene's own; depth is measured along `forward`.
 struct Camera {
     glm::dvec3 eye{0, 0, 0};

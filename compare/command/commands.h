@@ -9,6 +9,7 @@ namespace shadowproof {
 Work add_verify(CLI::App& app);     ///< verify.cpp
 Work add_check(CLI::App& app);      ///< check/check.cpp
 Work add_bench(CLI::App& app);      ///< bench/bench.cpp
+Work add_stress(CLI::App& app);     ///< stress/stress.cpp
 Work add_render(CLI::App& app);     ///< render.cpp
 Work add_explain(CLI::App& app);    ///< explain.cpp
 Work add_list(CLI::App& app);       ///< list.cpp

@@ -13,6 +13,7 @@
 #include "compare/report/pixel_json.h"
 #include "raster/render.h"
 #include "reference/predict/ledger.h"
+#include "scenes/error.h"
 #include "scenes/load/admission.h"
 #include "scenes/load/catalog.h"
 
@@ -261,6 +262,11 @@ std::optional<std::size_t> technique_to_draw(const std::vector<TechniqueAtPixel>
     return first;
 }
 
+std::string outside(const PixelPosition& pixel, int width, int height) {
+    return fmt::format("({},{}) lies outside the picture; it ends at ({},{})", pixel.x, pixel.y,
+                       width - 1, height - 1);
+}
+
 int explain(const ExplainOptions& options) {
     for (const std::string& file : {options.json, options.svg})
         if (!file.empty()) check_writable(file);
@@ -269,6 +275,9 @@ int explain(const ExplainOptions& options) {
     require_picture(memory, options.picture.size.width, options.picture.size.height,
                     Workload::comparison);
     const Scene scene = load_scene(options.scene, options.picture.request());
+    if (options.pixel.x >= scene.camera.width || options.pixel.y >= scene.camera.height)
+        throw Error("--pixel", outside(options.pixel, scene.camera.width, scene.camera.height),
+                    "name a pixel within it");
     require_scene(memory, scene, Workload::comparison);
     require_map(memory, options.technique.asked.map);
     Plan plan = make_plan(scene);
@@ -299,13 +308,13 @@ int explain(const ExplainOptions& options) {
     return all_ran ? exit_passed : exit_could_not;
 }
 
-/// The pixel must lie in the picture, whichever of the two flags stands first.
+/// The pixel must lie in the picture, whichever of the two flags stands first. A scene under stress
+/// may have a picture of another shape.
 void check_inside(const ExplainOptions& options) {
     const PictureSize& size = options.picture.size;
-    if (options.pixel.x < size.width && options.pixel.y < size.height) return;
-    throw CLI::ValidationError(
-        "--pixel", fmt::format("({},{}) lies outside the picture; it ends at ({},{})",
-                               options.pixel.x, options.pixel.y, size.width - 1, size.height - 1));
+    if (options.picture.stress || (options.pixel.x < size.width && options.pixel.y < size.height))
+        return;
+    throw CLI::ValidationError("--pixel", outside(options.pixel, size.width, size.height));
 }
 
 } // namespace

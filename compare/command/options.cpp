@@ -15,9 +15,6 @@ namespace shadowproof {
 
 namespace {
 
-/// Pixels along a side: what a 32-bit float's 24 bits and every OpenGL 4.5 framebuffer hold.
-constexpr int largest_side = 16384;
-
 PictureSize parse_size(const std::string& text) {
     PictureSize size;
     const char* end = text.data() + text.size();
@@ -31,6 +28,29 @@ PictureSize parse_size(const std::string& text) {
                                                          "of 1 to {} pixels, as 512x512",
                                                          text, largest_side));
     return size;
+}
+
+std::string parameter_names() {
+    std::string names;
+    for (const StressParameter& parameter : stress_parameters())
+        names += (names.empty() ? "" : ", ") + std::string(parameter.name);
+    return names;
+}
+
+Stress parse_stress(const std::string& text) {
+    const std::size_t sign = text.find('=');
+    Stress stress{text.substr(0, sign), 0};
+    if (find_parameter(stress.parameter) == nullptr)
+        throw CLI::ValidationError("--stress",
+                                   fmt::format("there is no parameter '{}'; there are {}",
+                                               stress.parameter, parameter_names()));
+    const std::optional<double> value =
+        sign == std::string::npos ? std::nullopt : parse_number(text.substr(sign + 1));
+    if (!value)
+        throw CLI::ValidationError(
+            "--stress", fmt::format("'{}' gives no number; give {}=VALUE", text, stress.parameter));
+    stress.value = *value;
+    return stress;
 }
 
 std::string technique_names() {
@@ -170,12 +190,13 @@ SceneRequest SceneOptions::request() const {
             .time = time,
             .width = size.width,
             .height = size.height,
+            .stress = stress,
             .memory = memory};
 }
 
 bool SceneOptions::is_default() const {
     const PictureSize ordinary;
-    return !camera && !light && time == 0 && size.width == ordinary.width &&
+    return !camera && !light && !stress && time == 0 && size.width == ordinary.width &&
            size.height == ordinary.height;
 }
 
@@ -223,6 +244,11 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
             },
             "Seconds at which animations are posed (0)")
         ->type_name("T");
+    command
+        .add_option_function<std::string>(
+            "--stress", [&](const std::string& text) { options.stress = parse_stress(text); },
+            "Takes the scene to a parameter's value, as near_plane=1e-6: " + parameter_names())
+        ->type_name("PARAMETER=VALUE");
     add_memory_flag(command, options.memory);
     command.add_option("--threads", options.threads, "Threads (0: one per core)")
         ->type_name("N")
@@ -310,6 +336,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (scene.camera) add("--camera", *scene.camera);
     if (scene.light) add("--light", *scene.light);
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
+    if (scene.stress) add("--stress", words_of(*scene.stress));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
     const LightingSettings& lighting = technique.asked.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));

@@ -6,6 +6,7 @@
 #include "raster/technique.h"
 #include "scenes/load/scene_request.h"
 #include "scenes/memory_budget.h"
+#include "scenes/stress/parameter.h"
 #include "scenes/technique_settings.h"
 
 #include <filesystem>
@@ -43,6 +44,7 @@ struct SceneOptions {
     std::optional<std::string> camera;
     std::optional<std::string> light;
     double time = 0; ///< seconds
+    std::optional<Stress> stress;
     int threads = 0; ///< 0: one per core
     MemoryBudget memory{};
 

@@ -1,12 +1,12 @@
 # Writes OUTPUT, a C++ source whose viewer_file() returns the text of each of FILES, named relative to
 # FOLDER, and whose viewer_script() returns those that end in .js, one after the other, without those
-# of the benchmark's own page.
+# of the pages of bench and stress.
 set(cases "")
 set(scripts "")
 foreach(name ${FILES})
     file(READ ${FOLDER}/${name} text)
     string(APPEND cases "    if (name == \"${name}\")\n        return R\"viewer(${text})viewer\";\n")
-    if(name MATCHES "\\.js$" AND NOT name MATCHES "^bench/")
+    if(name MATCHES "\\.js$" AND NOT name MATCHES "^(bench|stress)/")
         string(APPEND scripts "    script += viewer_file(\"${name}\");\n")
     endif()
 endforeach()

@@ -141,6 +141,9 @@ Scene read_scene(const std::string& name_or_path, const SceneRequest& request) {
 Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
     Scene scene = read_scene(name_or_path, request);
     admit(scene);
+    if (!request.stress) return scene;
+    scene = stressed(std::move(scene), *request.stress);
+    admit(scene);
     return scene;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scenes/memory_budget.h"
+#include "scenes/stress/parameter.h"
 
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ struct SceneRequest {
     double time = 0;                   ///< seconds: animations, skins and morphs are posed here
     int width = 512;                   ///< pixels
     int height = 512;                  ///< pixels
+    std::optional<Stress> stress{};    ///< takes the scene there once it is read
     MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
 };
 

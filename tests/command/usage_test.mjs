@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { scratch, shadowproof } from './shadowproof.mjs';
 
 const wrongUsage = [
-  [[], /there are verify, check, render, explain, bench, list/],
+  [[], /there are verify, check, render, explain, stress, bench, list/],
   [['inspect', 'ordinary', 'x.png'], /no command 'inspect'; there are verify, check, render, explain/],
   [['--nonsense'], /there are verify/],
   [['verify', '--technique', 'zmaybe'], /no technique 'zmaybe'; there are zpass, zfail/],

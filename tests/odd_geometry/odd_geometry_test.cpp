@@ -1,12 +1,12 @@
 // Mutation goes through admission, truth, all techniques and the judge.
 //   SHADOWPROOF_SEEDS="FIRST COUNT" tries other seeds than the fixed ones.
 #include "compare/verdict.h"
+#include "reference/witness/witness.h"
 #include "scenes/error.h"
 #include "scenes/load/admission.h"
 #include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/odd_geometry/mutations.h"
-#include "tests/reference/rational_witness.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest-spi.h>

@@ -6,6 +6,7 @@
 #include "compare/bench/bench_table.h"
 #include "compare/command/bench/machine.h"
 #include "compare/command/bench/measure.h"
+#include "compare/command/bench/pictures.h"
 #include "compare/command/bench/scaling.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/commands.h"
@@ -115,7 +116,7 @@ Outcome measured(const BenchOptions& options, Console& console, const ReplacedFo
     if (options.resume) kept = kept_run(options.json, outcome.run);
     const bool in_folder = name_in_report(options.json, options.out).has_value();
     BenchKeeper keeper(in_folder ? std::string() : options.json);
-    BenchPictures pictures(folder);
+    PointPictures pictures(folder);
     const BenchWork work{.options = options,
                          .gpu = gpu,
                          .console = console,
@@ -125,7 +126,12 @@ Outcome measured(const BenchOptions& options, Console& console, const ReplacedFo
                          .pictures = options.pictures ? &pictures : nullptr};
     outcome.complete = options.scaling ? measure_growth(work) : measure_scenes(work);
     outcome.run.finished = true;
-    pictures.finish(outcome.run);
+    Report report;
+    report.version = outcome.run.version;
+    report.gl = outcome.run.gl;
+    report.embree = outcome.run.embree;
+    report.arguments = outcome.run.arguments;
+    pictures.finish(std::move(report));
     return outcome;
 }
 

@@ -1,5 +1,6 @@
 #include "compare/command/bench/measure.h"
 
+#include "compare/bench/bench_error.h"
 #include "compare/bench/bench_table.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
@@ -45,30 +46,6 @@ const Plan& plan_with(Trial& trial, const BenchSettings& settings) {
     trial.plan.asked = with_settings(trial.work.options.technique, settings).asked;
     require_map(trial.work.options.scene.memory, trial.plan.asked.map);
     return trial.plan;
-}
-
-BenchError error_of(const Trial& trial, const Cell& cell) {
-    const Frame& frame = cell.frame;
-    const Comparison& comparison = cell.comparison;
-    BenchError error{.pixels = frame.claim.pixels.size(), .differing = comparison.differing};
-    for (const CauseWords& words : all_causes)
-        if (const std::uint64_t pixels = pixels_of(comparison, words.cause))
-            error.causes.emplace_back(words.name, pixels);
-    for (std::size_t i = 0; i < comparison.cause.pixels.size(); ++i) {
-        const std::uint8_t cause = comparison.cause.pixels[i];
-        if (cause == no_difference || cause == static_cast<std::uint8_t>(Cause::edge)) continue;
-        const Visibility truth = trial.truth.visibility.pixels[i];
-        if (frame.claim.pixels[i] == Visibility::background || truth == Visibility::background)
-            continue;
-        const double light = lit_share(frame, i);
-        if (truth == Visibility::lit)
-            error.falsely_shadowed += 1 - light;
-        else
-            error.falsely_lit += light;
-    }
-    if (const std::optional<ColorCheck>& colors = comparison.colors)
-        error.color = BenchColor{colors->rmse, colors->largest, colors->percentile999};
-    return error;
 }
 
 /// The words, after the program's name, that show the same with verify.
@@ -121,7 +98,7 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
         }
         point.family = cell.family;
         point.own = own_settings(technique, cell.frame, trial.scene.unit);
-        point.error = error_of(trial, cell);
+        point.error = error_of(cell.frame, cell.comparison, trial.truth.visibility);
         if (work.pictures != nullptr) {
             cell.command = verify_words(trial, technique, settings);
             point.pictures =

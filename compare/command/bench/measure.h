@@ -3,8 +3,8 @@
 
 #include "compare/command/bench/keeper.h"
 #include "compare/command/bench/options.h"
-#include "compare/command/bench/pictures.h"
 #include "compare/command/console.h"
+#include "compare/command/point_pictures.h"
 #include "raster/gl/context.h"
 
 namespace shadowproof {
@@ -17,7 +17,7 @@ struct BenchWork {
     BenchRun& run;        ///< grows
     const BenchRun* kept; ///< an earlier run to go on with; null: none
     BenchKeeper& keeper;
-    BenchPictures* pictures = nullptr; ///< null: none are kept
+    PointPictures* pictures = nullptr; ///< null: none are kept
     std::string place{}; ///< before each line of progress: "scene 2 of 37, about 300 s left: "
 };
 

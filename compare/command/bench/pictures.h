@@ -1,50 +1,12 @@
-// The pictures of a benchmark's points: a report like that of verify, within the folder of the
-// plot.
+// The pictures of an earlier benchmark.
 #pragma once
 
 #include "compare/bench/bench_run.h"
-#include "compare/cell.h"
 #include "compare/output/replaced_folder.h"
-#include "compare/report/report.h"
 
-#include <cstddef>
-#include <map>
 #include <string>
-#include <vector>
 
 namespace shadowproof {
-
-/// The folder of the pictures, within that of the plot, and files that it has in any case.
-inline constexpr const char* pictures_folder = "pictures";
-std::vector<std::string> fixed_pictures();
-
-/// A cell is written as soon as it is judged. Cells with the same settings form a scene of the
-/// report, which is called after both: "near_plane-map-size-64".
-class BenchPictures {
-public:
-    explicit BenchPictures(const ReplacedFolder& folder);
-
-    /// Further cells are of this scene, whose truth is known; it must outlive them. Its name is
-    /// changed while cells are written.
-    void begin(SceneResult& scene);
-    /// Writes the cell. Returns its address, relative to the folder of the plot:
-    /// "pictures/index.html#near_plane/zpass"; none where memory ran out. Throws
-    /// std::runtime_error, which is no Error of the scene's, where it cannot be written.
-    std::string add(const BenchSettings& settings, Cell cell, int threads);
-    /// Writes the page, if there is any cell.
-    void finish(const BenchRun& run);
-
-private:
-    FolderPart part_;
-    SceneResult* scene_ = nullptr;
-    std::string begun_;               ///< its name
-    std::vector<SceneResult> groups_; ///< their pictures are written, and dropped
-    /// Which of them has the scene's cells with these settings.
-    std::map<BenchSettings, std::size_t> group_of_;
-
-    std::size_t begin_group(const BenchSettings& settings);
-    std::string write(const BenchSettings& settings, Cell cell, int threads);
-};
 
 /// Takes over the pictures of an earlier run, given as its plot's folder or the results.json there:
 /// those files that its manifest lists and nobody has changed, and a new page. Points whose cell is

@@ -62,6 +62,12 @@ Work add_verify(CLI::App& app) {
     add_scene_flags(*command, options->scene);
     add_gate_flags(*command, options->gate);
     add_output_flags(*command, options->output);
+    command
+        ->add_option("--witness", options->witness,
+                     "Pixels that a second exact tracer, slow and simple, decides again; where it "
+                     "differs the scene could not run (0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1 << 28));
     add_timeout_flag(*command, options->timeout,
                      "Seconds for a cell, and for reading or tracing a scene, above which it is "
                      "given up (600; 0: any number)");

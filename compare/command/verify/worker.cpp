@@ -7,6 +7,7 @@
 #include "compare/command/stopwatch.h"
 #include "compare/command/verify/messages.h"
 #include "compare/memory.h"
+#include "reference/witness/agreement.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
 
@@ -123,9 +124,21 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
     run.setup.console.progress(fmt::format("{}: tracing", result.name));
     Tracer tracer(scene, options.scene.threads);
     result.truth = trace(tracer);
-    if (const std::optional<std::string> note = note_if_nothing_is_seen(result.truth)) {
-        result.notes.push_back(*note);
-        if (!begun) run.setup.console.line("  note: " + *note);
+    const auto add_note = [&](const std::string& note) {
+        result.notes.push_back(note);
+        if (!begun) run.setup.console.line("  note: " + note);
+    };
+    if (const std::optional<std::string> note = note_if_nothing_is_seen(result.truth))
+        add_note(*note);
+    if (options.witness > 0) {
+        run.setup.console.progress(fmt::format("{}: asking the witness", result.name));
+        const Agreement agreement =
+            ask_witness(scene, result.truth, options.witness, options.scene.threads);
+        if (agreement.disagreements > 0)
+            throw Error(result.name, words_of(agreement),
+                        "trust no verdict on this scene, and report it: this is a fault of "
+                        "shadowproof");
+        add_note(words_of(agreement));
     }
     result.bump_lit = is_bump_lit(scene);
     if (result.bump_lit) result.color = shade(tracer, result.truth);

@@ -8,6 +8,7 @@
 #include "compare/report/report.h"
 #include "compare/results/baseline.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct VerifyOptions {
     TechniqueOptions technique;
     GateOptions gate;
     OutputOptions output;
+    std::uint64_t witness = 0; ///< pixels that a second exact tracer decides again
     double timeout = 600; ///< seconds for a cell, or for reading or tracing a scene; 0: no limit
 };
 

@@ -1,8 +1,8 @@
 #include "reference/predict/ledger.h"
 #include "reference/trace/trace.h"
+#include "reference/witness/witness.h"
 #include "scenes/load/catalog.h"
 #include "tests/reference/hard_scenes.h"
-#include "tests/reference/rational_witness.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,9 @@
-#include "tests/reference/rational_witness.h"
+#include "reference/witness/witness.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowproof::witness {
 
@@ -41,6 +44,22 @@ std::optional<mpq_class> meet(const Plane& t, const Point& p, const Point& d) {
     return mpq_class(dot(t.normal, minus(t.a, p)) / slope);
 }
 
+glm::dvec3 rounded(const Point& p) {
+    return {p[0].get_d(), p[1].get_d(), p[2].get_d()};
+}
+
+/// Whether p + s d, for s from 0 to `last`, may come near the triangle. The error of doubles is
+/// some 1e-15 of the coordinates; a thousand millionth of them is allowed for.
+bool may_touch(const Plane& t, const glm::dvec3& p, const glm::dvec3& d, double last) {
+    const glm::dvec3 to_center = t.center - p;
+    const double square = glm::dot(d, d);
+    const double s = square > 0 ? std::clamp(glm::dot(to_center, d) / square, 0.0, last) : 0;
+    const double distance = glm::length(to_center - s * d);
+    const double margin =
+        1e-9 * (glm::length(p) + glm::length(t.center) + std::min(s, last) * glm::length(d));
+    return !(distance > 1.000001 * t.radius + margin); // what is no number may
+}
+
 } // namespace
 
 Witness::Witness(const Scene& scene)
@@ -55,6 +74,8 @@ Witness::Witness(const Scene& scene)
         spot_axis_ = point(light.direction);
         spot_cosine_ = mpq_class(std::cos(light.outer_cone));
     }
+    eye_rounded_ = rounded(eye_);
+    light_rounded_ = rounded(light_);
     if (std::isfinite(scene.camera.far)) far_ = mpq_class(scene.camera.far);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         Plane t;
@@ -63,6 +84,9 @@ Witness::Witness(const Scene& scene)
         t.c = point(corner(scene, i, 2));
         t.normal = cross(minus(t.b, t.a), minus(t.c, t.a));
         t.has_area = sgn(dot(t.normal, t.normal)) != 0;
+        t.center = (corner(scene, i, 0) + corner(scene, i, 1) + corner(scene, i, 2)) / 3.0;
+        for (int k = 0; k < 3; ++k)
+            t.radius = std::max(t.radius, glm::distance(t.center, corner(scene, i, k)));
         for (const Mesh& mesh : scene.meshes) {
             if (i < mesh.first_triangle || i >= mesh.first_triangle + mesh.triangle_count) continue;
             t.seen_from_behind = scene.materials[mesh.material].double_sided;
@@ -106,8 +130,11 @@ int Witness::side_of_cone(const Point& p) const {
 
 bool Witness::occluded(const Point& hit, std::uint32_t own) const {
     const Point d = to_light(hit);
+    const glm::dvec3 from = rounded(hit);
+    const glm::dvec3 toward = directional_ ? light_rounded_ : light_rounded_ - from;
+    const double last = directional_ ? std::numeric_limits<double>::infinity() : 1;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-        if (i == own || !planes_[i].casts) continue;
+        if (i == own || !planes_[i].casts || !may_touch(planes_[i], from, toward, last)) continue;
         const std::optional<mpq_class> s = meet(planes_[i], hit, d);
         if (s && lies_between(*s) && inside(planes_[i], along(hit, *s, d))) return true;
     }
@@ -119,6 +146,9 @@ Answer Witness::look(const glm::dvec3& direction) const {
     Answer answer;
     std::optional<mpq_class> nearest;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
+        if (!may_touch(planes_[i], eye_rounded_, direction,
+                       std::numeric_limits<double>::infinity()))
+            continue;
         const std::optional<mpq_class> t = meet(planes_[i], eye_, d);
         if (!t || *t < near_ || (far_ && *t > *far_) || (nearest && *t >= *nearest)) continue;
         if (!planes_[i].seen_from_behind && side_of_eye(i) <= 0) continue;

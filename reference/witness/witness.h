@@ -1,5 +1,7 @@
-// The witness: visibility and shadow depth by brute force over rationals. It shares no code with
-// reference/ but the scene's own structs, and uses other formulas: hit points, not edge planes.
+// The witness: visibility and shadow depth by brute force over rationals, triangle by triangle. It
+// shares no code with the rest of reference/ but the scene's own structs, and uses other formulas:
+// hit points, not edge planes. Triangles that lie far from a line, told by balls around them with a
+// margin a million times the error of doubles, are passed over.
 #pragma once
 
 #include "scenes/frame.h"
@@ -22,6 +24,8 @@ struct Plane {
     bool seen_from_behind = false;
     bool casts = true;
     bool receives = true;
+    glm::dvec3 center{0, 0, 0}; ///< of a ball that holds the triangle, about
+    double radius = 0;
 };
 
 struct Answer {
@@ -63,6 +67,9 @@ private:
 
     Point to_light(const Point& p) const;
     bool lies_between(const mpq_class& s) const;
+    glm::dvec3 eye_rounded_{0, 0, 0};
+    glm::dvec3 light_rounded_{0, 0, 0};
+
     bool occluded(const Point& hit, std::uint32_t own) const;
 };
 

@@ -1,0 +1,24 @@
+// What stress is asked for.
+#pragma once
+
+#include "compare/command/options.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+struct StressOptions {
+    std::vector<std::string> scenes; ///< names or paths; empty: all bundled ones
+    SceneOptions scene;
+    TechniqueOptions technique;
+    std::vector<std::string> parameters; ///< empty: all that suit
+    std::uint64_t witness = 64;          ///< pixels of each point that the witness decides again
+    std::string out = "report";
+    std::string json;
+    bool pictures = true;
+    bool quiet = false;
+};
+
+} // namespace shadowproof

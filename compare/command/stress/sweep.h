@@ -1,0 +1,29 @@
+// Takes a scene along the parameters, and judges every technique on the way.
+#pragma once
+
+#include "compare/command/console.h"
+#include "compare/command/point_pictures.h"
+#include "compare/command/stress/options.h"
+#include "compare/stress/stress_run.h"
+#include "raster/gl/context.h"
+
+#include <string>
+
+namespace shadowproof {
+
+/// What a sweep needs besides the scene.
+struct StressWork {
+    const StressOptions& options;
+    Gpu& gpu;
+    Console& console;
+    StressRun& run;                    ///< grows
+    PointPictures* pictures = nullptr; ///< null: none are kept
+    std::string place{};               ///< before each line of progress: "scene 2 of 37: "
+};
+
+/// Adds the scene to the run, with a point for each value, and prints where techniques break. A
+/// scene that is refused at some value, or a technique there, is said and ends nothing. Throws
+/// Error if the scene cannot be read.
+void stress_scene(const StressWork& work, const std::string& argument);
+
+} // namespace shadowproof

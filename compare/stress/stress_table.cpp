@@ -1,0 +1,81 @@
+#include "compare/stress/stress_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace shadowproof {
+
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string words;
+    for (const std::string& name : names) words += (words.empty() ? "" : ", ") + name;
+    return words;
+}
+
+/// How far from its own value a parameter was taken, in factors.
+double outwards(const Breaking& breaking, double own) {
+    if (!breaking.fails || *breaking.fails <= 0 || own <= 0) return 1e300;
+    return std::abs(std::log(*breaking.fails / own));
+}
+
+double own_value(const StressAlong& along) {
+    for (const StressPoint& point : along.points)
+        if (point.own) return point.value;
+    return 1;
+}
+
+/// Those of one side, a line for those that break at the same value by the same cause.
+void add_side(const StressAlong& along, bool up, std::vector<std::string>& lines) {
+    const double own = own_value(along);
+    using Key = std::tuple<double, double, double, std::string>; // far, fails, holds, cause
+    std::map<Key, std::vector<std::string>> broken;
+    std::vector<std::string> holding;
+    double farthest = own;
+    for (const StressPoint& point : along.points)
+        if (up ? point.value > farthest : point.value < farthest) farthest = point.value;
+    for (const Breaking& each : along.breaking) {
+        if (each.up != up) continue;
+        if (each.fails)
+            broken[{outwards(each, own), *each.fails, each.holds, each.cause}].push_back(
+                each.technique);
+        else
+            holding.push_back(each.technique);
+    }
+    for (const auto& [key, techniques] : broken) {
+        const auto& [far, fails, holds, cause] = key;
+        lines.push_back(fmt::format("    {:<9}  {:<14}  {}{}", value_words(fails), cause,
+                                    listed(techniques),
+                                    fmt::format("  (holds at {})", value_words(holds))));
+    }
+    if (!holding.empty())
+        lines.push_back(
+            fmt::format("    {:<9}  {:<14}  {}", value_words(farthest), "hold", listed(holding)));
+}
+
+} // namespace
+
+std::string value_words(double value) {
+    return fmt::format("{:.3g}", value);
+}
+
+std::vector<std::string> stress_table(const StressAlong& along) {
+    std::vector<std::string> lines;
+    lines.push_back(fmt::format("  {}: {}", along.parameter, along.words));
+    add_side(along, false, lines);
+    add_side(along, true, lines);
+    if (!along.wrong_before.empty())
+        lines.push_back(fmt::format("    {:<9}  {:<14}  {}", value_words(own_value(along)),
+                                    "wrong as it is", listed(along.wrong_before)));
+    for (const StressPoint& point : along.points)
+        if (!point.refused.empty())
+            lines.push_back(fmt::format("    {:<9}  {:<14}  {}", value_words(point.value),
+                                        "refused", point.refused));
+    return lines;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,142 @@
+// `shadowproof stress` and --stress as their users meet them. No test holds a time.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import Ajv from 'ajv/dist/2020.js';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const schema = JSON.parse(readFileSync(new URL('../../docs/stress.schema.json', import.meta.url)));
+const validate = new Ajv({ strict: true, allErrors: true, allowUnionTypes: true }).compile(schema);
+const assertValid = (run) => assert.ok(validate(run), JSON.stringify(validate.errors, null, 1));
+const written = (name) => JSON.parse(readFileSync(join(scratch, name), 'utf8'));
+
+const small = ['--size', '48x48', '--witness', '24'];
+const stressed = (args) => shadowproof(['stress', ...args, ...small]);
+
+const told = stressed(['near_plane', '--technique', 'zpass,zfail,zfail_reversed,cube_map_six_pass',
+                       '--parameter', 'near_plane,light_to_face,coincident_faces',
+                       '--json', 'stress.json', '--out', 'stress']);
+const run = written('stress.json');
+const wrong = ({ differing, causes }) => differing - (causes.edge ?? 0);
+const along = (technique, parameter) => run.points.filter((point) =>
+  point.technique === technique && point.parameter === parameter && !point.refused);
+
+test('what it writes is valid by its schema, and in its folder too', () => {
+  assert.equal(told.code, 0, told.out + told.err);
+  assertValid(run);
+  assert.deepEqual(written('stress/results.json'), run);
+});
+
+test('each parameter goes from the scene as it is to its end, on both its sides', () => {
+  const values = along('truth', 'near_plane').map(({ value }) => value);
+  assert.deepEqual(values, [...values].sort((a, b) => a - b));
+  assert.equal(values[0], 1e-7);
+  assert.equal(values.at(-1), 1);
+  assert.equal(along('truth', 'light_to_face')[0].value, 0);
+  for (const parameter of ['near_plane', 'light_to_face', 'coincident_faces'])
+    assert.equal(along('truth', parameter).filter(({ own }) => own).length, 1);
+});
+
+test('the witness decides pixels of every point again, and agrees', () => {
+  for (const { witness } of run.points.filter(({ technique, refused }) =>
+    technique === 'truth' && !refused)) {
+    assert.equal(witness.asked, 24);
+    assert.equal(witness.disagreements, 0);
+  }
+  assert.match(told.out, /truth and witness differ at 0 of [\d,]+ pixels/);
+});
+
+test('a technique that is wrong before has no breaking point, and is said', () => {
+  const [{ parameters }] = run.scenes;
+  assert.ok(parameters[0].wrong_before.includes('zpass'));
+  assert.ok(!run.breaking.some(({ technique }) => technique === 'zpass'));
+  assert.match(told.out, /wrong as it is +zpass/);
+});
+
+test('breaking points lie between the last value that holds and the first that fails', () => {
+  for (const { technique, parameter, side, holds, measured, cause } of run.breaking) {
+    const up = side === 'up';
+    const points = along(technique, parameter);
+    const inside = points.filter(({ value }) => (up ? value <= holds : value >= holds));
+    const own = points.find((point) => point.own).value;
+    for (const point of inside.filter(({ value }) => (up ? value >= own : value <= own)))
+      assert.equal(wrong(point), 0, `${technique} ${parameter} ${point.value}`);
+    if (measured === null) continue;
+    const there = points.find(({ value }) => value === measured);
+    assert.ok(wrong(there) > 0);
+    assert.ok(there.causes[cause] > 0);
+    if (measured > 0 && holds > 0 && parameter !== 'coincident_faces')
+      assert.ok(Math.max(measured / holds, holds / measured) <= 1.11, `${technique} ${parameter}`);
+  }
+});
+
+test('z-fail without a far plane outlasts any near plane that floats of depth resolve', () => {
+  const near = along('zfail_reversed', 'near_plane').filter(({ value }) => value <= 0.01);
+  assert.ok(near.length > 2);
+  for (const point of near) assert.equal(wrong(point), 0, `${point.value}`);
+});
+
+test('a point is shown again by its command: the same causes, and its pictures are there', () => {
+  const point = along('cube_map_six_pass', 'light_to_face')
+    .find(({ value, own }) => value > 1 && !own);
+  const words = point.command.split(' ').slice(1);
+  const again = shadowproof([...words, '--json', 'again.json', '--out', 'again', '-q']);
+  assert.ok([0, 1].includes(again.code), again.err);
+  const [cell] = written('again.json').scenes[0].techniques;
+  assert.deepEqual(cell.causes, point.causes);
+  assert.equal(cell.differing, point.differing);
+  const [page, place] = point.pictures.split('#');
+  assert.ok(existsSync(join(scratch, 'stress', page)));
+  assert.ok(existsSync(join(scratch, 'stress', 'pictures', place, 'claim.png')), place);
+});
+
+test('--stress takes one scene to a value, for any command', () => {
+  const stress = ['--stress', 'aspect=16', '--size', '64x64'];
+  const { code, err } = shadowproof(['render', 'ordinary', '-o', 'wide.png', ...stress]);
+  assert.equal(code, 0, err);
+  const bytes = readFileSync(join(scratch, 'wide.png'));
+  assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [256, 16]);
+  const told = shadowproof(['explain', 'ordinary', '--pixel', '130,9', ...stress]);
+  assert.equal(told.code, 0, told.err);
+  const refused = (text, words) => {
+    const { code: refusal, err: why } = shadowproof(['verify', 'ordinary', '--stress', text]);
+    assert.equal(refusal, 2, why);
+    assert.match(why, words);
+  };
+  refused('wind=1', /no parameter 'wind'; there are near_plane/);
+  refused('aspect', /gives no number/);
+  refused('aspect=wide', /gives no number/);
+  const far = shadowproof(['verify', 'ordinary', '--stress', 'aspect=1e9', '-q']);
+  assert.equal(far.code, 3);
+  assert.match(far.err + far.out, /aspect=1000000000: is out of range/);
+});
+
+test('verify --witness says that the truth was decided again', () => {
+  const { code, out } = shadowproof(['verify', 'light_in_plane', '--technique', 'zfail_reversed',
+                                     '--size', '40x40', '--witness', '100', '--out', 'witnessed']);
+  assert.equal(code, 0);
+  assert.match(out, /note: 100 pixels decided again by the witness, 50 of them undecided by filters: all agree/);
+});
+
+test('scenes that cannot be read end nothing, and are said', () => {
+  const { code, err } = stressed(['ordinary', 'none.gltf', '--technique', 'zfail_reversed',
+                                  '--parameter', 'aspect', '--json', 'some.json', '--no-pictures',
+                                  '-q']);
+  assert.equal(code, 3);
+  assert.match(err, /none\.gltf/);
+  const some = written('some.json');
+  assertValid(some);
+  assert.ok(some.scenes[1].error);
+  assert.ok(some.points.length > 0);
+});
+
+test('the same input gives the same points, but for times', () => {
+  const points = ['one', 'two'].map((name) => {
+    stressed(['ordinary', '--technique', 'zfail,traced_epsilon', '--parameter', 'scale',
+              '--json', `${name}.json`, '--no-pictures', '-q',
+              '--threads', name === 'one' ? '1' : '3']);
+    return written(`${name}.json`).points.map(({ ms, judging_ms: judging, ...rest }) => rest);
+  });
+  assert.deepEqual(points[0], points[1]);
+});
