@@ -101,19 +101,29 @@ Number unless(Mask nothing_known, Number tolerance) {
                           tolerance);
 }
 
-// Triangles as parallel rays see them. With m <= 1/2 the largest coordinate relative to the origin
-// and l that of an edge, u and v of a corner are at most 2 m and off by 6.1 u m, those of an edge
-// at most 2 l and off by 6.1 u l (shear.h, with u of rounding in each difference).
+// Triangles as parallel rays see them. With m <= 1/2 the largest coordinate relative to the origin,
+// l that of an edge, and |lean| <= 2^-9 (shear.h), in units of u:
+//   a difference of coordinates is off by m (of an edge by l), a slope by 3 of itself, so that
+//   x - slope z, at most 2 m, is off by m + (1 + 3 + 1) m + 2 m + second order = 8.1 m;
+//   the divisor, within 2^-10 of 1, by 1.1;
+//   u and v, at most 2.01 m, by 8.1 m + 2.01 m (1.1 + 1) = 12.4 m; h, at most 1.01 m, by 3.2 m;
+//   of an edge, u_b - u_a = (D + u_a lean dz) / (1 - lean b_z), where D = dx - slope dz is at most
+//   2 l and off by 8.1 l, and the second term, at most 2^-9 l, by a fiftieth l: at most 2.02 l, and
+//   off by 8.2 l + 2.02 l (sum) + 2.02 l (1.1 + 1) = 14.5 l;
+//   h_b - h_a = dz / ((1 - lean a_z) (1 - lean b_z)), at most 1.01 l, is off by l + 1.01 l (3.3 +
+//   1) = 5.4 l.
+// Of a directional light lean is 0, and all is off by less.
 void make_parallel_records(const OriginView& view, const ClusterCorners& corners,
                            ClusterRecord& record) {
     const std::array<int, 3>& axes = view.shear.axes;
     const Vector origin{number(view.origin[axes[0]]), number(view.origin[axes[1]]),
                         number(view.origin[axes[2]])};
     const Number scale = number(view.scale);
-    const auto sheared = [&](const Vector& p) {
+    const Number lean = number(view.shear.lean);
+    const Number up = number(view.shear.up);
+    const auto slant = [&](const Vector& p) {
         return Vector{hn::Sub(p.x, hn::Mul(number(view.shear.slope_u), p.z)),
-                      hn::Sub(p.y, hn::Mul(number(view.shear.slope_v), p.z)),
-                      hn::Mul(number(view.shear.up), p.z)};
+                      hn::Sub(p.y, hn::Mul(number(view.shear.slope_v), p.z)), hn::Mul(up, p.z)};
     };
     for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
         const auto world = [&](std::size_t k) {
@@ -129,36 +139,54 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
         const Vector edges_as_given[3] = {relative(world(1), world(0)),
                                           relative(world(2), world(1)),
                                           relative(world(0), world(2))};
+        const Vector places[3] = {relative(world(0), origin), relative(world(1), origin),
+                                  relative(world(2), origin)};
         const Number l = largest(edges_as_given[0], edges_as_given[1], edges_as_given[2]);
         const Number ll = hn::Mul(l, l);
-        const Vector a = sheared(relative(world(0), origin));
-        const auto outlying = hn::Gt(largest(relative(world(0), origin), relative(world(1), origin),
-                                             relative(world(2), origin)),
-                                     number(0.5));
+        const auto outlying = hn::Gt(largest(places[0], places[1], places[2]), number(0.5));
+        const auto divisor_of = [&](std::size_t k) {
+            return hn::Sub(number(1), hn::Mul(lean, places[k].z));
+        };
+        const auto mapped = [&](std::size_t k) {
+            const Vector p = slant(places[k]);
+            const Number divisor = divisor_of(k);
+            return Vector{hn::Div(p.x, divisor), hn::Div(p.y, divisor), hn::Div(p.z, divisor)};
+        };
+        const auto mapped_edge = [&](std::size_t k, const Vector& from) {
+            const Vector d = slant(edges_as_given[k]);
+            const Number turn = hn::Mul(lean, edges_as_given[k].z);
+            const Number divisor = divisor_of((k + 1) % 3);
+            return Vector{hn::Div(hn::Add(d.x, hn::Mul(from.x, turn)), divisor),
+                          hn::Div(hn::Add(d.y, hn::Mul(from.y, turn)), divisor),
+                          hn::Div(d.z, hn::Mul(divisor_of(k), divisor))};
+        };
 
-        // a x (b - a) with a = (u, v, 1): the third component, two products and a difference, is
-        // off by 2 (2 m 6.1 u l + 2 l 6.1 u m + 4 u m l) + 8 u m l = 65 u m l <= 33 u l.
-        const Number edge_error = hn::Mul(number(33 * u), l);
+        // a x (b - a) with a = (u, v, 1): of the third component each product is off by 2.01 m
+        // 14.5 l + 2.02 l 12.4 m + 4.1 m l = 58.4 m l, their difference by twice that and 8.2 m l:
+        // 125 m l <= 63 l.
+        const Number edge_error = hn::Mul(number(64 * u), l);
         Number size = number(0);
+        Vector along[3];
+        const Vector a = mapped(0);
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vector from = sheared(relative(world(k), origin));
-            const Vector along = sheared(edges_as_given[k]);
-            const Vector edge{hn::Neg(along.y), along.x,
-                              hn::Sub(hn::Mul(from.x, along.y), hn::Mul(from.y, along.x))};
+            const Vector from = k == 0 ? a : mapped(k);
+            along[k] = mapped_edge(k, from);
+            const Vector edge{hn::Neg(along[k].y), along[k].x,
+                              hn::Sub(hn::Mul(from.x, along[k].y), hn::Mul(from.y, along[k].x))};
             store(edge, record.edge[k], i);
             size = hn::Max(size, sum_of(edge));
         }
         store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
 
-        // n = (b - a) x (c - b): n_h, made of u and v alone, is at most 8 l^2 and off by
-        // 2 (2 2 6.1 + 4) u l^2 + 8 u l^2 = 65 u l^2; the others, of which one factor is an h of at
-        // most l and off by u l, are at most 4 l^2 and off by 2 (2 + 6.1 + 2) u l^2 + 4 u l^2 =
-        // 25 u l^2. n . a adds to that 6.1 u m of a, the products and two sums of at most 24 m l^2:
-        // 2 (4 6.1 + 2 25 + 8) + (8 + 65 + 8) + 2 24 = 294 u m l^2 <= 147 u l^2.
-        const Vector normal = cross(sheared(edges_as_given[0]), sheared(edges_as_given[1]));
+        // n = (b - a) x (c - b). n_h, made of u and v alone, is at most 8.2 l^2; each product is
+        // off by 2 2.02 14.5 + 4.1 = 62.7, so n_h by 2 62.7 + 8.2 = 134 l^2. Of the others, one
+        // factor is an h: at most 4.1 l^2, products off by 1.01 14.5 + 2.02 5.4 + 2.1 = 27.7, each
+        // by 2 27.7 + 4.1 = 60 l^2. n . a: twice 4.1 12.4 + 2.01 60 + 8.3 = 180, once 8.2 3.2 +
+        // 1.01 134 + 8.3 = 170, the sums, of 16.6 and 24.9, 42: 572 m l^2 <= 286 l^2.
+        const Vector normal = cross(along[0], along[1]);
         const Number det = normal.z;
-        const Number det_error = hn::Mul(number(66 * u), ll);
-        const Number numerator_error = hn::Mul(number(150 * u), ll);
+        const Number det_error = hn::Mul(number(136 * u), ll);
+        const Number numerator_error = hn::Mul(number(290 * u), ll);
         // The plane's height over (u, v) is (n . a - n_u u - n_v v) / n_h; as for points.
         const Number reciprocal = hn::Div(number(1), det);
         const Vector inverse =

@@ -52,11 +52,12 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.eye = scene.camera.eye;
     state.light = homogeneous(chosen_light(scene));
     state.cone = cone_of(chosen_light(scene));
-    const auto from = [&](const glm::dvec4& origin) {
-        return view_from(origin, scene, state.hierarchy, state.predicates, state.threads);
+    const auto from = [&](const glm::dvec4& origin, bool may_be_parallel) {
+        return view_from(origin, may_be_parallel, scene, state.hierarchy, state.predicates,
+                         state.threads);
     };
-    state.from_eye = from(glm::dvec4(state.eye, 1));
-    state.from_light = from(state.light);
+    state.from_eye = from(glm::dvec4(state.eye, 1), false);
+    state.from_light = from(state.light, true);
     state.side_of_light = state.from_light.side;
     keep_casters(scene, state.from_light);
     state.build_milliseconds = milliseconds_since(start);

@@ -88,7 +88,10 @@ Entry sheared(const Entry& entry, const Cluster& cluster, const OriginView& view
     for (std::uint32_t i = 0; i < cluster.count; ++i)
         for (int k = 0; k < 3; ++k) {
             const glm::dvec3 world = corner(*view.scene, cluster.triangles[i], k);
-            const glm::vec3 p(view.shear((world - view.origin) * view.scale));
+            const glm::dvec3 relative = (world - view.origin) * view.scale;
+            // So far out, a place beyond the light might be mapped back into the scene.
+            const glm::vec3 p =
+                largest(relative) > 0.5 ? glm::vec3(infinity) : glm::vec3(view.shear(relative));
             for (int axis = 0; axis < 3; ++axis) {
                 float& lower = result.lower[static_cast<std::size_t>(axis)];
                 float& upper = result.upper[static_cast<std::size_t>(axis)];
@@ -187,17 +190,23 @@ glm::dvec3 origin_of_parallel_rays(const Hierarchy& hierarchy) {
 
 } // namespace
 
-OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy& hierarchy,
-                     const Predicates& predicates, int threads) {
+OriginView view_from(const glm::dvec4& from, bool may_be_parallel, const Scene& scene,
+                     const Hierarchy& hierarchy, const Predicates& predicates, int threads) {
     OriginView view;
     view.scene = &scene;
     view.hierarchy = &hierarchy;
-    view.parallel = from.w == 0;
-    view.origin = view.parallel ? origin_of_parallel_rays(hierarchy) : glm::dvec3(from);
+    const glm::dvec3 middle = origin_of_parallel_rays(hierarchy);
+    const double around = reach_of_most(hierarchy, middle);
+    const bool far = may_be_parallel && from.w != 0 && around > 0 &&
+                     largest(glm::dvec3(from) - middle) > far_light * around;
+    view.parallel = from.w == 0 || far;
+    view.origin = view.parallel ? middle : glm::dvec3(from);
     const double reach = reach_of_most(hierarchy, view.origin);
-    view.scale = reach > 0 ? std::exp2(-std::ilogb(reach) - (view.parallel ? 2 : 1)) : 1;
+    const int room = far ? 3 : (view.parallel ? 2 : 1);
+    view.scale = reach > 0 ? std::exp2(-std::ilogb(reach) - room) : 1;
     if (view.parallel) {
-        view.shear = shear_along(from);
+        view.shear = shear_along(
+            far ? (glm::dvec3(from) - view.origin) * view.scale : glm::dvec3(from), far);
         shear_entries(hierarchy, view);
     } else {
         view.entries.reserve(hierarchy.entries.size());

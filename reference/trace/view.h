@@ -1,7 +1,8 @@
 // The scene as seen from one point, the common origin of all rays of a query: the eye, or the light
 // (shadow rays run from the light to the surface). Relative to its origin, the distance at which a
 // ray meets a box or a plane is a single product, so rounding errors stay relative and bounds
-// tight. The rays of a directional light have a common direction instead, and the scene is sheared.
+// tight. The rays of a directional light have a common direction instead, and the scene is sheared;
+// the same is done where a light is so far away that the scene would be a speck as seen from there.
 #pragma once
 
 #include "reference/exact/predicates.h"
@@ -22,11 +23,12 @@ inline Corners corners(const Scene& scene, std::uint32_t triangle) {
 struct OriginView {
     const Scene* scene = nullptr;
     const Hierarchy* hierarchy = nullptr;
-    bool parallel = false;      ///< rays have one direction, not one origin
+    bool parallel = false;      ///< rays have one direction, not one origin, or nearly (shear.h)
     glm::dvec3 origin{0, 0, 0}; ///< where rays are parallel: the scene's centre
     Shear shear;                ///< where rays are parallel
     /// A power of two: relative coordinates times scale lie within [-1, 1]; within [-1/2, 1/2]
-    /// where rays are parallel, so that they stay within [-1, 1] when sheared. The exception is a
+    /// where rays are parallel, so that they stay within [-1, 1] when sheared, and within
+    /// [-1/4, 1/4] where they are only nearly so. The exception is a
     /// few triangles very far out, which are not tested in float.
     double scale = 1;
     /// Hierarchy::entries relative to the origin, scaled and rounded outwards; children sorted by
@@ -38,7 +40,9 @@ struct OriginView {
 };
 
 /// `from` in homogeneous coordinates: a point, or the direction from which parallel rays come.
-OriginView view_from(const glm::dvec4& from, const Scene& scene, const Hierarchy& hierarchy,
-                     const Predicates& predicates, int threads);
+/// `may_be_parallel`: whether rays from a point far away may be taken for nearly parallel; only
+/// any-hit and counting queries can be.
+OriginView view_from(const glm::dvec4& from, bool may_be_parallel, const Scene& scene,
+                     const Hierarchy& hierarchy, const Predicates& predicates, int threads);
 
 } // namespace shadowproof

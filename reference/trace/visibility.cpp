@@ -246,10 +246,19 @@ struct LightRay {
 };
 
 /// Up at the point q of a parallel view, off by `error` per component; hits that count are higher.
+/// The errors are those of shear.h. Of a light that is far, but not so for q, nothing is known.
 LightRay rising_to(const OriginView& view, const glm::dvec3& q, double error) {
-    const glm::dvec3 at = view.shear(q) * view.scale;
+    const Shear& shear = view.shear;
+    const glm::dvec3 at = shear(q * view.scale);
     LightRay ray{{{at.x, at.y, 1}, (2 * error + 5 * u * largest(q)) * view.scale}, {}};
-    const double height_error = error * view.scale;
+    double height_error = error * view.scale;
+    if (shear.lean != 0) {
+        const bool near_light = !(std::abs(1 - shear.divisor(q * view.scale)) < 0.25);
+        ray.w.error = near_light ? std::numeric_limits<double>::infinity()
+                                 : (4 * error + 22 * u * largest(q)) * view.scale;
+        height_error = 2 * error * view.scale + 8 * u * largest(q) * view.scale;
+        if (near_light) height_error = std::numeric_limits<double>::infinity();
+    }
     ray.limits.lower_lo = -std::numeric_limits<float>::infinity();
     ray.limits.lower_hi = std::numeric_limits<float>::infinity();
     if (height_error < std::numeric_limits<double>::infinity()) {
@@ -273,12 +282,33 @@ LightRay from_light_to(const Tracer::State& state, const glm::dvec3& direction, 
     return {{(base + along) * view.scale, error * view.scale}, {.lower_lo = 1, .lower_hi = 1}};
 }
 
+/// From a far light along D, to infinity: up at the place of which D is the vanishing point, at any
+/// height; ((D_x - slope_u D_z), (D_y - slope_v D_z)) / -(lean D_z). The numerators are off by 6 u
+/// of the largest |D|, the divisor by 5 u of itself.
+LightRay from_far_light_to_infinity(const OriginView& view, const glm::dvec3& direction) {
+    const Shear& shear = view.shear;
+    const double z = direction[shear.axes[2]];
+    const double down = -shear.lean * z; // positive where the ray comes down from the light
+    const double size = largest(direction);
+    // Away from the scene: beside all that is in it, though not beside what is outlying.
+    LightRay ray{{{0x1p90, 0, 1}, 0}, {}};
+    if (down > 0x1p-80 * size) {
+        const glm::dvec3 place((direction[shear.axes[0]] - shear.slope_u * z) / down,
+                               (direction[shear.axes[1]] - shear.slope_v * z) / down, 1);
+        ray.w = {place, 7 * u * (size / down + largest(place))};
+    }
+    ray.limits.lower_lo = ray.limits.lower_hi = -std::numeric_limits<float>::infinity();
+    return ray;
+}
+
 /// From the light along the eye ray's direction, to infinity; nothing where no triangle can be met.
 /// Rays of a directional light leave the scene, except where D points straight away from the light:
 /// there they meet everything above the eye's own place.
 std::optional<LightRay> from_light_to_infinity(const Tracer::State& state,
                                                const glm::dvec3& direction) {
     if (!state.from_light.parallel) return LightRay{{direction, 0}, {}};
+    if (state.from_light.shear.lean != 0)
+        return from_far_light_to_infinity(state.from_light, direction);
     if (!state.predicates.runs_from_light({state.eye, direction, state.light})) return std::nullopt;
     LightRay ray = from_light_to(state, direction, 0, 0);
     ray.limits.lower_lo = ray.limits.lower_hi = -std::numeric_limits<float>::infinity();

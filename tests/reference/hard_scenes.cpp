@@ -228,6 +228,53 @@ std::vector<HardScene> sunlit_scenes() {
 
 } // namespace
 
+namespace {
+
+Scene lit_from(Scene scene, const glm::dvec3& place) {
+    scene.lights[0].position = place;
+    return scene;
+}
+
+/// Further than far_light (shear.h), with all the bits that doubles have or with few of them.
+std::vector<HardScene> far_lit_scenes() {
+    std::vector<HardScene> scenes;
+    const std::vector<std::pair<std::string, glm::dvec3>> places{
+        {"above", {0.5, 0x1p17, -3.5}},
+        {"in_front", {0.25, -0.125, -0x1p20}},
+        {"behind", {0, 0, 0x1p20}},
+        {"askew", {-70123.7, 81234.3, 60321.1}},
+        {"at_1e9", {7.1e8, 6.2e8, -3.3e8}},
+        {"at_1e15", {-3e14, 1e15, 2e14}},
+        {"just_far", {11234.1, 45678.2, 22345.3}},
+        {"not_quite_far", {1123.1, 4567.2, 2234.3}},
+    };
+    for (const auto& [name, place] : places) {
+        const auto add = [&](const std::string& what, const std::function<Scene()>& make) {
+            scenes.push_back({what + "_lit_from_far_" + name,
+                              [make, at = place] { return lit_from(make(), at); }});
+        };
+        add("boxes", [] { return boxes({}, true); });
+        add("soup", [] { return soup(21, 1, {0, 0, 0}); });
+        add("slivers", slivers);
+        add("coinciding_triangles", coinciding);
+    }
+    // Its light is far from all but one triangle, which stands between both, or behind it.
+    for (const float distance : {3e5F, 3e6F})
+        scenes.push_back(
+            {"far_light_and_a_triangle_at_" + std::to_string(static_cast<int>(distance)),
+             [distance] {
+                 Scene scene = boxes({}, true);
+                 scene.meshes.clear();
+                 add_triangle(scene, {-distance, distance, -distance},
+                              {distance, distance, -distance}, {0, distance, distance});
+                 finish(scene, true);
+                 return lit_from(scene, {1e3, 1e6, -2e3});
+             }});
+    return scenes;
+}
+
+} // namespace
+
 std::vector<HardScene> hard_scenes() {
     std::vector<HardScene> scenes;
     for (std::uint32_t seed = 1; seed <= 4; ++seed)
@@ -265,6 +312,7 @@ std::vector<HardScene> hard_scenes() {
                           return scene;
                       }});
     for (HardScene& scene : sunlit_scenes()) scenes.push_back(std::move(scene));
+    for (HardScene& scene : far_lit_scenes()) scenes.push_back(std::move(scene));
     scenes.push_back({"casters_and_receivers_of_all_kinds", [] {
                           return with_mixed_casters(boxes({2.1, 3.3, -1.7}));
                       }});

@@ -30,6 +30,19 @@ TEST_P(HardSceneTest, not_one_pixel_differs_from_brute_force_over_rationals) {
         }
 }
 
+/// Where few signs are exactly zero, floats must decide nearly all, however far the light is. Seen
+/// from there, the scene would be a speck.
+TEST(FarLight, takes_no_more_exact_decisions_than_one_near_by) {
+    Scene scene = load_scene("overlapping", {});
+    scene.camera.width = scene.camera.height = 64;
+    const glm::dvec3 place = scene.lights[0].position;
+    for (const double factor : {1.0, 1e4, 1e6, 1e9, 1e15}) {
+        scene.lights[0].position = factor * place;
+        const TraceStatistics statistics = trace(Tracer(scene)).statistics;
+        EXPECT_LT(statistics.exact_decisions, statistics.rays / 50) << factor;
+    }
+}
+
 TEST_P(HardSceneTest, shadow_depths_equal_those_of_brute_force_with_a_really_moved_ray) {
     const Scene scene = GetParam().make();
     const Tracer tracer(scene);
