@@ -24,6 +24,8 @@ StressTally tally_of(const StressRun& run) {
                 ++tally.points;
                 tally.asked += point.witness.asked;
                 tally.disagreements += point.witness.disagreements;
+                tally.retold += point.relations.tried.size();
+                tally.changed += point.relations.changed;
                 for (const StressCell& cell : point.cells) {
                     ++tally.cells;
                     tally.unexplained +=

@@ -40,6 +40,11 @@ Json truth_json(const StressScene& scene, const StressAlong& along, const Stress
     json["witness"] = {{"asked", point.witness.asked},
                        {"undecided", point.witness.undecided},
                        {"disagreements", point.witness.disagreements}};
+    json["relations"] = {{"tried", point.relations.tried},
+                         {"left_out", point.relations.left_out},
+                         {"compared", point.relations.compared},
+                         {"ties", point.relations.ties},
+                         {"changed", point.relations.changed}};
     return json;
 }
 

@@ -4,6 +4,7 @@
 #include "compare/bench/bench_run.h"
 #include "compare/verdict.h"
 #include "reference/witness/agreement.h"
+#include "reference/witness/relation_check.h"
 
 #include <cstdint>
 #include <optional>
@@ -40,6 +41,7 @@ struct StressPoint {
     std::uint64_t exact_decisions = 0;
     std::uint64_t degenerate = 0; ///< pixels
     Agreement witness{};
+    RelationCheck relations{};
     std::vector<StressCell> cells{};
 };
 
@@ -88,6 +90,8 @@ struct StressTally {
     std::uint64_t unexplained = 0; ///< cells
     std::uint64_t asked = 0;       ///< pixels, of the witness
     std::uint64_t disagreements = 0;
+    std::uint64_t retold = 0;  ///< scenes told otherwise, by a relation
+    std::uint64_t changed = 0; ///< pixels whose truth a relation changed
 };
 StressTally tally_of(const StressRun& run);
 

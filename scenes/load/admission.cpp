@@ -1,6 +1,7 @@
 #include "scenes/load/admission.h"
 
 #include "scenes/error.h"
+#include "scenes/scaling.h"
 
 #include <fmt/format.h>
 
@@ -35,45 +36,6 @@ double median_size(const Scene& scene) {
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
     return *middle;
-}
-
-/// Whether a number times 2^power is exact and not a denormal.
-template <class Float>
-bool scales_exactly(Float number, int power) {
-    if (number == 0) return true;
-    const Float scaled = std::ldexp(number, power);
-    return std::isnormal(scaled) && std::ldexp(scaled, -power) == number;
-}
-
-template <class Vector>
-bool scales_exactly_by_components(const Vector& v, int power) {
-    return scales_exactly(v.x, power) && scales_exactly(v.y, power) && scales_exactly(v.z, power);
-}
-
-bool scales_exactly(const Scene& scene, int power) {
-    const auto exactly = [&](const auto& v) { return scales_exactly_by_components(v, power); };
-    const Camera& camera = scene.camera;
-    const bool far = std::isinf(camera.far) || scales_exactly(camera.far, power);
-    return far && exactly(camera.eye) && scales_exactly(camera.near, power) &&
-           std::all_of(scene.positions.begin(), scene.positions.end(), exactly) &&
-           std::all_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
-               return exactly(light.position) &&
-                      (!scene.inverse_square || scales_exactly(light.intensity, 2 * power));
-           });
-}
-
-/// All lengths times a power of two.
-void scale(Scene& scene, double factor) {
-    for (glm::vec3& position : scene.positions) position = glm::dvec3(position) * factor;
-    scene.camera.eye *= factor;
-    scene.camera.near *= factor;
-    scene.camera.far *= factor;
-    for (Light& light : scene.lights) {
-        light.position *= factor;
-        // The light received falls off with the square of the distance.
-        if (scene.inverse_square) light.intensity *= factor * factor;
-    }
-    scene.unit /= factor;
 }
 
 class Gate {

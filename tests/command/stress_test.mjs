@@ -47,6 +47,16 @@ test('the witness decides pixels of every point again, and agrees', () => {
   assert.match(told.out, /truth and witness differ at 0 of [\d,]+ pixels/);
 });
 
+test('the truth is the same however the scene is told, at every point', () => {
+  for (const { relations } of run.points.filter(({ technique, refused }) =>
+    technique === 'truth' && !refused)) {
+    assert.ok(relations.tried.length >= 5, relations.tried.join());
+    assert.ok(relations.compared >= 4 * 48 * 48);
+    assert.equal(relations.changed, 0);
+  }
+  assert.match(told.out, /told otherwise [\d,]+ times changes 0 pixels/);
+});
+
 test('a technique that is wrong before has no breaking point, and is said', () => {
   const [{ parameters }] = run.scenes;
   assert.ok(parameters[0].wrong_before.includes('zpass'));

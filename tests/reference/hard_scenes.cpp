@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <random>
 
 namespace shadowproof {
@@ -235,6 +236,30 @@ Scene lit_from(Scene scene, const glm::dvec3& place) {
     return scene;
 }
 
+/// The camera, from where it is, at a point, its picture so many times as high as it is far.
+void zoom(Camera& camera, const glm::dvec3& target, double tan_half_height) {
+    camera.forward = glm::normalize(target - camera.eye);
+    camera.right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 1, 0)));
+    camera.up = glm::cross(camera.right, camera.forward);
+    camera.tan_half_height = tan_half_height;
+}
+
+/// A slanting triangle over a floor; the picture shows little more than the shadow of the middle of
+/// an edge, so that a light that is misplaced a little moves the shadow out of it.
+Scene shadow_of_an_edge(const glm::dvec3& light, double tan_half_height) {
+    const glm::vec3 a(-1, -0.5F, -5);
+    const glm::vec3 b(1.5F, 0.75F, -3);
+    Scene scene = empty_scene(16);
+    add_triangle(scene, a, b, {0, 3, -4});
+    add_triangle(scene, {-60, -60, -8}, {60, -60, -8}, {0, 90, -8});
+    finish(scene, true);
+    scene.lights[0].position = light;
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(a) + glm::dvec3(b));
+    const glm::dvec3 along = middle - light;
+    zoom(scene.camera, light + (-8 - light.z) / along.z * along, tan_half_height);
+    return scene;
+}
+
 /// Further than far_light (shear.h), with all the bits that doubles have or with few of them.
 std::vector<HardScene> far_lit_scenes() {
     std::vector<HardScene> scenes;
@@ -258,6 +283,23 @@ std::vector<HardScene> far_lit_scenes() {
         add("slivers", slivers);
         add("coinciding_triangles", coinciding);
     }
+    for (const auto& [name, light] :
+         std::vector<std::pair<std::string, glm::dvec3>>{{"6e5", {2e5, 1.3e5, 5.3e5}},
+                                                         {"askew", {-7e5, 1.1e6, 4e5}},
+                                                         {"level", {3e6, -4e5, 1e6}},
+                                                         {"1e9", {3e8, 2e8, 7e8}},
+                                                         {"1e15", {-2e14, 1e14, 9e14}}})
+        for (const auto& [extent, tan] : std::vector<std::pair<std::string, double>>{
+                 {"wide", 1e-2}, {"near", 1e-4}, {"close", 1e-6}})
+            scenes.push_back({"edge_lit_from_" + name + "_" + extent,
+                              [light, tan] { return shadow_of_an_edge(light, tan); }});
+    // Rays that run down from the light among the casters are those of a picture this small.
+    for (const double tan : {0x1p-18, 0x1p-20})
+        scenes.push_back({"along_far_light_" + std::to_string(static_cast<int>(1 / tan)), [tan] {
+                              Scene scene = lit_from(boxes({}, true), {0.5, -0.25, 0x1p20});
+                              scene.camera.tan_half_height = tan;
+                              return scene;
+                          }});
     // Its light is far from all but one triangle, which stands between both, or behind it.
     for (const float distance : {3e5F, 3e6F})
         scenes.push_back(

@@ -104,20 +104,27 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
     const StressTally tally = tally_of(run);
     for (const StressScene& scene : run.scenes)
         for (const StressAlong& along : scene.parameters)
-            for (const StressPoint& point : along.points)
-                if (point.witness.disagreements > 0)
+            for (const StressPoint& point : along.points) {
+                const auto fail = [&](const std::string& words) {
                     console.always(fmt::format("failed: {}, {}={}: {}", scene.name, along.parameter,
-                                               point.value, words_of(point.witness)));
+                                               point.value, words));
+                };
+                if (point.witness.disagreements > 0) fail(words_of(point.witness));
+                if (point.relations.changed > 0) fail(words_of(point.relations));
+            }
     if (tally.unexplained > 0)
         console.always(
             fmt::format("failed: {} with unexplained pixels", counted(tally.unexplained, "cell")));
-    console.always(fmt::format("judged {} at {}; truth and witness differ at {} of {}; page in {}",
-                               counted(tally.cells, "cell"), counted(tally.points, "point"),
-                               grouped(tally.disagreements), counted(tally.asked, "pixel"),
-                               (std::filesystem::path(options.out) / page_name).string()));
+    console.always(
+        fmt::format("judged {} at {}; truth and witness differ at {} of {}; the scene told "
+                    "otherwise {} changes {}; page in {}",
+                    counted(tally.cells, "cell"), counted(tally.points, "point"),
+                    grouped(tally.disagreements), counted(tally.asked, "pixel"),
+                    counted(tally.retold, "time"), counted(tally.changed, "pixel"),
+                    (std::filesystem::path(options.out) / page_name).string()));
     const bool unread = std::ranges::any_of(
         run.scenes, [](const StressScene& scene) { return !scene.error.empty(); });
-    if (unread || tally.disagreements > 0) return exit_could_not;
+    if (unread || tally.disagreements > 0 || tally.changed > 0) return exit_could_not;
     return tally.unexplained > 0 ? exit_failed : exit_passed;
 }
 

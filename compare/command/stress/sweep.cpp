@@ -136,6 +136,9 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     point.witness =
         ask_witness(scene, result.truth, work.options.witness, work.options.scene.threads);
     if (point.witness.disagreements > 0) result.notes.push_back(words_of(point.witness));
+    progress("telling the scene otherwise");
+    point.relations = check_relations(scene, result.truth, work.options.scene.threads);
+    if (point.relations.changed > 0) result.notes.push_back(words_of(point.relations));
     if (result.bump_lit) result.color = shade(trial.tracer, result.truth);
     if (work.pictures != nullptr) work.pictures->begin(result);
     for (const Technique* technique : techniques) {

@@ -63,10 +63,14 @@ function chosenStory(point) {
 function truthWords(point) {
   if (point.refused) return point.refused;
   const { asked, undecided, disagreements } = point.witness;
+  const { tried, changed, ties } = point.relations;
   return `${counted(point.triangles, 'triangle')}, truth in ${milliseconds(point.ms.median)}, ` +
     `${counted(point.exact_decisions, 'exact decision')}; the witness decided ` +
     `${counted(asked, 'pixel')} again, ${grouped(undecided)} of them undecided by filters: ` +
-    (disagreements === 0 ? 'all agree' : `${grouped(disagreements)} disagree`);
+    (disagreements === 0 ? 'all agree' : `${grouped(disagreements)} disagree`) +
+    `; told otherwise in ${counted(tried.length, 'way')}, ` +
+    (changed === 0 ? 'it stays the same' : `${counted(changed, 'pixel')} changed`) +
+    (ties === 0 ? '' : ` (and ${counted(ties, 'tie')})`);
 }
 
 function matrix(points, parameter, story) {
@@ -165,7 +169,7 @@ function showScene(name) {
     ...run.scenes.filter(({ error }) => error).map(({ error }) => alertLine(error)),
     element('p', {}, 'Where each technique starts to fail as the scene becomes extreme, one ' +
       'parameter at a time. The truth is decided again by a second exact tracer at some pixels of ' +
-      'every point.'),
+      'every point, and traced again where the scene is only told otherwise.'),
     element('div', { class: 'toolbar' },
       choice('scene', 'Scene', scenes.map((each) => [each.name, each.name]), name, showScene),
       choice('technique', 'Technique',

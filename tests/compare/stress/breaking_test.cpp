@@ -107,12 +107,13 @@ TEST(Breaking, counters_that_nobody_explains_are_a_failure_too) {
     EXPECT_EQ(breaking_points(along, false)[0].cause, "unexplained");
 }
 
-TEST(Breaking, the_tally_counts_points_cells_and_what_the_witness_was_asked) {
+TEST(Breaking, the_tally_counts_points_cells_and_what_truth_was_held_to) {
     StressRun run;
     run.scenes.push_back({});
     StressAlong along = ladder_of({1, 10}, [](double) { return std::vector{cell("a", 0)}; });
     along.points[1].cells[0].verdict = Verdict::unexplained;
     along.points[1].witness = {.asked = 7, .disagreements = 1};
+    along.points[1].relations = {.tried = {"moved", "split"}, .changed = 3};
     StressPoint refused{.value = 100};
     refused.refused = "no";
     along.points.push_back(refused);
@@ -123,6 +124,8 @@ TEST(Breaking, the_tally_counts_points_cells_and_what_the_witness_was_asked) {
     EXPECT_EQ(tally.unexplained, 1U);
     EXPECT_EQ(tally.asked, 7U);
     EXPECT_EQ(tally.disagreements, 1U);
+    EXPECT_EQ(tally.retold, 2U);
+    EXPECT_EQ(tally.changed, 3U);
 }
 
 } // namespace
