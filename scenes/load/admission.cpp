@@ -51,6 +51,7 @@ public:
         check_positions();
         check_camera();
         for (const Light& light : scene_.lights) check_light(light);
+        check_spread();
         if (is_bump_lit(scene_)) check_lighting();
     }
 
@@ -81,23 +82,61 @@ private:
                "move it nearer, or scale the scene");
     }
 
+    void check_smallest(const std::string& who, const char* where, const glm::dvec3& vector) const {
+        for (int k = 0; k < 3; ++k)
+            if (vector[k] != 0 && std::abs(vector[k]) < smallest_number)
+                refuse(fmt::format("{} {} ({}, {}, {}), and products of a number below {:.3g} are "
+                                   "lost in doubles",
+                                   who, where, vector.x, vector.y, vector.z, smallest_number),
+                       "write 0 for it");
+    }
+
     void check_axis(const std::string& who, const glm::dvec3& axis) const {
         if (std::isfinite(size_of(axis)) && size_of(axis) > 0) return;
         refuse(fmt::format("{} points along ({}, {}, {})", who, axis.x, axis.y, axis.z),
                "mend its node's transform");
     }
 
-    void check_positions() const {
+    /// Calls visit(mesh, triangle within it, corner, place) for each corner of a triangle.
+    template <class Visit>
+    void each_corner(const Visit& visit) const {
         for (const Mesh& mesh : scene_.meshes)
             for (std::uint32_t i = 0; i < mesh.triangle_count; ++i)
-                for (int k = 0; k < 3; ++k) {
-                    const glm::uvec3& corners = scene_.triangles[mesh.first_triangle + i];
-                    const glm::dvec3 place(scene_.positions[corners[k]]);
-                    if (size_of(place) <= limit_) continue;
-                    check_place(fmt::format("mesh \"{}\": vertex {} (corner {} of triangle {})",
-                                            mesh.name, corners[k] - first_vertex(mesh), k, i),
-                                place);
-                }
+                for (int k = 0; k < 3; ++k)
+                    visit(mesh, i, k, corner(scene_, mesh.first_triangle + i, k));
+    }
+
+    std::string name_of(const Mesh& mesh, std::uint32_t triangle, int k) const {
+        const std::uint32_t vertex = scene_.triangles[mesh.first_triangle + triangle][k];
+        return fmt::format("mesh \"{}\": vertex {} (corner {} of triangle {})", mesh.name,
+                           vertex - first_vertex(mesh), k, triangle);
+    }
+
+    void check_positions() const {
+        each_corner([&](const Mesh& mesh, std::uint32_t triangle, int k, const glm::dvec3& place) {
+            if (!(size_of(place) <= limit_)) check_place(name_of(mesh, triangle, k), place);
+        });
+    }
+
+    /// Once all is finite.
+    void check_spread() const {
+        std::vector<double> distances;
+        distances.reserve(3 * scene_.triangles.size());
+        each_corner([&](const Mesh&, std::uint32_t, int, const glm::dvec3& place) {
+            distances.push_back(size_of(place - scene_.camera.eye));
+        });
+        if (distances.empty()) return;
+        const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+        std::nth_element(distances.begin(), middle, distances.end());
+        const double limit = largest_spread * *middle;
+        if (limit == 0) return;
+        each_corner([&](const Mesh& mesh, std::uint32_t triangle, int k, const glm::dvec3& place) {
+            if (size_of(place - scene_.camera.eye) <= limit) return;
+            refuse(fmt::format("{} is at {}, more than {:.3g} times as far from the camera as "
+                               "half of all corners",
+                               name_of(mesh, triangle, k), words_of(place), largest_spread),
+                   "move it nearer");
+        });
     }
 
     std::uint32_t first_vertex(const Mesh& mesh) const {
@@ -111,6 +150,7 @@ private:
     void check_camera() const {
         const Camera& camera = scene_.camera;
         check_place("the camera", camera.eye);
+        check_smallest("the camera", "is at", camera.eye);
         for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
             check_axis("the camera", axis);
         // As floats hold them; depths between the planes then are floats, too.
@@ -168,8 +208,14 @@ private:
 
     void check_light(const Light& light) const {
         const std::string who = named("light", light.name);
-        if (light.kind != Light::Kind::directional) check_place(who, light.position);
-        if (light.kind != Light::Kind::point) check_axis(who, light.direction);
+        if (light.kind != Light::Kind::directional) {
+            check_place(who, light.position);
+            check_smallest(who, "is at", light.position);
+        }
+        if (light.kind != Light::Kind::point) {
+            check_axis(who, light.direction);
+            check_smallest(who, "points along", light.direction);
+        }
     }
 };
 

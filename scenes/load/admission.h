@@ -13,6 +13,16 @@ namespace shadowproof {
 /// arithmetic takes any finite double (reference/exact/exact.h).
 inline constexpr double largest_coordinate = 0x1p62;
 
+/// How many times as far from the eye as half of all corners a corner may be. At their distance a
+/// step of the grid to which rasterizers snap, 1/256 of a pixel in 512, is 2^-17; the judges'
+/// doubles are off by 2^-53 of the largest number. Further out they could not tell one pixel from
+/// the next.
+inline constexpr double largest_spread = 0x1p36;
+
+/// The smallest component of the eye, a light's place or its direction, 0 apart. Doubles hold
+/// products of three such.
+inline constexpr double smallest_number = 0x1p-340;
+
 /// Largest colour, intensity and scale of bumps.
 inline constexpr double largest_lighting_number = 0x1p30;
 

@@ -48,7 +48,38 @@ TEST(Admission, a_coordinate_that_is_not_finite_or_too_large_is_refused_by_mesh_
         expect_says(message, "square.gltf: ");
         expect_says(message, "mesh \"sail\": vertex 2");
     }
-    EXPECT_EQ(refusal_after([](Scene& s) { s.positions[2].y = 0x1p62F; }), "");
+    EXPECT_EQ(refusal_after([](Scene& s) {
+                  for (glm::vec3& position : s.positions) position *= 0x1p62F;
+              }),
+              "");
+}
+
+TEST(Admission, a_corner_that_doubles_cannot_hold_beside_the_others_is_refused_by_mesh_and_vertex) {
+    // Half of the corners are at most 4 from the eye.
+    const std::string message = refusal_after([](Scene& s) { s.positions[2].y = 0x1.000002p38F; });
+    expect_says(message, "mesh \"sail\": vertex 2");
+    expect_says(message, "6.87e+10 times as far from the camera");
+    EXPECT_EQ(refusal_after([](Scene& s) { s.positions[2].y = 0x1p38F; }), "");
+    // All of them there: the scene is as large.
+    EXPECT_EQ(refusal_after([](Scene& s) {
+                  for (glm::vec3& position : s.positions) position *= 0x1p45F;
+              }),
+              "");
+}
+
+TEST(Admission, eyes_and_lights_at_numbers_whose_products_vanish_are_refused) {
+    expect_says(refusal_after([](Scene& s) { s.camera.eye.x = 5e-324; }), "write 0");
+    expect_says(refusal_after([](Scene& s) { s.lights[0].position.x = -1e-110; }),
+                "the light \"lamp\" is at (-1e-110, 5, 5)");
+    EXPECT_EQ(refusal_after([](Scene& s) { s.lights[0].position.x = 0x1p-340; }), "");
+    const auto directional = [](double x) {
+        return refusal_after([&](Scene& s) {
+            s.lights[0] = {
+                .name = "sun", .kind = Light::Kind::directional, .direction = {x, -1, 0}};
+        });
+    };
+    expect_says(directional(5e-324), "the light \"sun\" points along (5e-324, -1, 0)");
+    EXPECT_EQ(directional(1e-17), "");
 }
 
 TEST(Admission, the_vertex_is_numbered_within_its_mesh) {
@@ -137,7 +168,7 @@ TEST(Admission, a_scale_that_would_lose_bits_is_left_and_one_stray_vertex_decide
               "");
     Scene scene = square_scene();
     scene.positions[0].z = 1e-20F;
-    scene.positions[2].z = 1e18F;
+    scene.positions[2].z = 1e11F;
     admit(scene);
     EXPECT_EQ(scene.unit, 1);
 }
