@@ -165,6 +165,29 @@ bool may_hold(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
     return !polygon.empty();
 }
 
+// Along the line of an edge, at t from its first corner (0) to its second (1), corners that are off
+// by r and s move the line by |1 - t| r + |t| s at most.
+bool certainly_holds(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
+                     double reach) {
+    if (polygon.size() < 3) return false;
+    int turn = 0; // which way round the corners run
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const PicturePoint& from = polygon[i];
+        const PicturePoint& to = polygon[(i + 1) % polygon.size()];
+        const glm::dvec2 along = to.place - from.place;
+        const double length = glm::length(along);
+        const glm::dvec2 way = place - from.place;
+        const double t = glm::dot(way, along) / (length * length);
+        const double moved = std::abs(1 - t) * from.place_error + std::abs(t) * to.place_error;
+        const double distance = (along.x * way.y - along.y * way.x) / length;
+        if (!(std::abs(distance) > moved + reach)) return false; // nor where it is no number
+        const int side = distance > 0 ? 1 : -1;
+        if (turn == -side) return false;
+        turn = side;
+    }
+    return true;
+}
+
 std::array<std::array<glm::dvec4, 3>, 4> triangles_of_side(const Scene& casters,
                                                            const std::vector<glm::vec3>* far_ends,
                                                            std::uint32_t triangle, int first) {

@@ -79,6 +79,11 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera,
 /// `reach` pixels aside, may hold a place of the picture.
 bool may_hold(const std::vector<PicturePoint>& polygon, const glm::dvec2& place, double reach);
 
+/// Whether a convex polygon holds a place, and a disc of `reach` around it, wherever its corners
+/// lie within their place_error.
+bool certainly_holds(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
+                     double reach);
+
 /// The triangles that may draw a side of a volume, over the edge from corner `first` of a triangle
 /// to the next. A side is two triangles; the order of positions decides which diagonal divides
 /// them. `far_ends`: where the casters' positions lie once extruded, null where that is at

@@ -14,14 +14,29 @@ double furthest_aside(const PicturePoint& from, const PicturePoint& to) {
     return std::max(from.place_error, to.place_error);
 }
 
+std::vector<PicturePoint> clipped_triangle(const Scene& scene, std::uint32_t triangle,
+                                           const Drawing& drawing) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    return clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawing);
+}
+
 } // namespace
+
+// Corners that no clipping made are off by less than the reach: what those displace, the pixel's
+// neighbourhood shows.
+bool may_be_displaced(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const std::vector<PicturePoint> polygon = clipped_triangle(scene, triangle, pixel.drawing);
+    const bool is_coarse = std::ranges::any_of(polygon, [&](const PicturePoint& corner) {
+        return corner.made_by_clipping && !(corner.place_error <= pixel.reach);
+    });
+    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    return is_coarse && !certainly_holds(polygon, place, pixel.reach);
+}
 
 CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
                                const std::vector<glm::vec3>* far_ends, const Drawing& drawing) {
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-        add(clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawing));
-    }
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
+        add(clipped_triangle(scene, triangle, drawing));
     // The diagonal between a side's two triangles is no outline, but both triangles are clipped.
     for (const Silhouette::Side& side : silhouette.sides())
         if (side.triangle != no_triangle)

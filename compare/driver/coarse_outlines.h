@@ -3,14 +3,20 @@
 #pragma once
 
 #include "compare/driver/clipped_polygon.h"
+#include "compare/driver/setup_error.h"
 #include "reference/predict/region_ledger.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 namespace shadowproof {
+
+/// Whether the clipper's float errors may displace a triangle off a pixel that it covers, so that
+/// what lies behind it is seen there.
+bool may_be_displaced(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
 class CoarseOutlines {
 public:

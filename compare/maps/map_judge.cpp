@@ -1,3 +1,4 @@
+#include "compare/driver/coarse_outlines.h"
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/setup_error.h"
 #include "compare/judge/judge.h"
@@ -310,8 +311,12 @@ private:
             return std::any_of(truth.begin(), truth.end(),
                                [&](const RayTruth& t) { return t.triangle == triangle; });
         };
-        if (drawn == no_triangle)
-            return claim == Visibility::background && (seen(no_triangle) || gapes(around, truth));
+        if (drawn == no_triangle) {
+            if (claim != Visibility::background) return false;
+            if (seen(no_triangle) || gapes(around, truth)) return true;
+            cause = {Cause::precision, {}};
+            return are_displaced(p, around, truth);
+        }
         const Scene& scene = claim_.traced.scene();
         if (claim == Visibility::background ||
             (!seen(drawn) && !may_cover(scene, drawn, around.rays.front(), spread(around))))
@@ -323,6 +328,17 @@ private:
         if (!cone.inside) return false;
         if (receives_[drawn] == 0) return claim == Visibility::lit;
         return map_may_answer(p, drawn, claim, cause);
+    }
+
+    /// Whether the clipper's errors may displace all that the pixel's surroundings see.
+    bool are_displaced(PixelPlace p, const Neighbourhood& around,
+                       std::span<const RayTruth> truth) const {
+        const Scene& scene = claim_.traced.scene();
+        const CoveredPixel pixel{
+            direction_at(p), around.reach,
+            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
+        return std::ranges::all_of(
+            truth, [&](const RayTruth& t) { return may_be_displaced(scene, t.triangle, pixel); });
     }
 
     bool gapes(const Neighbourhood& around, std::span<const RayTruth> truth) const {

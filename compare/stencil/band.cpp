@@ -1,5 +1,6 @@
 #include "compare/stencil/band.h"
 
+#include "compare/driver/coarse_outlines.h"
 #include "compare/driver/error_bounds.h"
 #include "compare/stencil/face_depths.h"
 #include "reference/predict/tally.h"
@@ -53,6 +54,8 @@ public:
         // What is hidden behind the first one closes a gap as well.
         may_gape_ = may_gape(scene_, in_front, around.rays) &&
                     may_gape(scene_, all_in_front(), around.rays);
+        may_be_seen_ = may_gape_ || (!in_front.empty() && are_displaced(in_front) &&
+                                     are_displaced(all_in_front()));
         starts_ = starts();
     }
 
@@ -66,6 +69,11 @@ public:
         shown_range_.nominal = *depth;
         in_cone_ = truth.in_cone;
         const std::int64_t ideal = ideal_depth(direction);
+        // The light reaches the point, exactly: no light-facing triangle lies between both. Where
+        // the crossings' doubles have one there, it is as near the surface as doubles can tell.
+        const bool misordered =
+            truth.triangle == shown_ && truth.visibility == Visibility::lit && ideal != 0;
+        moved = moved || misordered;
         volumes_.counted.crossings(direction, crossings_);
         for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);
         sort_out(readings);
@@ -173,6 +181,7 @@ private:
     DepthRange shown_range_;
     bool may_cover_ = false;           ///< what is shown may cover the pixel's centre
     bool may_gape_ = false;            ///< what is in front of it may let it be seen through a gap
+    bool may_be_seen_ = false;         ///< that, or all of it may be drawn elsewhere
     std::vector<std::int32_t> starts_; ///< what the counter may hold before the first face
     bool in_cone_ = true;              ///< as Reading::in_cone, of the sample at hand
     std::vector<Crossing> crossings_;  ///< of the sample at hand
@@ -180,6 +189,14 @@ private:
 
     bool certainly_in_front(std::uint32_t triangle) const {
         return depths_.surface(triangle).upper < shown_range_.lower;
+    }
+
+    /// Whether the clipper's errors may displace each of them off the pixel.
+    bool are_displaced(const std::vector<std::uint32_t>& triangles) const {
+        const CoveredPixel pixel = depths_.covered_pixel();
+        return std::ranges::all_of(triangles, [&](std::uint32_t triangle) {
+            return may_be_displaced(scene_, triangle, pixel);
+        });
     }
 
     /// All triangles that are drawn on some ray and are certainly in front of what is shown.
@@ -206,7 +223,7 @@ private:
         const double depth = shown_ == no_triangle ? depths_.background().nominal
                                                    : plane_depth(scene_, shown_, direction);
         if (truth.triangle == no_triangle) return depth;
-        if (!may_gape_ && certainly_in_front(truth.triangle)) return std::nullopt;
+        if (!may_be_seen_ && certainly_in_front(truth.triangle)) return std::nullopt;
         moved = truth.depth < depth;
         return depth;
     }

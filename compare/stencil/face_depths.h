@@ -56,6 +56,9 @@ public:
     /// any depth.
     double clip_depth(double depth, int move) const;
 
+    /// The pixel, as bounds of its faces' errors take it.
+    CoveredPixel covered_pixel() const;
+
 private:
     const Scene& scene_;
     DrawnVolumes volumes_;
@@ -66,7 +69,6 @@ private:
     mutable std::unordered_map<std::uint32_t, double> setup_of_side_;
     mutable std::unordered_map<std::uint32_t, double> setup_of_triangle_;
 
-    CoveredPixel covered_pixel() const;
     double plane_error(const Crossing& side) const;
     double plane_error(std::uint32_t triangle) const;
 };
