@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <numbers>
 
 namespace shadowproof {
 
@@ -181,6 +182,33 @@ std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
 
 double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     return largest_error(scene.camera, set_up(scene, triangle, pixel), pixel);
+}
+
+// Twice the area changes by an edge's length times the move of the corner across from it, and by
+// products of two moves.
+bool may_turn_over(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    const std::vector<PicturePoint> polygon =
+        clipped_polygon(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
+    if (!may_hold(polygon, project(scene.camera, scene.camera.eye + pixel.direction),
+                  std::numbers::sqrt2 * pixel.reach))
+        return false;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const std::array<PicturePoint, 3> part{polygon[0], polygon[i - 1], polygon[i]};
+        const double area = cross(part[1].place - part[0].place, part[2].place - part[0].place);
+        double change = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const PicturePoint& one = part[(k + 1) % 3];
+            const PicturePoint& other = part[(k + 2) % 3];
+            const auto move = [&](const PicturePoint& corner) {
+                return std::numbers::sqrt2 * (corner.place_error + pixel.reach);
+            };
+            change +=
+                move(part[k]) * glm::length(other.place - one.place) + move(one) * move(other);
+        }
+        if (!(std::abs(area) > change)) return true; // or no number
+    }
+    return false;
 }
 
 // It grows to all sides as sizes of linear functions do, so that no pixel has more than the corners

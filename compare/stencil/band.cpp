@@ -80,11 +80,10 @@ public:
         // In its plane the faces of a flat volume may come in any order, with the surface among
         // them: each one that is entered is left again, and in between the count is one more or
         // less.
-        move_counts(std::ranges::count_if(volumes_.flat,
-                                          [&](const FlatVolume& flat) {
-                                              return may_lie_in(flat, direction, *depth);
-                                          }),
-                    readings);
+        const std::int64_t most = std::ranges::count_if(volumes_.flat, [&](const FlatVolume& flat) {
+            return may_lie_in(flat, direction, *depth);
+        });
+        move_counts(-most, most, readings);
     }
 
     /// Rays through all parts into which the outlines of volumes divide the neighbourhood.
@@ -101,7 +100,27 @@ public:
     /// these, but snapping may turn them into slivers that face either way.
     void add_edge_on_sides(std::vector<Reading>& readings) const {
         sort_out(readings);
-        move_counts(volumes_.counted.edge_on_sides(around_.corners), readings);
+        const std::int64_t most = volumes_.counted.edge_on_sides(around_.corners);
+        move_counts(-most, most, readings);
+    }
+
+    /// Appends the readings of all samples with light caps that snapping may turn over. Their
+    /// surfaces are then culled, so that such a cap, which is left instead of entered, may come out
+    /// in front of what is shown; its neighbours' caps reach over it, behind what is shown.
+    void add_turned_caps(std::vector<Reading>& readings) const {
+        const CoveredPixel pixel = depths_.covered_pixel();
+        std::int64_t turned = 0;
+        for (const std::uint32_t triangle : volumes_.counted.light_caps()) {
+            if (triangle >= scene_.triangles.size() || triangle == shown_ ||
+                !frame_.counted->counting.caster(triangle).light_cap ||
+                scene_.materials[scene_.meshes[mesh_of(scene_, triangle)].material].double_sided)
+                continue;
+            if (may_turn_over(scene_, triangle, pixel) &&
+                depths_.surface(triangle).lower <= shown_range_.upper)
+                ++turned;
+        }
+        sort_out(readings);
+        move_counts(-turned, 0, readings);
     }
 
     /// Appends what a counter that stops at its limits may read if each face is as in one of the
@@ -333,10 +352,10 @@ private:
         return dark_caps_at_infinity(frame_.counted->counting, volumes_.counted_at_eye, crossings_);
     }
 
-    /// Appends the readings with up to `most` faces more or fewer.
-    void move_counts(std::int64_t most, std::vector<Reading>& readings) const {
+    /// Appends the readings with more or fewer faces in front of the surface.
+    void move_counts(std::int64_t least, std::int64_t most, std::vector<Reading>& readings) const {
         const std::size_t unmoved = readings.size();
-        for (std::int64_t by = -most; by <= most; ++by)
+        for (std::int64_t by = least; by <= most; ++by)
             for (std::size_t i = 0; by != 0 && i < unmoved; ++i) {
                 Reading moved = readings[i];
                 moved.count = stepped(moved.count, by, frame_.counted->counting);
@@ -478,6 +497,7 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
         finder.collect_mixed(truth, band.readings);
     if (!found && may_mix) finder.collect_in_gap(truth, band.readings);
     if (!found && may_mix) finder.add_edge_on_sides(band.readings);
+    if (!found && may_mix) finder.add_turned_caps(band.readings);
     sort_out(band.readings);
     return band;
 }

@@ -368,6 +368,12 @@ int RegionLedger::edge_on_sides(const std::array<glm::dvec3, 4>& corners) const 
     return edge_on;
 }
 
+std::vector<std::uint32_t> RegionLedger::light_caps() const {
+    std::vector<std::uint32_t> triangles;
+    for (const Cap& cap : caps_) triangles.push_back(cap.triangle);
+    return triangles;
+}
+
 void RegionLedger::cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found) {
     ends_->crossings(direction, found_at_ends_);
     for (Crossing& crossing : found_at_ends_) {

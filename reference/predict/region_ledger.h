@@ -81,6 +81,9 @@ public:
     /// edges and the vanishing line of their planes pass through it.
     int edge_on_sides(const std::array<glm::dvec3, 4>& corners) const;
 
+    /// Triangles whose light caps some ray of the region may meet.
+    std::vector<std::uint32_t> light_caps() const;
+
 private:
     struct Cap {
         std::uint32_t triangle = no_triangle;
