@@ -4,6 +4,7 @@
 #include "compare/driver/error_bounds.h"
 #include "compare/stencil/face_depths.h"
 #include "reference/predict/tally.h"
+#include "reference/trace/faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -242,6 +243,11 @@ private:
         const double depth = shown_ == no_triangle ? depths_.background().nominal
                                                    : plane_depth(scene_, shown_, direction);
         if (truth.triangle == no_triangle) return depth;
+        // Without area it has no plane; its line passes the pixel where the sample's surface is.
+        if (shown_ != no_triangle && std::isnan(depth_on_triangle(scene_, shown_, direction))) {
+            moved = true;
+            return truth.depth;
+        }
         if (!may_be_seen_ && certainly_in_front(truth.triangle)) return std::nullopt;
         moved = truth.depth < depth;
         return depth;

@@ -36,6 +36,10 @@ DepthRange FaceDepths::background() const {
 DepthRange FaceDepths::surface(std::uint32_t triangle) const {
     DepthRange range{0, infinity, 0};
     const double setup = plane_error(triangle);
+    // Seen edge-on, or without area: any depth may come out.
+    if (!std::isfinite(setup) ||
+        std::isnan(depth_on_triangle(scene_, triangle, around_.rays.front())))
+        return {0, -infinity, infinity};
     for (const glm::dvec3& direction : around_.corners) {
         const double t = plane_depth(scene_, triangle, direction);
         const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
