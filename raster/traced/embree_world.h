@@ -1,5 +1,8 @@
 // A scene in Embree, as anybody would set it up: its triangles with the float vertices that go to
-// OpenGL, default build and traversal, sixteen rays at a time.
+// OpenGL, default build and traversal, sixteen rays at a time. One setting is not the default: of
+// the processor's instruction sets it uses SSE2 alone, so that each machine claims the same. Tests
+// choose another by the environment variable SHADOWPROOF_TEST_TRACED_INSTRUCTION_SET (sse2, sse4.2,
+// avx, avx2, avx512), to see that the judge's bounds hold whatever Embree computes with.
 #pragma once
 
 #include "scenes/scene.h"

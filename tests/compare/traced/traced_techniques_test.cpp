@@ -2,10 +2,13 @@
 // their rays, each of which must be caught.
 #include "compare/verdict.h"
 #include "raster/traced/shadow_rays.h"
+#include "scenes/error.h"
 #include "tests/compare/traced_bundled.h"
 #include "tests/raster/small_scenes.h"
 
 #include <gtest/gtest.h>
+
+#include <cstdlib>
 
 namespace shadowproof {
 namespace {
@@ -63,6 +66,25 @@ TEST_F(Traced, without_an_epsilon_there_is_acne_and_no_leak) {
 
 TEST_F(Traced, rays_slip_through_between_slivers) {
     EXPECT_GT(pixels_of(with_epsilon("slivers", 1e-3), Cause::missed), 0U);
+}
+
+/// Whatever Embree computes with: where it fuses products with sums, other rays slip through.
+TEST_F(Traced, the_bounds_hold_on_every_instruction_set) {
+    constexpr const char* variable = "SHADOWPROOF_TEST_TRACED_INSTRUCTION_SET";
+    const TracedScene& scene = traced_bundled("slivers");
+    for (const char* set : {"sse2", "sse4.2", "avx", "avx2", "avx512"}) {
+        SCOPED_TRACE(set);
+        setenv(variable, set, 1);
+        try {
+            explained(scene, epsilon_recipe(scene.scene, scene.plan));
+            explained(scene, skip_recipe());
+        } catch (const Error& error) {
+            EXPECT_STRNE(set, "sse2") << error.what(); // the processor lacks another
+        }
+    }
+    setenv(variable, "mmx", 1);
+    EXPECT_THROW(explained(scene, skip_recipe()), Error);
+    unsetenv(variable);
 }
 
 /// The same picture in metres and in millimetres: the constants must change with the unit.
