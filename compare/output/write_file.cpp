@@ -187,6 +187,14 @@ void write_file(const fs::path& file, std::string_view bytes) {
     }
 }
 
+bool is_replaced(const fs::path& file) {
+    try {
+        return !is_written_into(destination_of(file));
+    } catch (const std::system_error& error) {
+        throw unwritable(file, error.code().value());
+    }
+}
+
 void check_writable(const fs::path& file) {
     try {
         const Destination to = destination_of(file);

@@ -21,6 +21,11 @@ void write_file(const std::filesystem::path& file, std::string_view bytes);
 /// Changes nothing.
 void check_writable(const std::filesystem::path& file);
 
+/// Whether write_file puts a new file under this name, so that a second one replaces the first;
+/// false where it writes into what is there (a device, a pipe, /dev/stdout). Throws Error naming it
+/// where it could not be written.
+bool is_replaced(const std::filesystem::path& file);
+
 /// Appends to a file to which others append as well, and creates it if there is none. Throws Error
 /// naming it.
 void append_to_file(const std::filesystem::path& file, std::string_view bytes);

@@ -16,6 +16,11 @@ const verify = (...args) => [program, 'verify', ...small, ...args];
 const height = join(scratch, 'height.png');
 writeFileSync(height, grayPng(16, 16, (x, y) => ((x * x + 7 * y) * 257) % 65536));
 
+const bench = (...args) => [program, 'bench', ...small, '--quick', '--repeats', '1', '--no-pictures',
+                            '--out', 'r', '-q', ...args];
+const shard = join(scratch, 'shard');
+assert.equal(run(verify('--out', shard)).code, 0);
+
 /** Every command that writes one file, with where to; each exits with 0. */
 const writers = {
   json: (file) => verify('--out', 'r', '--json', file),
@@ -24,7 +29,22 @@ const writers = {
                       '--technique', 'zpass', '--json', file],
   svg: (file) => [program, 'explain', 'near_plane', '--pixel', '3,3', '--size', '16x16',
                   '--technique', 'zpass', '--svg', file],
+  merge: (file) => [program, 'merge', shard, '--out', 'r', '--json', file],
+  bench: (file) => bench('--json', file),
+  csv: (file) => bench('--csv', file),
+  // A parameter that this scene has not: no point is judged, which would take seconds.
+  stress: (file) => [program, 'stress', ...small, '--parameter', 'denormal', '--no-pictures',
+                     '--out', 'r', '-q', '--json', file],
 };
+
+/** Exactly one document of JSON, XML or CSV. */
+function assertOneDocument(text, where) {
+  if (text.startsWith('{')) return JSON.parse(text);
+  const [first] = text.split('\n'); // a heading, or the tag of the root
+  assert.ok(first.length > 20, first);
+  assert.equal(text.split(first).length, 2, where);
+}
+
 const pictures = {
   png: [program, 'render', 'near_plane', '--size', '16x16', '-o', 'picture.png'],
   exr: [program, 'render', 'near_plane', '--size', '16x16', '-o', 'picture.exr'],
@@ -153,13 +173,18 @@ for (const [name, command] of Object.entries(writers))
     assert.equal(run(command('link'), { cwd: below }).code, 0);
     assert.ok(lstatSync(join(below, 'link')).isSymbolicLink());
     assert.equal(statSync(join(below, 'target')).mode & 0o777, 0o640);
-    const expected = readFileSync(join(below, 'target'), 'utf8');
-    assert.match(expected, /^[{<]/);
+    assertOneDocument(readFileSync(join(below, 'target'), 'utf8'), 'link');
     const words = command('pipe').map((word) => `'${word}'`).join(' ');
     const piped = run(['sh', '-c', `cat pipe > piped & ${words} && wait`], { cwd: below });
     assert.equal(piped.code, 0, piped.err);
     assert.ok(lstatSync(join(below, 'pipe')).isFIFO());
-    assert.match(readFileSync(join(below, 'piped'), 'utf8'), /^[{<]/);
+    assertOneDocument(readFileSync(join(below, 'piped'), 'utf8'), 'pipe');
+    const opened = run(['sh', '-c', `${command('/dev/fd/3').map((word) => `'${word}'`).join(' ')} 3>opened`],
+                       { cwd: below });
+    assert.equal(opened.code, 0, opened.err);
+    assertOneDocument(readFileSync(join(below, 'opened'), 'utf8'), 'descriptor');
+    // Nothing can be made there, by root either.
+    assertRefused(run(command('/proc/sys/file'), { cwd: below }), 'a read-only place');
   });
 
 for (const [name, command] of Object.entries(pictures))

@@ -12,6 +12,9 @@
 
 namespace shadowproof {
 
+BenchKeeper::BenchKeeper(const std::string& file)
+    : file_(!file.empty() && is_replaced(file) ? file : std::string()) {}
+
 void BenchKeeper::keep(const BenchRun& run) {
     constexpr double pause = 3000; // milliseconds; writing a file to disk may take some of them
     if (file_.empty() || (since_ && since_->milliseconds() < pause)) return;

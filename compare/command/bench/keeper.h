@@ -12,14 +12,16 @@ namespace shadowproof {
 
 class BenchKeeper {
 public:
-    /// `file` is empty where nothing is kept.
-    explicit BenchKeeper(std::string file) : file_(std::move(file)) {}
+    /// Nothing is kept where `file` is empty, or is written into (a device, a pipe, /dev/stdout):
+    /// all that is kept would stay there, before the finished run. Throws Error naming a file that
+    /// could not be written.
+    explicit BenchKeeper(const std::string& file);
 
-    /// Writes the file, whole, at most every few seconds. Points without samples are left out.
+    /// Replaces the file, whole, at most every few seconds. Points without samples are left out.
     void keep(const BenchRun& run);
 
 private:
-    std::string file_;
+    std::string file_; ///< empty: nothing is kept
     std::optional<Stopwatch> since_;
 };
 
