@@ -25,7 +25,7 @@ install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shad
 # Where the README and they themselves link to them.
 install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/check.md docs/ci.md docs/claims.md docs/families.md
-    docs/how-it-decides.md docs/lighting.md docs/reliability.md
+    docs/house.md docs/how-it-decides.md docs/lighting.md docs/reliability.md
     docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)

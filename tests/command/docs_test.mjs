@@ -49,8 +49,14 @@ test('the table of bundled scenes has each of them, once', () => {
                    scenes.map(({ name }) => name).sort());
 });
 
-test("the folders of the README's map are there", () => {
-  const folders = namesIn('README.md', 'folder');
+test('the README is read in two minutes', () => {
+  const words = textOf('README.md').replace(/\]\([^)]*\)/g, ']').split(/\s+/)
+    .filter((word) => /[a-z0-9]/i.test(word));
+  assert.ok(words.length <= 550, `${words.length} words`);
+});
+
+test('the folders on the page of the house are there', () => {
+  const folders = namesIn('docs/house.md', 'folder');
   assert.ok(folders.length > 20);
   for (const folder of folders) assert.ok(existsSync(join(root, folder)), folder);
 });
