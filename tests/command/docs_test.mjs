@@ -14,7 +14,7 @@ const pages = ['README.md', ...readdirSync(join(root, 'docs')).filter((file) => 
 
 /** The rows of the table whose first column has that title, cell by cell. */
 const tableOf = (file, title) =>
-  textOf(file).match(new RegExp(`^\\| ${title} \\|[^]*?\n\n`, 'm'))[0].trim().split('\n')
+  `${textOf(file)}\n\n`.match(new RegExp(`^\\| ${title} \\|[^]*?\n\n`, 'm'))[0].trim().split('\n')
     .map((line) => line.split('|').slice(1, -1).map((words) => words.trim()));
 
 /** The names in backquotes in a table's first column. */
