@@ -156,6 +156,7 @@ Json bench_json(const BenchRun& run) {
         if (!out.technique.empty()) left["technique"] = out.technique;
         if (!out.settings.empty()) left["settings"] = settings_json(out.settings);
         left["why"] = out.why;
+        if (out.loss != Loss::none) left["loss"] = name_of(out.loss);
         json["left_out"].push_back(left);
     }
     for (const Growth& growth : run.growth) json["scaling"].push_back(growth_json(growth));
@@ -184,7 +185,8 @@ BenchRun bench_of_json(const Json& json) {
     for (const Json& point : json.at("points")) run.points.push_back(point_of(point));
     for (const Json& out : json.at("left_out"))
         run.left_out.push_back({out.at("scene"), out.value("technique", ""),
-                                settings_of(out.value("settings", Json::object())), out.at("why")});
+                                settings_of(out.value("settings", Json::object())), out.at("why"),
+                                loss_of(out.value("loss", ""))});
     for (const Json& growth : json.at("scaling")) run.growth.push_back(growth_of(growth));
     return run;
 }

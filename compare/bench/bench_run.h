@@ -3,6 +3,7 @@
 
 #include "compare/bench/growth.h"
 #include "compare/bench/interval.h"
+#include "compare/loss.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
@@ -78,6 +79,7 @@ struct BenchLeftOut {
     std::string technique{}; ///< empty: the scene as a whole
     BenchSettings settings{};
     std::string why{};
+    Loss loss = Loss::none; ///< if not none, it was tried, and the run fails
 };
 
 /// The machine that measured.

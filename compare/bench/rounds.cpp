@@ -11,16 +11,20 @@ bool is_done(const std::vector<double>& samples, const RoundLimits& limits) {
 void measure_in_rounds(std::vector<std::vector<double>>& samples, const RoundLimits& limits,
                        const RoundCalls& calls) {
     const double start = calls.seconds();
+    std::vector<bool> lost(samples.size());
     const auto has_time = [&] { return calls.seconds() - start < limits.seconds; };
     for (bool backwards = false, measured = true; measured; backwards = !backwards) {
         measured = false;
         for (std::size_t k = 0; k < samples.size(); ++k) {
             const std::size_t point = backwards ? samples.size() - 1 - k : k;
-            if (is_done(samples[point], limits)) continue;
+            if (lost[point] || is_done(samples[point], limits)) continue;
             if (!samples[point].empty() && !has_time()) continue;
             calls.before(point);
-            samples[point].push_back(calls.measure(point));
             measured = true;
+            if (const std::optional<double> sample = calls.measure(point))
+                samples[point].push_back(*sample);
+            else
+                lost[point] = true;
         }
         if (measured) calls.after_round();
     }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace shadowproof {
@@ -15,9 +16,10 @@ struct RoundLimits {
 
 /// What the rounds call. The clock is given, so that tests need none.
 struct RoundCalls {
-    std::function<double(std::size_t)> measure; ///< one more sample of a point, milliseconds
-    std::function<double()> seconds;            ///< a steady clock
-    std::function<void(std::size_t)> before;    ///< a point is about to be measured
+    /// One more sample of a point, milliseconds; none where it cannot be measured any more.
+    std::function<std::optional<double>(std::size_t)> measure;
+    std::function<double()> seconds;         ///< a steady clock
+    std::function<void(std::size_t)> before; ///< a point is about to be measured
     std::function<void()> after_round;
 };
 

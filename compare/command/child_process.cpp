@@ -5,23 +5,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -109,21 +105,6 @@ ChildProcess::~ChildProcess() {
         wait();
     }
     close(pipe_);
-}
-
-bool ChildProcess::ends_within(double seconds) const {
-    using Clock = std::chrono::steady_clock;
-    const auto until =
-        Clock::now() + std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(seconds));
-    while (true) {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-        // poll() takes an int: a long wait is split.
-        const auto wait =
-            std::clamp<std::int64_t>(left.count(), 0, std::numeric_limits<int>::max());
-        pollfd pipe{.fd = pipe_, .events = POLLIN, .revents = 0};
-        if (poll(&pipe, 1, static_cast<int>(wait)) > 0) return true;
-        if (Clock::now() >= until) return false;
-    }
 }
 
 void ChildProcess::kill() {

@@ -33,9 +33,6 @@ public:
 
     /// The reading end of the pipe; at end of file when the child has ended.
     int pipe() const { return pipe_; }
-    /// Whether it ends within `seconds`; waits no longer. Only for a child that writes nothing into
-    /// its pipe.
-    bool ends_within(double seconds) const;
     void kill();
     ChildEnd wait();
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <climits>
 #include <cstdlib>
 #include <string_view>
 
@@ -33,6 +34,13 @@ std::string colored(std::string_view text, std::string_view parameters) {
     return fmt::format("\x1b[{}m{}\x1b[0m", parameters, text);
 }
 
+/// A line into the watcher's pipe, in one call, so that those of several processes do not mix.
+/// Where the watcher is gone, this process is about to end.
+void tell(int watcher, const std::string& text) {
+    const std::string line = text.substr(0, PIPE_BUF - 1) + "\n";
+    [[maybe_unused]] const ssize_t written = write(watcher, line.data(), line.size());
+}
+
 /// GitHub's runner takes a line for a command that begins with "::" after any spaces, or holds
 /// "##[" anywhere; text from a file may do neither.
 std::string without_commands(std::string text) {
@@ -46,7 +54,8 @@ std::string without_commands(std::string text) {
 
 } // namespace
 
-Console::Console(bool quiet) : quiet_(quiet), terminal_(isatty(STDOUT_FILENO) == 1) {
+Console::Console(bool quiet, int watcher)
+    : quiet_(quiet), watcher_(watcher), terminal_(isatty(STDOUT_FILENO) == 1) {
     const char* no_color = std::getenv("NO_COLOR");
     const char* term = std::getenv("TERM");
     const bool dumb = term == nullptr || std::string_view(term) == "dumb";
@@ -69,10 +78,18 @@ void Console::clear_progress() {
     shadowproof::print("\r\x1b[K");
 }
 
-void Console::progress(const std::string& text) {
-    if (quiet_ || !terminal_) return;
+void Console::take_over() {
+    if (terminal_ && !quiet_) progress_shown_ = true;
     clear_progress();
-    shadowproof::print(printable(text));
+}
+
+void Console::progress(const std::string& text) {
+    if (quiet_ || muted_) return;
+    const std::string shown = printable(text);
+    if (watcher_ >= 0) tell(watcher_, shown);
+    if (!terminal_) return;
+    clear_progress();
+    shadowproof::print(shown);
     progress_shown_ = true;
 }
 
@@ -104,11 +121,13 @@ void Console::always(const std::string& text) {
 }
 
 void Console::commands(const std::string& lines) {
+    if (muted_) return;
     clear_progress();
     shadowproof::print(lines);
 }
 
 void Console::print(const std::string& text) {
+    if (muted_) return;
     clear_progress();
     // Each line is flushed also into a pipe, as a person may follow the build.
     shadowproof::print((on_github_ ? without_commands(text) : text) + "\n");

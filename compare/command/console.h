@@ -12,7 +12,8 @@ namespace shadowproof {
 class Console {
 public:
     /// Checks whether stdout is a terminal, and the variables NO_COLOR (no-color.org) and TERM.
-    explicit Console(bool quiet);
+    /// `watcher`: the pipe to the process that says what takes long (guard.h); -1: there is none.
+    explicit Console(bool quiet, int watcher = -1);
     ~Console();
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
@@ -21,6 +22,10 @@ public:
     void progress(const std::string& text);
     /// Clears the progress line.
     void clear_progress();
+    /// The progress line of another process, which has ended, is cleared.
+    void take_over();
+    /// While muted, nothing is printed: an earlier process said it all.
+    void mute(bool muted) { muted_ = muted; }
     /// A line of results; not printed where quiet.
     void line(const std::string& text);
     /// A heading, bold if colours are on.
@@ -38,6 +43,8 @@ private:
     void print(const std::string& text);
 
     bool quiet_ = false;
+    bool muted_ = false;
+    int watcher_ = -1;
     bool on_github_ = false;
     bool terminal_ = false;
     bool color_ = false;

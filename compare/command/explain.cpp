@@ -1,6 +1,7 @@
 #include "compare/blank.h"
 #include "compare/classify.h"
 #include "compare/command/commands.h"
+#include "compare/command/console.h"
 #include "compare/command/drawing.h"
 #include "compare/command/guard.h"
 #include "compare/command/output_files.h"
@@ -267,13 +268,15 @@ std::string outside(const PixelPosition& pixel, int width, int height) {
                        width - 1, height - 1);
 }
 
-int explain(const ExplainOptions& options) {
+int explain(const ExplainOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     for (const std::string& file : {options.json, options.svg})
         if (!file.empty()) check_writable(file);
     check_apart(std::array{options.json, options.svg}, std::array{options.scene});
     const MemoryBudget& memory = options.picture.memory;
     require_picture(memory, options.picture.size.width, options.picture.size.height,
                     Workload::comparison);
+    console.progress(options.scene + ": reading");
     const Scene scene = load_scene(options.scene, options.picture.request());
     if (options.pixel.x >= scene.camera.width || options.pixel.y >= scene.camera.height)
         throw Error("--pixel", outside(options.pixel, scene.camera.width, scene.camera.height),
@@ -282,6 +285,7 @@ int explain(const ExplainOptions& options) {
     require_map(memory, options.technique.asked.map);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
+    console.progress(options.scene + ": tracing");
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
     const TracedScene traced(tracer, truth);
@@ -290,8 +294,10 @@ int explain(const ExplainOptions& options) {
     std::vector<TechniqueAtPixel> techniques;
     for (const Technique* technique : options.technique.chosen()) {
         if (options.technique.techniques.empty() && !suits(*technique, scene)) continue;
+        console.progress(fmt::format("{}: {}", options.scene, technique->name));
         techniques.push_back(ask(*technique, record, traced, plan, gpu));
     }
+    console.clear_progress();
     const Scene told = in_file_units(scene);
     const PixelRecord told_record = in_units(record, scene.unit);
     if (!options.quiet) print(as_text(told, told_record, techniques));
@@ -345,7 +351,8 @@ Work add_explain(CLI::App& app) {
     command->add_flag("-q,--quiet", options->quiet, "No output but errors, and the files");
     command->final_callback([options] { check_inside(*options); });
     return [options] {
-        return guarded_within(options->timeout, options->scene, [&] { return explain(*options); });
+        return guarded_within(options->timeout, options->scene,
+                              [&](int watcher) { return explain(*options, watcher); });
     };
 }
 

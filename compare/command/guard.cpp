@@ -1,6 +1,7 @@
 #include "compare/command/guard.h"
 
 #include "compare/command/child_process.h"
+#include "compare/command/console.h"
 #include "compare/command/standard_output.h"
 #include "compare/memory.h"
 #include "compare/output/unfinished.h"
@@ -8,9 +9,19 @@
 #include "scenes/error.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
 #include <exception>
+#include <limits>
 #include <new>
+#include <optional>
+#include <string_view>
 
 namespace shadowproof {
 
@@ -24,6 +35,81 @@ void remove_leftovers(const std::string& report) {
         // Another run writes there by now, or the place is gone: there is nothing to report.
     }
 }
+
+using Clock = std::chrono::steady_clock;
+
+Clock::duration seconds_long(double seconds) {
+    return std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+/// Seconds without a word after which a line says what is being done. Tests have less time.
+double longest_silence() {
+    const char* text = std::getenv("SHADOWPROOF_SILENCE");
+    constexpr double minute = 60;
+    return text != nullptr ? parse_number(text).value_or(minute) : minute;
+}
+
+/// What a child says that it is doing, a line each (Console::progress), and since when.
+class Watch {
+public:
+    explicit Watch(int pipe) : pipe_(pipe) {}
+
+    /// Returns true when the child has ended, and false at `until`, if that comes first.
+    bool follow(std::optional<Clock::time_point> until) {
+        while (true) {
+            Clock::time_point next = heard_at_ + speaks_after_;
+            if (until) next = std::min(next, *until);
+            if (is_readable(next) && !read_some()) return true;
+            if (until && Clock::now() >= *until) return false;
+            if (Clock::now() >= heard_at_ + speaks_after_) speak_up();
+        }
+    }
+
+private:
+    int pipe_;
+    std::string unfinished_{}; ///< the beginning of a line
+    std::string doing_{};      ///< empty: it has not said anything
+    Clock::time_point heard_at_ = Clock::now();
+    const Clock::duration silence_ = seconds_long(longest_silence());
+    Clock::duration speaks_after_ = silence_;
+
+    bool is_readable(Clock::time_point until) const {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+        // poll() takes an int: a long wait is split.
+        const auto wait =
+            std::clamp<std::int64_t>(left.count(), 0, std::numeric_limits<int>::max());
+        pollfd pipe{.fd = pipe_, .events = POLLIN, .revents = 0};
+        return poll(&pipe, 1, static_cast<int>(wait)) > 0;
+    }
+
+    /// False at the end.
+    bool read_some() {
+        std::array<char, 4096> bytes{};
+        const ssize_t got = read(pipe_, bytes.data(), bytes.size());
+        if (got < 0) return errno == EINTR;
+        if (got == 0) return false;
+        unfinished_.append(bytes.data(), static_cast<std::size_t>(got));
+        const std::size_t end = unfinished_.rfind('\n');
+        if (end == std::string::npos) return true;
+        const std::string_view whole = std::string_view(unfinished_).substr(0, end);
+        const std::size_t before = whole.rfind('\n');
+        doing_ = whole.substr(before == std::string_view::npos ? 0 : before + 1);
+        unfinished_.erase(0, end + 1);
+        heard_at_ = Clock::now();
+        speaks_after_ = silence_;
+        return true;
+    }
+
+    void speak_up() {
+        const auto taken =
+            std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - heard_at_).count();
+        speaks_after_ *= 2;
+        if (doing_.empty()) return;
+        Console console(false);
+        console.take_over();
+        console.line(fmt::format("{}: at it for {} s", doing_, taken));
+    }
+};
 
 /// The exit code of a child that has ended, with a message if it did not end by itself.
 int code_of(const ChildEnd& end) {
@@ -46,19 +132,22 @@ int run_to_exit_code(const Work& work) noexcept {
     return exit_could_not;
 }
 
-int guarded(const Work& work, const std::string& report) {
+int guarded(const WatchedWork& work, const std::string& report) {
     Unfinished left_behind([&] {
         if (!report.empty()) remove_leftovers(report);
     });
-    ChildProcess child([&](int /*pipe*/) { return run_to_exit_code(work); });
+    ChildProcess child([&](int pipe) { return run_to_exit_code([&] { return work(pipe); }); });
+    Watch(child.pipe()).follow(std::nullopt);
     const ChildEnd end = child.wait();
     if (end.code) left_behind.done();
     return code_of(end);
 }
 
-int guarded_within(double seconds, const std::string& what, const Work& work) {
-    ChildProcess child([&](int /*pipe*/) { return run_to_exit_code(work); });
-    if (seconds == 0 || child.ends_within(seconds)) return code_of(child.wait());
+int guarded_within(double seconds, const std::string& what, const WatchedWork& work) {
+    ChildProcess child([&](int pipe) { return run_to_exit_code([&] { return work(pipe); }); });
+    std::optional<Clock::time_point> until;
+    if (seconds > 0) until = Clock::now() + seconds_long(seconds);
+    if (Watch(child.pipe()).follow(until)) return code_of(child.wait());
     child.kill();
     child.wait();
     complain(Error(what, fmt::format("took longer than --timeout {}", seconds),

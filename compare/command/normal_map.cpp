@@ -48,11 +48,12 @@ Image<double> heights_of(const Picture& picture) {
     return heights;
 }
 
-int make_normal_map(const NormalMapOptions& options) {
-    Console console(options.quiet);
+int make_normal_map(const NormalMapOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     check_writable(options.output);
     check_apart(std::array{options.output}, std::array{options.heights});
     const MemoryAccount memory(options.memory);
+    console.progress(options.heights + ": reading");
     const Picture picture = read_picture(
         options.heights,
         {.memory = memory, .most_pixels = most_pixels, .bytes_made_of_pixel = bytes_made_of_pixel});
@@ -61,10 +62,12 @@ int make_normal_map(const NormalMapOptions& options) {
         throw Error(options.heights,
                     fmt::format("has {} levels, and {} is none of them", levels, options.level),
                     fmt::format("give --level 0 to {}", levels - 1));
+    console.progress(options.heights + ": making its normals");
     Image<glm::dvec4> map = normal_map_of(
         slopes_of(heights_of(picture), options.wrap, options.wrap, options.scale), options.level);
     if (options.green_down)
         for (glm::dvec4& texel : map.pixels) texel.g = 1 - texel.g;
+    console.progress("writing " + options.output);
     write_map(map, options.bits, options.output);
     console.line(fmt::format("{}: {}x{} normals of {}x{} heights of {} bits", options.output,
                              map.width, map.height, picture.width, picture.height, picture.bits));
@@ -123,7 +126,9 @@ Work add_normal_map(CLI::App& app) {
     command->add_flag("--green-down", options->green_down,
                       "y down the picture, as some engines have it");
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
-    return [options] { return guarded([&] { return make_normal_map(*options); }); };
+    return [options] {
+        return guarded([&](int watcher) { return make_normal_map(*options, watcher); });
+    };
 }
 
 } // namespace shadowproof

@@ -1,5 +1,6 @@
 #include "compare/command/point_pictures.h"
 
+#include "compare/command/pieces/report_archive.h"
 #include "compare/output/unfinished.h"
 #include "compare/report/report_data.h"
 #include "compare/report/report_page.h"
@@ -38,6 +39,18 @@ SceneResult without_pictures(SceneResult& scene) {
 
 } // namespace
 
+template <class Archive>
+void serialize(Archive& archive, PictureGroup& group) {
+    auto& [scene, point, settings, written, result] = group;
+    archive(scene, point, settings, written, result);
+}
+
+template <class Archive>
+void serialize(Archive& archive, PictureNews& news) {
+    auto& [group, begun, cell] = news;
+    archive(group, begun, cell);
+}
+
 std::vector<std::string> fixed_pictures() {
     std::vector<std::string> files;
     for (const char* name : {page_name, results_name, results_script_name})
@@ -48,23 +61,58 @@ std::vector<std::string> fixed_pictures() {
 PointPictures::PointPictures(const ReplacedFolder& folder)
     : part_{folder, std::string(pictures_folder) + "/"} {}
 
-void PointPictures::begin(SceneResult& scene) {
+void PointPictures::begin(SceneResult& scene, std::string point) {
     scene_ = &scene;
     begun_ = scene.name;
-    group_of_.clear();
+    point_ = std::move(point);
 }
 
-std::size_t PointPictures::begin_group(const BenchSettings& settings) {
+void PointPictures::keep(const std::string& bytes) {
+    take(unpacked<PictureNews>(bytes));
+}
+
+void PointPictures::take(PictureNews news) {
+    if (news.begun) {
+        groups_.push_back(std::move(*news.begun));
+        return;
+    }
+    PictureGroup& group = groups_[news.group];
+    if (news.cell)
+        group.result.cells.push_back(std::move(*news.cell));
+    else
+        group.written = true;
+}
+
+void PointPictures::tell(PictureNews news) {
+    if (send_) send_(packed(news));
+    take(std::move(news));
+}
+
+/// A group whose shared pictures an earlier worker did not get written keeps its name, and another
+/// one takes its place.
+std::size_t PointPictures::group_for(const BenchSettings& settings) {
+    const auto found = std::ranges::find_if(groups_, [&](const PictureGroup& group) {
+        return group.written && group.scene == begun_ && group.point == point_ &&
+               group.settings == settings;
+    });
+    if (found != groups_.end()) return static_cast<std::size_t>(found - groups_.begin());
     const std::string wanted = name_of(begun_, settings);
     scene_->name = wanted;
-    const auto is_taken = [&](const SceneResult& other) {
-        return folder_of(other) == folder_of(*scene_);
+    const auto is_taken = [&](const PictureGroup& other) {
+        return folder_of(other.result) == folder_of(*scene_);
     };
     for (int number = 2; std::ranges::any_of(groups_, is_taken); ++number)
         scene_->name = fmt::format("{}-{}", wanted, number);
+    const std::size_t number = groups_.size();
+    tell({.group = number,
+          .begun = PictureGroup{.scene = begun_,
+                                .point = point_,
+                                .settings = settings,
+                                .written = false,
+                                .result = without_pictures(*scene_)}});
     write_scene(*scene_, part_);
-    groups_.push_back(without_pictures(*scene_));
-    return groups_.size() - 1;
+    tell({.group = number});
+    return number;
 }
 
 std::string PointPictures::add(const BenchSettings& settings, Cell cell, int threads) {
@@ -79,11 +127,8 @@ std::string PointPictures::add(const BenchSettings& settings, Cell cell, int thr
 }
 
 std::string PointPictures::write(const BenchSettings& settings, Cell cell, int threads) {
-    const auto found = group_of_.find(settings);
-    const std::size_t number = found != group_of_.end() ? found->second : begin_group(settings);
-    group_of_.emplace(settings, number);
-    SceneResult& group = groups_[number];
-    scene_->name = group.name;
+    const std::size_t number = group_for(settings);
+    scene_->name = groups_[number].result.name;
     write_cell(*scene_, cell, part_, threads);
     cell.frame = {};
     cell.evidence.reset();
@@ -94,14 +139,17 @@ std::string PointPictures::write(const BenchSettings& settings, Cell cell, int t
         cell.comparison.colors->error = {};
         cell.comparison.colors->verdict = {};
     }
-    group.cells.push_back(std::move(cell));
-    return part_.below + page_name + "#" + folder_of(group) + "/" + group.cells.back().technique;
+    const std::string technique = cell.technique;
+    tell({.group = number, .begun = {}, .cell = std::move(cell)});
+    return part_.below + page_name + "#" + folder_of(groups_[number].result) + "/" + technique;
 }
 
 void PointPictures::finish(Report report) {
+    std::erase_if(groups_, [](const PictureGroup& group) { return group.result.cells.empty(); });
     if (groups_.empty()) return;
     const auto lock = hold_unfinished();
-    report.scenes = std::move(groups_);
+    for (PictureGroup& group : groups_) report.scenes.push_back(std::move(group.result));
+    groups_.clear();
     report.passed = std::ranges::none_of(report.scenes, [&](const SceneResult& scene) {
         return std::ranges::any_of(scene.cells,
                                    [&](const Cell& cell) { return fails(cell, report.gate); });

@@ -123,8 +123,8 @@ void add_rebuild_flags(CLI::App& command, RebuildOptions& options) {
 
 namespace {
 
-int rebuild_here(const RebuildOptions& options) {
-    Console console(options.quiet);
+int rebuild_here(const RebuildOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     MemoryAccount memory(options.memory);
     std::vector<ResultsFile> runs;
     for (const std::string& path : options.from) {
@@ -133,11 +133,13 @@ int rebuild_here(const RebuildOptions& options) {
     }
     check_output(options.json, options.out, Output::results);
     ReportFolder folder(options.out);
+    console.progress("joining the results");
     const Merged merged = merge(runs, whole_matrix());
     take_over_all(merged.files, folder, memory, console);
     const std::string text = results_text(merged.results);
     const std::optional<std::string> inside = name_in_report(options.json, options.out);
     if (inside && *inside != results_name) folder.add_requested(*inside, text);
+    console.progress("writing " + options.out);
     folder.finish(text);
     for (const std::string& note : folder.notes()) console.always(note);
     if (!options.json.empty() && !inside) write_file(options.json, text);
@@ -147,7 +149,7 @@ int rebuild_here(const RebuildOptions& options) {
 } // namespace
 
 int rebuild(const RebuildOptions& options) {
-    return guarded([&] { return rebuild_here(options); }, options.out);
+    return guarded([&](int watcher) { return rebuild_here(options, watcher); }, options.out);
 }
 
 } // namespace shadowproof

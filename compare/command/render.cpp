@@ -71,17 +71,20 @@ void write_truth(const RenderOptions& options, const Tracer& tracer, const Groun
                lit ? to_png(lit_picture(options, tracer, truth)) : to_png(truth.visibility));
 }
 
-int render_truth(const RenderOptions& options) {
-    Console console(options.quiet);
+int render_truth(const RenderOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     check_writable(options.output);
     check_apart(std::array{options.output}, std::array{options.scene});
     require_picture(options.picture.memory, options.picture.size.width, options.picture.size.height,
                     work_of(options, false));
+    console.progress(options.scene + ": reading");
     const Scene scene = load_scene(options.scene, options.picture.request());
     for (const std::string& note : scene.notes) console.line("note: " + note);
     require_scene(options.picture.memory, scene, work_of(options, wants_lighting(options, scene)));
+    console.progress(options.scene + ": tracing");
     const Tracer tracer(scene, options.picture.threads);
     const GroundTruth truth = trace(tracer);
+    console.progress(options.scene + ": writing " + options.output);
     write_truth(options, tracer, truth);
     const TraceStatistics& traced = truth.statistics;
     console.line(fmt::format("{}: lit {}, shadowed {}, background {}  {:.1f} ms", options.output,
@@ -135,7 +138,7 @@ Work add_render(CLI::App& app) {
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
     return [options] {
         return guarded_within(options->timeout, options->scene,
-                              [&] { return render_truth(*options); });
+                              [&](int watcher) { return render_truth(*options, watcher); });
     };
 }
 

@@ -50,8 +50,12 @@ std::optional<double> value_between(double holds, double fails, bool whole) {
 
 namespace {
 
+std::string refusal(Loss loss) {
+    return loss == Loss::none ? "refused" : std::string(name_of(loss));
+}
+
 std::string main_cause(const StressCell& cell) {
-    if (!cell.refused.empty()) return "refused";
+    if (!cell.refused.empty()) return refusal(cell.loss);
     std::string cause;
     std::uint64_t most = 0;
     for (const auto& [name, pixels] : cell.error.causes)
@@ -85,7 +89,8 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
             const StressCell* const there = find_cell(*point, cell.technique);
             if (!point->refused.empty()) {
                 breaking.fails = point->value;
-                breaking.cause = "refused";
+                breaking.cause = refusal(point->loss);
+                breaking.refused = true;
                 break;
             }
             if (there == nullptr) continue;
@@ -95,6 +100,7 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
             }
             breaking.fails = point->value;
             breaking.cause = main_cause(*there);
+            breaking.refused = !there->refused.empty();
             break;
         }
         all.push_back(std::move(breaking));
@@ -105,7 +111,7 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
 std::optional<Search> next_search(const std::vector<Breaking>& breaking, bool whole) {
     std::optional<Search> search;
     for (const Breaking& each : breaking) {
-        if (!each.fails || each.cause == "refused") continue;
+        if (!each.fails || each.refused) continue;
         const std::optional<double> value = value_between(each.holds, *each.fails, whole);
         if (!value) continue;
         if (!search) search = Search{*value, {}};

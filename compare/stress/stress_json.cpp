@@ -27,6 +27,7 @@ Json truth_json(const StressScene& scene, const StressAlong& along, const Stress
     Json json = head_json(scene, along, point, truth_point);
     if (!point.refused.empty()) {
         json["refused"] = point.refused;
+        if (point.loss != Loss::none) json["loss"] = name_of(point.loss);
         return json;
     }
     json["ms"] = time_json(point.trace_milliseconds);
@@ -53,6 +54,8 @@ Json cell_json(const StressScene& scene, const StressAlong& along, const StressP
     Json json = head_json(scene, along, point, cell.technique);
     if (!cell.refused.empty()) {
         json["refused"] = cell.refused;
+        if (cell.loss != Loss::none) json["loss"] = name_of(cell.loss);
+        if (!cell.command.empty()) json["command"] = cell.command;
         return json;
     }
     json["family"] = cell.family;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/bench/bench_run.h"
+#include "compare/loss.h"
 #include "compare/verdict.h"
 #include "reference/witness/agreement.h"
 #include "reference/witness/relation_check.h"
@@ -22,6 +23,7 @@ struct StressCell {
     BenchError error{};
     Verdict verdict = Verdict::agrees;
     std::string refused{};  ///< why it could not be drawn; then the numbers mean nothing
+    Loss loss = Loss::none; ///< if not none, `refused` says what happened, and the run fails
     std::string command{};  ///< that shows it again
     std::string pictures{}; ///< as in BenchPoint
 };
@@ -32,9 +34,10 @@ bool has_failed(const StressCell& cell);
 /// A scene at a parameter's value, its truth, and all techniques that were tried there.
 struct StressPoint {
     double value = 0;
-    bool own = false;      ///< the scene as it is
-    bool searched = false; ///< between two values of the ladder, in search of a breaking point
-    std::string refused{}; ///< why there is no such scene; then it has no cells
+    bool own = false;       ///< the scene as it is
+    bool searched = false;  ///< between two values of the ladder, in search of a breaking point
+    std::string refused{};  ///< why there is no such scene; then it has no cells
+    Loss loss = Loss::none; ///< as in StressCell, while it was made or traced
     std::uint64_t triangles = 0;
     double trace_milliseconds = 0;
     std::uint64_t rays = 0;
@@ -51,7 +54,8 @@ struct Breaking {
     bool up = false;             ///< the side: values above the scene's own
     double holds = 0;            ///< the last value known at which no pixel is wrong
     std::optional<double> fails; ///< the first known at which one is; none: within the range never
-    std::string cause{};         ///< the most frequent there, or "refused"
+    std::string cause{};         ///< the most frequent there, or "refused", or a loss's name
+    bool refused = false;        ///< it was not drawn there, refused or lost
 };
 
 struct StressAlong {

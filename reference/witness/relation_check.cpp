@@ -119,7 +119,7 @@ void check_exchange(RelationCheck& check, const Scene& scene) {
     const auto both = light.kind == Light::Kind::directional
                           ? std::nullopt
                           : mutual_visibility(scene, scene.camera.eye, light.position);
-    (both ? check.tried : check.left_out).push_back(exchange);
+    (both ? check.tried : check.left_out).emplace_back(exchange);
     if (both && (*both)[0] != (*both)[1])
         note_change(check, fmt::format("{}: the light {} the eye, and {} where both change places",
                                        exchange, (*both)[0] ? "reaches" : "does not reach",
@@ -140,7 +140,7 @@ RelationCheck check_relations(const Scene& scene, const GroundTruth& truth, int 
     RelationCheck check;
     for (const Relation& relation : relations()) {
         const std::optional<RetoldScene> retold = relation.retell(scene);
-        (retold ? check.tried : check.left_out).push_back(relation.name);
+        (retold ? check.tried : check.left_out).emplace_back(relation.name);
         if (retold) compare(check, relation.name, *retold, truth, threads);
     }
     check_exchange(check, scene);

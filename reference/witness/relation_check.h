@@ -15,9 +15,9 @@
 namespace shadowproof {
 
 struct RelationCheck {
-    std::vector<std::string_view> tried{};
-    std::vector<std::string_view> left_out{}; ///< the scene's numbers do not admit them
-    std::uint64_t compared = 0;               ///< pixels, of all relations together
+    std::vector<std::string> tried{};
+    std::vector<std::string> left_out{}; ///< the scene's numbers do not admit them
+    std::uint64_t compared = 0;          ///< pixels, of all relations together
     /// Of these, pixels with another answer though a tie was met: which of two triangles at the
     /// same place is seen depends on their order.
     std::uint64_t ties = 0;

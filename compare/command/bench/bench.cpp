@@ -6,6 +6,7 @@
 #include "compare/bench/bench_table.h"
 #include "compare/command/bench/machine.h"
 #include "compare/command/bench/measure.h"
+#include "compare/command/bench/measured_archive.h"
 #include "compare/command/bench/pictures.h"
 #include "compare/command/bench/scaling.h"
 #include "compare/command/bench/sweep.h"
@@ -15,6 +16,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/rebuild.h"
 #include "compare/command/standard_output.h"
+#include "compare/command/start_gpu.h"
 #include "compare/memory.h"
 #include "compare/output/replaced_folder.h"
 #include "compare/output/write_file.h"
@@ -63,7 +65,40 @@ std::string place_of(std::size_t scene, std::size_t scenes, double seconds) {
     return words + ": ";
 }
 
-/// Whether all was measured. A scene that cannot be read does not end the run.
+/// The last elements, from the given number on.
+template <class T>
+std::vector<T> tail(const std::vector<T>& all, std::size_t from) {
+    return {all.begin() + static_cast<std::ptrdiff_t>(from), all.end()};
+}
+
+/// Replaces the last elements, from the given number on.
+template <class T>
+void put(std::vector<T>& all, std::size_t from, const std::vector<T>& last) {
+    all.resize(from);
+    all.insert(all.end(), last.begin(), last.end());
+}
+
+/// Measures a scene as a piece, and adds it to the run. Returns whether all was measured.
+bool measure_as_piece(const BenchWork& work, const std::string& argument) {
+    BenchRun& run = work.run;
+    const std::size_t scenes = run.scenes.size();
+    const std::size_t points = run.points.size();
+    const std::size_t left_out = run.left_out.size();
+    const MeasuredPart part = work.pieces.piece(argument, [&] {
+        MeasuredPart measured;
+        measured.complete = measure_scene(work, argument);
+        measured.run.scenes = tail(run.scenes, scenes);
+        measured.run.points = tail(run.points, points);
+        measured.run.left_out = tail(run.left_out, left_out);
+        return measured;
+    });
+    put(run.scenes, scenes, part.run.scenes);
+    put(run.points, points, part.run.points);
+    put(run.left_out, left_out, part.run.left_out);
+    return part.complete;
+}
+
+/// Whether all was measured. A scene that cannot be read, or is lost, does not end the run.
 bool measure_scenes(BenchWork work) {
     const std::vector<std::string> scenes = scenes_to_measure(work.options);
     bool complete = true;
@@ -71,19 +106,20 @@ bool measure_scenes(BenchWork work) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         work.place = place_of(i, scenes.size(), stopwatch.milliseconds() / 1000);
         try {
-            complete = measure_scene(work, scenes[i]) && complete;
+            complete = measure_as_piece(work, scenes[i]) && complete;
             continue;
         } catch (const std::bad_alloc&) {
             work.run.left_out.push_back({scenes[i], {}, {}, out_of_memory});
+        } catch (const LostPiece& lost) {
+            work.run.left_out.push_back({scenes[i], {}, {}, lost.what(), lost.loss});
         } catch (const Error& error) {
             work.run.left_out.push_back({scenes[i], {}, {}, error.what()});
         }
-        complain(work.run.left_out.back().why);
+        if (!work.pieces.catching_up()) complain(work.run.left_out.back().why);
         std::erase_if(work.run.points,
                       [](const BenchPoint& point) { return point.samples.empty(); });
         complete = false;
     }
-    work.console.clear_progress();
     return complete;
 }
 
@@ -96,6 +132,17 @@ void print_run(const BenchRun& run, Console& console) {
     for (const std::string& line : growth_table(run)) console.line(line);
 }
 
+/// Says what was lost. Returns whether anything was given up after --timeout.
+bool say_losses(const BenchRun& run, Console& console) {
+    bool timed_out = false;
+    for (const BenchLeftOut& out : run.left_out) {
+        if (out.loss == Loss::none) continue;
+        timed_out = timed_out || out.loss == Loss::timed_out;
+        console.always(fmt::format("failed: {}: {}", out.scene, out.why));
+    }
+    return timed_out;
+}
+
 bool has_unexplained(const BenchRun& run) {
     return std::any_of(run.points.begin(), run.points.end(), [](const BenchPoint& point) {
         return std::any_of(point.error.causes.begin(), point.error.causes.end(),
@@ -103,29 +150,39 @@ bool has_unexplained(const BenchRun& run) {
     });
 }
 
-struct Outcome {
-    BenchRun run;
-    bool complete = true;
-};
-
-Outcome measured(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
-    Gpu gpu(options.technique.platform);
-    gpu.tell_stages(!options.scaling);
-    Outcome outcome{begin_run(options, gpu)};
-    std::optional<BenchRun> kept;
-    if (options.resume) kept = kept_run(options.json, outcome.run);
+/// The work of a worker. `kept`: an earlier run to go on with.
+MeasuredPart measure(const BenchOptions& options, const std::optional<BenchRun>& kept,
+                     Console& console, PointPictures& pictures, Pieces& pieces) {
+    const std::unique_ptr<Gpu> gpu = start_gpu(pieces, options.technique.platform);
+    gpu->tell_stages(!options.scaling);
+    MeasuredPart outcome{.run = begin_run(options, *gpu)};
+    if (kept) require_same_settings(options.json, *kept, outcome.run);
     const bool in_folder = name_in_report(options.json, options.out).has_value();
     BenchKeeper keeper(in_folder ? std::string() : options.json);
-    PointPictures pictures(folder);
+    pictures.send_by([&](std::string bytes) { pieces.aside(std::move(bytes)); });
     const BenchWork work{.options = options,
-                         .gpu = gpu,
+                         .gpu = *gpu,
                          .console = console,
+                         .pieces = pieces,
                          .run = outcome.run,
                          .kept = kept ? &*kept : nullptr,
                          .keeper = keeper,
                          .pictures = options.pictures ? &pictures : nullptr};
     outcome.complete = options.scaling ? measure_growth(work) : measure_scenes(work);
     outcome.run.finished = true;
+    return outcome;
+}
+
+MeasuredPart measured(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
+    // Workers overwrite the file.
+    std::optional<BenchRun> kept;
+    if (options.resume) kept = kept_run(options.json);
+    PointPictures pictures(folder);
+    MeasuredPart outcome = supervised(
+        {.timeout = options.timeout,
+         .console = console,
+         .keep = [&](const std::string& bytes) { pictures.keep(bytes); }},
+        [&](Pieces& pieces) { return measure(options, kept, console, pictures, pieces); });
     Report report;
     report.version = outcome.run.version;
     report.gl = outcome.run.gl;
@@ -136,9 +193,10 @@ Outcome measured(const BenchOptions& options, Console& console, const ReplacedFo
 }
 
 /// Measures, or takes over what was measured.
-Outcome outcome_of(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
+MeasuredPart outcome_of(const BenchOptions& options, Console& console,
+                        const ReplacedFolder& folder) {
     if (options.from.empty()) return measured(options, console, folder);
-    Outcome outcome{read_bench(options.from)};
+    MeasuredPart outcome{.run = read_bench(options.from)};
     refuse_to_lose(std::filesystem::is_directory(options.from)
                        ? std::filesystem::path(options.from) / results_name
                        : std::filesystem::path(options.from),
@@ -211,8 +269,8 @@ std::string extent_of(const BenchRun& run) {
     return words;
 }
 
-int bench(const BenchOptions& options) {
-    Console console(options.quiet);
+int bench(const BenchOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     check_files(options);
     std::optional<BenchRun> older;
     if (!options.against.empty()) older = read_bench(options.against);
@@ -223,16 +281,19 @@ int bench(const BenchOptions& options) {
     }
     ReplacedFolder folder(options.out, fixed);
     const auto [run, complete] = outcome_of(options, console, folder);
+    console.progress("writing " + options.out);
     write_outputs(folder, options, run, older);
+    console.clear_progress();
     for (const std::string& note : folder.notes()) console.always(note);
     const bool nothing_lost = !older || print_changes(*older, run, console);
+    const bool timed_out = options.from.empty() && say_losses(run, console);
     const bool unexplained = has_unexplained(run);
     if (unexplained) console.always("failed: a point has unexplained pixels");
     console.always(fmt::format(
         "{} {}, {}; plot in {}", options.from.empty() ? "measured" : "took over", extent_of(run),
         run.gl.renderer, (std::filesystem::path(options.out) / page_name).string()));
     if (!complete) return exit_could_not;
-    return unexplained || !nothing_lost ? exit_failed : exit_passed;
+    return unexplained || timed_out || !nothing_lost ? exit_failed : exit_passed;
 }
 
 void add_bench_flags(CLI::App& command, BenchOptions& options) {
@@ -274,6 +335,9 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
                     "Seconds for the samples of a scene, after its points are judged (120)")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1e6));
+    add_timeout_flag(command, options.timeout,
+                     "Seconds for judging a point, for a sample of it, and for reading or tracing "
+                     "a scene, above which it is given up (600; 0: any number)");
     command.add_flag("!--no-pictures", options.pictures,
                      "Keep no pictures of the points beside the plot");
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
@@ -304,7 +368,9 @@ Work add_bench(CLI::App& app) {
                                                  "--resume, or leave out --from");
         if (options->quick) make_quick(*command, *options);
     });
-    return [options] { return guarded([&] { return bench(*options); }, options->out); };
+    return [options] {
+        return guarded([&](int watcher) { return bench(*options, watcher); }, options->out);
+    };
 }
 
 } // namespace shadowproof

@@ -24,12 +24,15 @@ void BenchKeeper::keep(const BenchRun& run) {
     since_.emplace();
 }
 
-std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now) {
+std::optional<BenchRun> kept_run(const std::string& file) {
     std::error_code failure;
     using std::filesystem::file_type;
     if (std::filesystem::symlink_status(file, failure).type() == file_type::not_found)
         return std::nullopt;
-    BenchRun kept = read_bench(file);
+    return read_bench(file);
+}
+
+void require_same_settings(const std::string& file, const BenchRun& kept, const BenchRun& now) {
     const auto require_same = [&](const char* what, const std::string& was, const std::string& is) {
         if (was != is)
             throw Error(file,
@@ -46,7 +49,6 @@ std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now) {
                  fmt::format("{}", now.machine.cores));
     require_same("setting", fmt::format("{}", fmt::join(kept.arguments, " ")),
                  fmt::format("{}", fmt::join(now.arguments, " ")));
-    return kept;
 }
 
 const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now) {

@@ -25,9 +25,12 @@ private:
     std::optional<Stopwatch> since_;
 };
 
-/// What an earlier run left in the file; none if there is no such file. Throws Error if that run
-/// was of another version, driver or machine, or had other settings.
-std::optional<BenchRun> kept_run(const std::string& file, const BenchRun& now);
+/// What an earlier run left in the file; none if there is no such file.
+std::optional<BenchRun> kept_run(const std::string& file);
+
+/// Throws Error naming the file where the kept run was of another version, driver or machine than
+/// the one that begins now, or had other settings.
+void require_same_settings(const std::string& file, const BenchRun& kept, const BenchRun& now);
 
 /// The scene's earlier result; null where there is none of the same content, size and light.
 const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now);

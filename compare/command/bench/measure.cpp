@@ -2,6 +2,7 @@
 
 #include "compare/bench/bench_error.h"
 #include "compare/bench/bench_table.h"
+#include "compare/command/bench/measured_archive.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
 #include "compare/command/scene_result.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 
 namespace shadowproof {
 
@@ -38,7 +40,9 @@ struct Trial {
     std::string name;                           ///< of the scene, unique in the run
     std::size_t first = 0;                      ///< its first point in the run
     std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
-    bool complete = true;
+    std::vector<bool> warm{};                   ///< this process has drawn them
+    bool complete = true;   ///< all that was asked for was measured, but for what took too long
+    bool timed_out = false; ///< something did
 };
 
 /// The plan by which a technique draws with these settings.
@@ -62,8 +66,37 @@ std::vector<std::string> verify_words(const Trial& trial, const Technique& techn
     return words;
 }
 
+std::string name_of_point(const Technique& technique, const BenchSettings& settings) {
+    return settings.empty() ? std::string(technique.name)
+                            : fmt::format("{} {}", technique.name, words_of(settings));
+}
+
+/// Draws a point, judges it and keeps its pictures.
+JudgedPoint judge_point(Trial& trial, const Technique& technique, BenchPoint point) {
+    const BenchWork& work = trial.work;
+    Cell cell;
+    try {
+        cell = judged_cell(technique, trial.traced, plan_with(trial, point.settings), work.gpu,
+                           work.pictures != nullptr)
+                   .cell;
+    } catch (const std::bad_alloc&) {
+        return {.why = out_of_memory};
+    } catch (const Error& error) {
+        return {.why = error.what()};
+    }
+    point.family = cell.family;
+    point.own = own_settings(technique, cell.frame, trial.scene.unit);
+    point.error = error_of(cell.frame, cell.comparison, trial.truth.visibility);
+    if (work.pictures != nullptr) {
+        cell.command = verify_words(trial, technique, point.settings);
+        point.pictures =
+            work.pictures->add(point.settings, std::move(cell), work.options.scene.threads);
+    }
+    return {.point = std::move(point)};
+}
+
 /// Adds a point, as an earlier run had it or newly drawn and judged. Returns null where it cannot
-/// be drawn; then `why` says so.
+/// be drawn; then `why` says so. Throws LostPiece.
 const BenchPoint* add_point(Trial& trial, const Technique& technique, const BenchSettings& settings,
                             std::string& why) {
     const BenchWork& work = trial.work;
@@ -81,37 +114,40 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
         point = *known;
         point.pictures.clear(); // they are made anew, for this plot
     }
+    bool warm = false;
     if (known == nullptr || work.pictures != nullptr) {
-        work.console.progress(
-            fmt::format("{}: judging {} {}", trial.name, point.technique, words_of(settings)));
-        Cell cell;
-        try {
-            cell = judged_cell(technique, trial.traced, plan_with(trial, settings), work.gpu,
-                               work.pictures != nullptr)
-                       .cell;
-        } catch (const std::bad_alloc&) {
-            why = out_of_memory;
-            return nullptr;
-        } catch (const Error& error) {
-            why = error.what();
+        const std::string named = name_of_point(technique, settings);
+        work.console.progress(fmt::format("{}: judging {}", trial.name, named));
+        JudgedPoint judged = work.pieces.piece("judging " + named, [&] {
+            warm = true;
+            return judge_point(trial, technique, point);
+        });
+        if (!judged.point) {
+            why = judged.why;
             return nullptr;
         }
-        point.family = cell.family;
-        point.own = own_settings(technique, cell.frame, trial.scene.unit);
-        point.error = error_of(cell.frame, cell.comparison, trial.truth.visibility);
-        if (work.pictures != nullptr) {
-            cell.command = verify_words(trial, technique, settings);
-            point.pictures =
-                work.pictures->add(settings, std::move(cell), work.options.scene.threads);
-        }
+        point = std::move(*judged.point);
     }
     trial.techniques.push_back(&technique);
+    trial.warm.push_back(warm);
     return &work.run.points.emplace_back(std::move(point));
 }
 
 void leave_out(Trial& trial, const Technique& technique, const BenchSettings& settings,
-               const std::string& why) {
-    trial.work.run.left_out.push_back({trial.name, std::string(technique.name), settings, why});
+               const std::string& why, Loss loss = Loss::none) {
+    trial.work.run.left_out.push_back(
+        {trial.name, std::string(technique.name), settings, why, loss});
+}
+
+/// Says once what was lost, and leaves it out.
+void lose(Trial& trial, const Technique& technique, const BenchSettings& settings,
+          const LostPiece& lost) {
+    if (!trial.work.pieces.catching_up()) complain(fmt::format("{}: {}", trial.name, lost.what()));
+    leave_out(trial, technique, settings, lost.what(), lost.loss);
+    if (lost.loss == Loss::timed_out)
+        trial.timed_out = true;
+    else
+        trial.complete = false;
 }
 
 /// The exact truth is its own yardstick: no pixel of it is wrong.
@@ -129,42 +165,93 @@ void add_truth(Trial& trial) {
         if (const BenchPoint* known = find_point(*work.kept, point)) point = *known;
     work.run.points.push_back(std::move(point));
     trial.techniques.push_back(nullptr);
+    trial.warm.push_back(true); // it was traced, or is measured as it was before
+}
+
+/// The settings by flags that a technique heeds.
+BenchSettings fixed_for(const Trial& trial, const Technique& technique) {
+    BenchSettings fixed;
+    for (const SweptSetting& setting : swept_settings())
+        for (const auto& each : trial.work.options.fixed)
+            if (each.first == setting.name && heeds(technique, setting.name)) fixed.push_back(each);
+    return fixed;
+}
+
+void add_points_of(Trial& trial, const Technique& technique) {
+    const BenchSettings fixed = fixed_for(trial, technique);
+    std::string why;
+    BenchSettings own_of_technique;
+    try {
+        const BenchPoint* const own = add_point(trial, technique, fixed, why);
+        if (own == nullptr) {
+            if (!trial.work.pieces.catching_up()) complain(why);
+            leave_out(trial, technique, fixed, why);
+            trial.complete = false;
+            return;
+        }
+        own_of_technique = own->own;
+    } catch (const LostPiece& lost) {
+        lose(trial, technique, fixed, lost);
+        // Each further setting would take as long.
+        if (lost.loss == Loss::timed_out) return;
+    }
+    for (const BenchSettings& settings :
+         sweep(technique, fixed, own_of_technique, trial.work.options.quick)) {
+        try {
+            if (add_point(trial, technique, settings, why) == nullptr)
+                leave_out(trial, technique, settings, why); // not all forms suit all maps
+        } catch (const LostPiece& lost) {
+            lose(trial, technique, settings, lost);
+        }
+    }
 }
 
 void add_points(Trial& trial) {
     const BenchOptions& options = trial.work.options;
     add_truth(trial);
-    for (const Technique* technique : options.technique.chosen()) {
+    for (const Technique* technique : options.technique.chosen())
         // What is named is drawn, or says why it is not for such a scene.
-        if (options.technique.techniques.empty() && !suits(*technique, trial.scene)) continue;
-        BenchSettings fixed;
-        for (const SweptSetting& setting : swept_settings())
-            for (const auto& each : options.fixed)
-                if (each.first == setting.name && heeds(*technique, setting.name))
-                    fixed.push_back(each);
-        std::string why;
-        const BenchPoint* const own = add_point(trial, *technique, fixed, why);
-        if (own == nullptr) {
-            complain(why);
-            leave_out(trial, *technique, fixed, why);
-            trial.complete = false;
-            continue;
-        }
-        for (const BenchSettings& settings :
-             sweep(*technique, fixed, BenchSettings(own->own), options.quick))
-            if (add_point(trial, *technique, settings, why) == nullptr)
-                leave_out(trial, *technique, settings, why); // not all forms suit all maps
+        if (!options.technique.techniques.empty() || suits(*technique, trial.scene))
+            add_points_of(trial, *technique);
+}
+
+/// Adds a sample's stages, each after those of earlier samples.
+void add_stages(std::vector<BenchStage>& stages, const BenchSample& sample) {
+    for (const BenchStage& stage : sample.stages) {
+        auto found = std::find_if(stages.begin(), stages.end(),
+                                  [&](const BenchStage& each) { return each.name == stage.name; });
+        if (found == stages.end()) found = stages.insert(found, {stage.name, {}});
+        found->samples.insert(found->samples.end(), stage.samples.begin(), stage.samples.end());
     }
 }
 
-/// Adds a frame's stages, each after those of earlier frames.
-void add_stages(std::vector<BenchStage>& stages, const Frame& frame) {
-    for (const Stage& stage : frame.stages) {
-        auto found = std::find_if(stages.begin(), stages.end(),
-                                  [&](const BenchStage& each) { return each.name == stage.name; });
-        if (found == stages.end()) found = stages.insert(found, {std::string(stage.name), {}});
-        found->samples.push_back(stage.milliseconds);
-    }
+/// One sample of the trial's i-th point. Throws LostPiece.
+BenchSample take_sample(Trial& trial, std::size_t i) {
+    const BenchWork& work = trial.work;
+    const Technique* const technique = trial.techniques[i];
+    const BenchSettings& settings = work.run.points[trial.first + i].settings;
+    const std::string named =
+        technique == nullptr ? std::string(truth_point) : name_of_point(*technique, settings);
+    return work.pieces.piece("measuring " + named, [&]() -> BenchSample {
+        if (technique == nullptr) return {trace(trial.tracer).statistics.milliseconds, {}};
+        const auto draw = [&] {
+            return render(*technique, trial.scene, plan_with(trial, settings), work.gpu);
+        };
+        if (!trial.warm[i]) draw();
+        trial.warm[i] = true;
+        const Frame frame = draw();
+        BenchSample sample{.milliseconds = frame.milliseconds};
+        for (const Stage& stage : frame.stages)
+            sample.stages.push_back({std::string(stage.name), {stage.milliseconds}});
+        return sample;
+    });
+}
+
+/// Points that were lost while they were measured have no result.
+void remove_points(Trial& trial, const std::vector<bool>& lost) {
+    std::vector<BenchPoint>& points = trial.work.run.points;
+    for (std::size_t i = lost.size(); i-- > 0;)
+        if (lost[i]) points.erase(points.begin() + static_cast<std::ptrdiff_t>(trial.first + i));
 }
 
 void measure(Trial& trial) {
@@ -176,21 +263,24 @@ void measure(Trial& trial) {
         samples.push_back(run.points[i].samples);
         stages.push_back(run.points[i].stages);
     }
+    std::vector<bool> lost(samples.size());
     const RoundLimits& limits = work.options.limits;
     const Stopwatch stopwatch;
     measure_in_rounds(
         samples, limits,
-        {.measure =
-             [&](std::size_t i) {
-                 const Technique* const technique = trial.techniques[i];
-                 if (technique == nullptr) return trace(trial.tracer).statistics.milliseconds;
-                 BenchPoint& point = run.points[trial.first + i];
-                 const Frame frame =
-                     render(*technique, trial.scene, plan_with(trial, point.settings), work.gpu);
-                 // As many as the samples: none where an earlier run has samples without stages.
-                 if (!stages[i].empty() || samples[i].empty()) add_stages(stages[i], frame);
-                 return frame.milliseconds;
-             },
+        {.measure = [&](std::size_t i) -> std::optional<double> {
+             try {
+                 const BenchSample sample = take_sample(trial, i);
+                 // As many as the samples: none where an earlier run has samples alone.
+                 if (!stages[i].empty() || samples[i].empty()) add_stages(stages[i], sample);
+                 return sample.milliseconds;
+             } catch (const LostPiece& error) {
+                 if (trial.techniques[i] == nullptr) throw; // without the truth nothing is
+                 lose(trial, *trial.techniques[i], run.points[trial.first + i].settings, error);
+                 lost[i] = true;
+                 return std::nullopt;
+             }
+         },
          .seconds = [&] { return stopwatch.milliseconds() / 1000; },
          .before =
              [&](std::size_t i) {
@@ -213,6 +303,7 @@ void measure(Trial& trial) {
                  }
                  work.keeper.keep(run);
              }});
+    remove_points(trial, lost);
 }
 
 /// Two files may have one stem: the second is "stem-2".
@@ -285,7 +376,8 @@ std::string bench_command(const BenchOptions& options, const std::string& scene,
 bool measure_scene(const BenchWork& work, const std::string& argument) {
     const BenchOptions& options = work.options;
     work.console.progress(work.place + argument + ": reading");
-    const Scene scene = load_scene(argument, options.scene.request());
+    const Scene scene = work.pieces.step(
+        argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     require_scene(options.scene.memory, scene, Workload::comparison);
     const std::size_t at = work.run.scenes.size();
     work.run.scenes.push_back(describe(work.run, scene, argument));
@@ -301,9 +393,13 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
         return true;
     }
     work.console.progress(work.place + name + ": tracing");
-    const Tracer tracer(scene, options.scene.threads);
     SceneResult result;
-    result.truth = trace(tracer);
+    std::optional<Tracer> traced;
+    work.pieces.step(name + ": tracing", [&] {
+        traced.emplace(scene, options.scene.threads);
+        result.truth = trace(*traced);
+    });
+    const Tracer& tracer = *traced;
     const GroundTruth& truth = result.truth;
     Trial trial{.work = work,
                 .argument = argument,
@@ -321,7 +417,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     }
     add_points(trial);
     measure(trial);
-    work.run.scenes[at].finished = trial.complete;
+    work.run.scenes[at].finished = trial.complete && !trial.timed_out;
     work.keeper.keep(work.run);
     print_points(work, name);
     return trial.complete;

@@ -4,6 +4,7 @@
 #include "compare/command/bench/keeper.h"
 #include "compare/command/bench/options.h"
 #include "compare/command/console.h"
+#include "compare/command/pieces/pieces.h"
 #include "compare/command/point_pictures.h"
 #include "raster/gl/context.h"
 
@@ -14,6 +15,7 @@ struct BenchWork {
     const BenchOptions& options;
     Gpu& gpu;
     Console& console;
+    Pieces& pieces;
     BenchRun& run;        ///< grows
     const BenchRun* kept; ///< an earlier run to go on with; null: none
     BenchKeeper& keeper;
@@ -23,8 +25,9 @@ struct BenchWork {
 
 /// The truth is computed once and shared by all points. Each is drawn once to warm up, and judged
 /// by that; then all are measured in rounds. Techniques that cannot be drawn, and settings that the
-/// scene does not admit, are left out and said. Returns whether all that was asked for was
-/// measured. Throws Error if the scene cannot be read.
+/// scene does not admit, are left out and said, and so are points in which a worker was lost.
+/// Returns whether all that was asked for was measured, but for points that took too long. Throws
+/// Error if the scene cannot be read.
 bool measure_scene(const BenchWork& work, const std::string& argument);
 
 /// The words that measure one point again.

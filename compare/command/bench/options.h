@@ -4,6 +4,7 @@
 #include "compare/bench/bench_run.h"
 #include "compare/bench/rounds.h"
 #include "compare/command/options.h"
+#include "compare/command/pieces/supervisor.h"
 
 #include <string>
 #include <vector>
@@ -14,8 +15,9 @@ struct BenchOptions {
     std::vector<std::string> scenes; ///< names or paths; empty: all bundled ones
     SceneOptions scene;
     TechniqueOptions technique;
-    BenchSettings fixed; ///< swept settings that a flag has set: they are swept no more
-    RoundLimits limits;  ///< for each scene
+    BenchSettings fixed;            ///< swept settings that a flag has set: they are swept no more
+    RoundLimits limits;             ///< for each scene
+    double timeout = usual_timeout; ///< seconds for a judgement, a sample, or tracing; 0: no limit
     bool quick = false;
     bool scaling = false;
     bool resume = false;

@@ -1,6 +1,7 @@
 #include "compare/command/bench/scaling.h"
 
 #include "compare/bench/bench_table.h"
+#include "compare/command/bench/measured_archive.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
@@ -18,6 +19,8 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
+#include <utility>
 
 namespace shadowproof {
 
@@ -105,6 +108,8 @@ struct Runner {
     const Technique* technique; ///< null: the truth
     Growth growth;
     bool stopped = false;
+    bool crashed = false;
+    bool warm = false; ///< at this size, in this process
 };
 
 std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const Scene& scene) {
@@ -130,9 +135,17 @@ std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const
     return runners;
 }
 
-void stop(const BenchWork& work, Runner& runner, const std::string& why) {
+void stop(const BenchWork& work, Runner& runner, const std::string& why, Loss loss = Loss::none) {
     runner.stopped = true;
-    work.run.left_out.push_back({runner.growth.scene, runner.growth.technique, {}, why});
+    work.run.left_out.push_back({runner.growth.scene, runner.growth.technique, {}, why, loss});
+}
+
+/// Says once what was lost. The runner goes no further.
+void lose(const BenchWork& work, Runner& runner, const std::string& where, const LostPiece& lost) {
+    const std::string words = fmt::format("{}: {}", where, lost.what());
+    if (!work.pieces.catching_up()) complain(words);
+    stop(work, runner, words, lost.loss);
+    runner.crashed = runner.crashed || lost.loss == Loss::crashed;
 }
 
 /// A scene with what drawing it needs.
@@ -161,7 +174,8 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
     require_map(work.options.scene.memory, options.asked.map);
     require_scene(work.options.scene.memory, scenes.front(), Workload::comparison);
-    const Drawable first(work, scenes.front(), options.asked);
+    const Drawable first =
+        work.pieces.step("tracing", [&] { return Drawable(work, scenes.front(), options.asked); });
     const double value = axis.value(first.tracer, size);
     const std::string where =
         fmt::format("{} {}, {}", grouped(static_cast<std::uint64_t>(value)), axis.name, place);
@@ -175,26 +189,44 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
     std::vector<Runner*> drawn;
     for (Runner& runner : runners) {
         if (runner.stopped) continue;
+        runner.warm = false;
         work.console.progress(fmt::format("{}: {}", where, runner.growth.technique));
         try {
-            const Stopwatch stopwatch;
-            draw_all(runner);
+            const double seconds = work.pieces.piece(runner.growth.technique + " once", [&] {
+                const Stopwatch stopwatch;
+                draw_all(runner);
+                runner.warm = true;
+                return stopwatch.milliseconds() / 1000;
+            });
             drawn.push_back(&runner);
-            const double seconds = stopwatch.milliseconds() / 1000;
             if (seconds > most_seconds)
                 stop(work, runner,
                      fmt::format("not measured beyond {}: a sample took {:.1f} s", where, seconds));
+        } catch (const LostPiece& lost) {
+            lose(work, runner, where, lost);
         } catch (const Error& error) {
             stop(work, runner, error.what());
         }
     }
+    const auto sample = [&](Runner& runner) -> std::optional<double> {
+        try {
+            return work.pieces.piece(runner.growth.technique, [&] {
+                if (!runner.warm) draw_all(runner);
+                runner.warm = true;
+                return draw_all(runner);
+            });
+        } catch (const LostPiece& lost) {
+            lose(work, runner, where, lost);
+            return std::nullopt;
+        }
+    };
     std::vector<std::vector<double>> samples(drawn.size());
     const Stopwatch stopwatch;
     measure_in_rounds(
         samples,
         {.repeats = std::min<std::size_t>(work.options.quick ? 7 : 15, work.options.limits.repeats),
          .seconds = work.options.quick ? 4.0 : 30.0},
-        {.measure = [&](std::size_t i) { return draw_all(*drawn[i]); },
+        {.measure = [&](std::size_t i) { return sample(*drawn[i]); },
          .seconds = [&] { return stopwatch.milliseconds() / 1000; },
          .before =
              [&](std::size_t i) {
@@ -204,7 +236,7 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
              },
          .after_round = [] {}});
     for (std::size_t i = 0; i < drawn.size(); ++i)
-        drawn[i]->growth.points.push_back({value, samples[i]});
+        if (!samples[i].empty()) drawn[i]->growth.points.push_back({value, samples[i]});
 }
 
 /// Whether an earlier run had all of these lines, by the same commands: they are taken over.
@@ -227,21 +259,71 @@ bool take_over(const BenchWork& work, const std::vector<Runner>& runners) {
     return true;
 }
 
-void measure_axis(const BenchWork& work, const Axis& axis) {
+/// What a size results in: where its runners then are.
+struct MeasuredSize {
+    std::vector<Growth> growth{};
+    std::vector<bool> stopped{};
+    std::vector<bool> crashed{};
+    std::vector<BenchLeftOut> left_out{};
+};
+
+template <class Archive>
+void serialize(Archive& archive, MeasuredSize& size) {
+    auto& [growth, stopped, crashed, left_out] = size;
+    archive(growth, stopped, crashed, left_out);
+}
+
+/// Measures a size as a piece. `scenes`: empty where they are still to be made.
+void measure_as_piece(const BenchWork& work, const Axis& axis, std::vector<Runner>& runners,
+                      std::vector<Scene> scenes, std::size_t i, const std::string& place) {
+    std::vector<BenchLeftOut>& left_out = work.run.left_out;
+    const std::size_t before = left_out.size();
+    const MeasuredSize measured = work.pieces.piece(axis.name + (" " + place), [&] {
+        if (scenes.empty()) scenes = axis.scenes(work.options, axis.sizes[i]);
+        measure_size(work, axis, runners, scenes, axis.sizes[i], place);
+        MeasuredSize size;
+        for (const Runner& runner : runners) {
+            size.growth.push_back(runner.growth);
+            size.stopped.push_back(runner.stopped);
+            size.crashed.push_back(runner.crashed);
+        }
+        size.left_out.assign(left_out.begin() + static_cast<std::ptrdiff_t>(before),
+                             left_out.end());
+        return size;
+    });
+    left_out.resize(before);
+    left_out.insert(left_out.end(), measured.left_out.begin(), measured.left_out.end());
+    for (std::size_t k = 0; k < runners.size(); ++k) {
+        runners[k].growth = measured.growth[k];
+        runners[k].stopped = measured.stopped[k];
+        runners[k].crashed = measured.crashed[k];
+    }
+}
+
+/// Returns whether no worker crashed on the way.
+bool measure_axis(const BenchWork& work, const Axis& axis) {
     std::vector<Runner> runners;
+    bool crashed = false;
     const std::size_t sizes = work.options.quick ? axis.quick : axis.sizes.size();
     for (std::size_t i = 0; i < sizes; ++i) {
         const std::string place = fmt::format("{} of {}", i + 1, sizes);
         const std::string where = fmt::format("{} {}", axis.name, place);
         try {
-            const std::vector<Scene> scenes = axis.scenes(work.options, axis.sizes[i]);
+            std::vector<Scene> scenes;
             if (i == 0) {
+                scenes = work.pieces.step(where + ": reading",
+                                          [&] { return axis.scenes(work.options, axis.sizes[i]); });
                 runners = runners_along(work, axis, scenes.front());
-                if (runners.empty() || take_over(work, runners)) return;
+                if (runners.empty() || take_over(work, runners)) return true;
             }
-            measure_size(work, axis, runners, scenes, axis.sizes[i], place);
+            measure_as_piece(work, axis, runners, std::move(scenes), i, place);
         } catch (const std::bad_alloc&) {
             work.run.left_out.push_back({axis.name, {}, {}, where + ": " + out_of_memory});
+            break;
+        } catch (const LostPiece& lost) {
+            if (!work.pieces.catching_up()) complain(lost.what());
+            work.run.left_out.push_back({axis.name, {}, {}, lost.what(), lost.loss});
+            crashed = crashed || lost.loss == Loss::crashed;
             break;
         } catch (const Error& error) {
             if (i == 0) throw;
@@ -249,8 +331,11 @@ void measure_axis(const BenchWork& work, const Axis& axis) {
             break;
         }
     }
-    for (Runner& runner : runners)
+    for (Runner& runner : runners) {
+        crashed = crashed || runner.crashed;
         if (!runner.growth.points.empty()) work.run.growth.push_back(std::move(runner.growth));
+    }
+    return !crashed;
 }
 
 } // namespace
@@ -259,9 +344,9 @@ bool measure_growth(const BenchWork& work) {
     bool complete = true;
     for (const Axis& axis : axes()) {
         try {
-            measure_axis(work, axis);
+            complete = measure_axis(work, axis) && complete;
         } catch (const Error& error) {
-            complain(error.what());
+            if (!work.pieces.catching_up()) complain(error.what());
             work.run.left_out.push_back({axis.name, {}, {}, error.what()});
             complete = false;
         }

@@ -2,6 +2,8 @@
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
+#include "compare/command/pieces/report_archive.h"
+#include "compare/command/pieces/supervisor.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/stopwatch.h"
 #include "compare/families.h"
@@ -34,6 +36,8 @@ struct CheckOptions {
     GateOptions gate;
     OutputOptions output;
     bool diagnosis = true;
+    double timeout =
+        usual_timeout; ///< seconds for a picture, or for tracing the scene; 0: no limit
 };
 
 /// What is to be judged: the picture, or the mask that goes with it.
@@ -86,11 +90,9 @@ nlohmann::ordered_json diagnosis_json(const std::vector<Diagnosis>& diagnoses) {
     return list;
 }
 
-/// No wrong pixel of a picture is excused. `said`: gets a line per diagnosis.
-Cell judge_picture(const CheckOptions& options, const TracedScene& traced, std::size_t i,
-                   const Picture& picture, const std::optional<Picture>& twin,
-                   const std::vector<Cell>& cells, Console& console,
-                   std::vector<std::string>& said) {
+/// A picture's cell before it is judged.
+Cell begin_cell(const CheckOptions& options, std::size_t i, const PictureSize& size,
+                const std::vector<Cell>& cells) {
     Cell cell;
     cell.technique = cell_name(options.pictures[i], cells);
     cell.family = "picture";
@@ -99,11 +101,57 @@ Cell judge_picture(const CheckOptions& options, const TracedScene& traced, std::
     if (!options.mask.empty()) cell.command.insert(cell.command.end(), {"--mask", options.mask});
     if (!options.unlit.empty()) cell.command.insert(cell.command.end(), {"--unlit", options.unlit});
     SceneOptions view = options.view;
-    view.size = {picture.width, picture.height};
+    view.size = size;
     for (const std::string& word : settings(view, {})) cell.command.push_back(word);
+    return cell;
+}
+
+/// The pictures that are judged, and the one without the light.
+struct Pictures {
+    std::vector<Picture> pictures{};
+    std::optional<Picture> twin{};
+    PictureSize size{};
+};
+
+Pictures read_pictures(const CheckOptions& options, const MemoryAccount& memory, Console& console,
+                       Pieces& pieces) {
+    const auto read_one = [&](const std::string& file) {
+        console.progress(file + ": reading");
+        return pieces.step(file + ": reading", [&] { return read(file, memory); });
+    };
+    Pictures all;
+    for (std::size_t i = 0; i < options.pictures.size(); ++i)
+        all.pictures.push_back(read_one(judged_file(options, i)));
+    const PictureSize first{all.pictures.front().width, all.pictures.front().height};
+    all.size = options.with_size ? options.view.size : first;
+    const auto [width, height] = all.size;
+    for (std::size_t i = 0; i < all.pictures.size(); ++i)
+        require_size(judged_file(options, i), all.pictures[i], width, height);
+    if (options.unlit.empty()) return all;
+    all.twin = read_one(options.unlit);
+    require_size(options.unlit, *all.twin, width, height);
+    return all;
+}
+
+/// A picture that was judged.
+struct Judged {
+    Cell cell{};
+    std::vector<std::string> said{}; ///< a line per diagnosis
+};
+
+template <class Archive>
+void serialize(Archive& archive, Judged& judged) {
+    auto& [cell, said] = judged;
+    archive(cell, said);
+}
+
+/// No wrong pixel of a picture is excused.
+void judge_picture(const CheckOptions& options, const TracedScene& traced, std::size_t i,
+                   const Pictures& pictures, Console& console, Judged& judged) {
+    auto& [cell, said] = judged;
     try {
-        cell.frame =
-            read_shadows(traced, {options.pictures[i], options.mask, options.unlit}, picture, twin);
+        cell.frame = read_shadows(traced, {options.pictures[i], options.mask, options.unlit},
+                                  pictures.pictures[i], pictures.twin);
         const std::unique_ptr<Judge> family = judge_of(traced, cell.frame);
         cell.comparison = classify(traced, cell.frame, *family);
         cell.verdict = judge(traced.scene(), {}, {}, cell.comparison);
@@ -122,77 +170,121 @@ Cell judge_picture(const CheckOptions& options, const TracedScene& traced, std::
     } catch (const Error& error) {
         cell.error = error.what();
     }
-    return cell;
 }
 
-int check(const CheckOptions& options, double waited) {
-    const Stopwatch stopwatch;
-    const std::string started = timestamp_now();
-    Console console(options.output.quiet);
-    const MemoryBudget& budget = options.view.memory;
-    MemoryAccount memory(budget);
-    std::vector<std::string> inputs = options.pictures;
-    inputs.insert(inputs.end(), {options.scene, options.mask, options.unlit});
-    check_outputs(options.output, inputs);
-    std::optional<ResultsFile> baseline;
-    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
+/// What a worker is given.
+struct CheckWork {
+    const CheckOptions& options;
+    const std::optional<ResultsFile>& baseline;
+    const MemoryAccount& memory;
+    Console& console;
+    const ReportFolder& folder;
+    Pieces& pieces;
+};
 
-    std::vector<Picture> pictures;
-    for (std::size_t i = 0; i < options.pictures.size(); ++i)
-        pictures.push_back(read(judged_file(options, i), memory));
-    const PictureSize first{pictures.front().width, pictures.front().height};
-    const auto [width, height] = options.with_size ? options.view.size : first;
-    for (std::size_t i = 0; i < pictures.size(); ++i)
-        require_size(judged_file(options, i), pictures[i], width, height);
-    std::optional<Picture> twin;
-    if (!options.unlit.empty()) {
-        twin = read(options.unlit, memory);
-        require_size(options.unlit, *twin, width, height);
+/// Judges a picture and writes what the report shows of it, as a piece. One that is lost has a cell
+/// that says so.
+Judged check_picture(const CheckWork& work, const TracedScene& traced, const SceneResult& result,
+                     const Pictures& pictures, std::size_t i) {
+    const CheckOptions& options = work.options;
+    const Cell begun = begin_cell(options, i, pictures.size, result.cells);
+    work.console.progress(begun.technique + ": judging");
+    try {
+        return work.pieces.piece(begun.technique, [&] {
+            Judged judged{.cell = begun};
+            judge_picture(options, traced, i, pictures, work.console, judged);
+            Cell& cell = judged.cell;
+            if (work.baseline && cell.error.empty()) compare_with(*work.baseline, result, cell);
+            if (cell.error.empty()) cell.first_failing = first_that_fails(cell, options.gate.gate);
+            work.console.progress(cell.technique + ": writing");
+            work.folder.add_cell(result, cell, options.view.threads);
+            return judged;
+        });
+    } catch (const LostPiece& lost) {
+        Judged judged{.cell = begun};
+        judged.cell.error = lost.what();
+        if (lost.loss == Loss::timed_out) judged.cell.verdict = Verdict::timed_out;
+        return judged;
     }
-    require_picture(budget, width, height, Workload::comparison);
-    SceneOptions view = options.view;
-    view.size = {width, height};
-    const Scene scene = load_scene(options.scene, view.request());
-    require_scene(budget, scene, Workload::comparison);
+}
 
-    ReportFolder folder(options.output.out);
-    Report report;
-    report.version = SHADOWPROOF_VERSION;
-    report.embree = embree_version();
-    report.gl = {"none", "none", DepthModel{}.subpixel_bits, 0, 0};
-    report.gate = options.gate.gate;
-    SceneResult& result = report.scenes.emplace_back();
+void announce(const CheckWork& work, const Scene& scene) {
+    const CheckOptions& options = work.options;
+    work.console.heading(scene.name);
+    for (const std::string& note : scene.notes) work.console.line("  note: " + note);
+    std::vector<std::string> inputs = options.pictures;
+    inputs.insert(inputs.end(), {options.mask, options.unlit});
+    for (const std::string& file : inputs)
+        if (const std::string kind = extension_of(file); kind == ".jpg" || kind == ".jpeg")
+            work.console.line(fmt::format("  note: {}: JPEG loses what tells light from shadow at "
+                                          "outlines; render a PNG or EXR",
+                                          file));
+}
+
+/// The work of a worker: the scene with a cell for each picture.
+SceneResult check_pictures(const CheckWork& work) {
+    const CheckOptions& options = work.options;
+    const MemoryBudget& budget = options.view.memory;
+    Console& console = work.console;
+    const Pictures pictures = read_pictures(options, work.memory, console, work.pieces);
+    require_picture(budget, pictures.size.width, pictures.size.height, Workload::comparison);
+    SceneOptions view = options.view;
+    view.size = pictures.size;
+    console.progress(options.scene + ": reading");
+    const Scene scene = work.pieces.step(options.scene + ": reading",
+                                         [&] { return load_scene(options.scene, view.request()); });
+    require_scene(budget, scene, Workload::comparison);
+    SceneResult result;
     result.argument = options.scene;
     result.name = scene.name;
     describe(result, scene);
-    const Tracer tracer(scene, options.view.threads);
-    result.truth = trace(tracer);
+    console.progress(options.scene + ": tracing");
+    const Tracer tracer = work.pieces.step(options.scene + ": tracing", [&] {
+        Tracer made(scene, options.view.threads);
+        result.truth = trace(made);
+        return made;
+    });
     if (result.truth.statistics.lit == 0 || result.truth.statistics.shadowed == 0)
         throw Error(options.scene,
                     result.truth.statistics.lit == 0 ? "shows no pixel in light"
                                                      : "shows no pixel in shadow",
                     "turn the camera, or choose another light: nothing can be told by this view");
     const TracedScene traced(tracer, result.truth);
-    console.heading(scene.name);
-    for (const std::string& note : scene.notes) console.line("  note: " + note);
-    for (const std::string& file : inputs)
-        if (const std::string kind = extension_of(file); kind == ".jpg" || kind == ".jpeg")
-            console.line(fmt::format("  note: {}: JPEG loses what tells light from shadow at "
-                                     "outlines; render a PNG or EXR",
-                                     file));
-    folder.add_scene(result);
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-        std::vector<std::string> said;
-        Cell cell =
-            judge_picture(options, traced, i, pictures[i], twin, result.cells, console, said);
-        if (baseline && cell.error.empty()) compare_with(*baseline, result, cell);
-        if (cell.error.empty()) cell.first_failing = first_that_fails(cell, report.gate);
-        console.cell(result, cell, {}, fails(cell, report.gate));
-        for (const std::string& line : said) console.always("  diagnosis: " + line);
-        folder.add_cell(result, cell, options.view.threads);
-        result.cells.push_back(std::move(cell));
+    announce(work, scene);
+    work.pieces.piece(options.scene + ": writing", [&] {
+        work.folder.add_scene(result);
+        return true;
+    });
+    for (std::size_t i = 0; i < pictures.pictures.size(); ++i) {
+        Judged judged = check_picture(work, traced, result, pictures, i);
+        console.cell(result, judged.cell, {}, fails(judged.cell, options.gate.gate));
+        for (const std::string& line : judged.said) console.always("  diagnosis: " + line);
+        result.cells.push_back(std::move(judged.cell));
     }
-    console.clear_progress();
+    return result;
+}
+
+int check(const CheckOptions& options, double waited, int watcher) {
+    const Stopwatch stopwatch;
+    const std::string started = timestamp_now();
+    Console console(options.output.quiet, watcher);
+    MemoryAccount memory(options.view.memory);
+    std::vector<std::string> inputs = options.pictures;
+    inputs.insert(inputs.end(), {options.scene, options.mask, options.unlit});
+    check_outputs(options.output, inputs);
+    std::optional<ResultsFile> baseline;
+    if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
+    ReportFolder folder(options.output.out);
+    Report report;
+    report.version = SHADOWPROOF_VERSION;
+    report.gl = {"none", "none", DepthModel{}.subpixel_bits, 0, 0};
+    report.gate = options.gate.gate;
+    report.scenes.push_back(
+        supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
+            return check_pictures({options, baseline, memory, console, folder, pieces});
+        }));
+    report.embree = embree_version(); // starts Embree: no worker is started any more
+    console.progress("writing " + options.output.out);
     report.milliseconds = waited + stopwatch.milliseconds();
     return end_run(folder, console, report, options.gate, baseline, options.output, started);
 }
@@ -225,6 +317,9 @@ Work add_check(CLI::App& app) {
     add_scene_flags(*command, options->view);
     add_gate_flags(*command, options->gate);
     add_output_flags(*command, options->output);
+    add_timeout_flag(*command, options->timeout,
+                     "Seconds for a picture, and for reading or tracing the scene, above which it "
+                     "is given up (600; 0: any number)");
     command->final_callback([options, command] {
         options->with_size = command->get_option("--size")->count() > 0;
         if (!options->mask.empty() && options->pictures.size() > 1)
@@ -236,7 +331,8 @@ Work add_check(CLI::App& app) {
     });
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
-        return guarded([&] { return check(*options, waited); }, options->output.out);
+        return guarded([&](int watcher) { return check(*options, waited, watcher); },
+                       options->output.out);
     };
 }
 

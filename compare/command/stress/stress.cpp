@@ -3,6 +3,8 @@
 #include "compare/command/guard.h"
 #include "compare/command/output_files.h"
 #include "compare/command/standard_output.h"
+#include "compare/command/start_gpu.h"
+#include "compare/command/stress/stress_archive.h"
 #include "compare/command/stress/sweep.h"
 #include "compare/memory.h"
 #include "compare/output/replaced_folder.h"
@@ -51,26 +53,38 @@ Report report_of(const StressRun& run) {
     return report;
 }
 
-/// A scene that cannot be read does not end the run.
-void stress_scenes(StressWork work) {
-    const std::vector<std::string> scenes = scenes_to_stress(work.options);
+/// A scene that cannot be read, or is lost while it is, does not end the run.
+StressScene scene_or_error(const StressWork& work, const std::string& argument) {
+    StressScene scene{.name = std::filesystem::path(argument).stem().string(), .file = argument};
+    try {
+        return work.pieces.piece(argument, [&] { return stress_scene(work, argument); });
+    } catch (const std::bad_alloc&) {
+        scene.error = out_of_memory;
+    } catch (const Error& error) {
+        scene.error = error.what();
+    }
+    if (!work.pieces.catching_up()) complain(scene.error);
+    return scene;
+}
+
+/// The work of a worker.
+StressRun stress_scenes(const StressOptions& options, Console& console, PointPictures& pictures,
+                        Pieces& pieces) {
+    const std::unique_ptr<Gpu> gpu = start_gpu(pieces, options.technique.platform);
+    StressRun run = begin_run(options, *gpu);
+    pictures.send_by([&](std::string bytes) { pieces.aside(std::move(bytes)); });
+    StressWork work{.options = options,
+                    .gpu = *gpu,
+                    .console = console,
+                    .pieces = pieces,
+                    .run = run,
+                    .pictures = options.pictures ? &pictures : nullptr};
+    const std::vector<std::string> scenes = scenes_to_stress(options);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         if (scenes.size() > 1) work.place = fmt::format("scene {} of {}: ", i + 1, scenes.size());
-        std::string error;
-        try {
-            stress_scene(work, scenes[i]);
-            continue;
-        } catch (const std::bad_alloc&) {
-            error = out_of_memory;
-        } catch (const Error& thrown) {
-            error = thrown.what();
-        }
-        complain(error);
-        work.run.scenes.push_back({.name = std::filesystem::path(scenes[i]).stem().string(),
-                                   .file = scenes[i],
-                                   .error = error});
+        run.scenes.push_back(scene_or_error(work, scenes[i]));
     }
-    work.console.clear_progress();
+    return run;
 }
 
 void write_outputs(ReplacedFolder& folder, const StressOptions& options, const StressRun& run) {
@@ -99,6 +113,26 @@ void check_files(const StressOptions& options) {
                     Workload::comparison);
 }
 
+/// How many points and cells were lost.
+struct Losses {
+    std::size_t crashed = 0;
+    std::size_t timed_out = 0; ///< cells; a point that took too long has no truth
+};
+
+Losses losses_of(const StressRun& run) {
+    Losses losses;
+    for (const StressScene& scene : run.scenes)
+        for (const StressAlong& along : scene.parameters)
+            for (const StressPoint& point : along.points) {
+                losses.crashed += point.loss != Loss::none ? 1 : 0;
+                for (const StressCell& cell : point.cells) {
+                    losses.crashed += cell.loss == Loss::crashed ? 1 : 0;
+                    losses.timed_out += cell.loss == Loss::timed_out ? 1 : 0;
+                }
+            }
+    return losses;
+}
+
 /// What the run comes to, said; and the exit code.
 int conclude(const StressOptions& options, const StressRun& run, Console& console) {
     const StressTally tally = tally_of(run);
@@ -111,6 +145,9 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
                 };
                 if (point.witness.disagreements > 0) fail(words_of(point.witness));
                 if (point.relations.changed > 0) fail(words_of(point.relations));
+                if (point.loss != Loss::none) fail(point.refused);
+                for (const StressCell& cell : point.cells)
+                    if (cell.loss != Loss::none) fail(cell.refused);
             }
     if (tally.unexplained > 0)
         console.always(
@@ -124,27 +161,29 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
                     (std::filesystem::path(options.out) / page_name).string()));
     const bool unread = std::ranges::any_of(
         run.scenes, [](const StressScene& scene) { return !scene.error.empty(); });
-    if (unread || tally.disagreements > 0 || tally.changed > 0) return exit_could_not;
-    return tally.unexplained > 0 ? exit_failed : exit_passed;
+    const Losses losses = losses_of(run);
+    if (unread || losses.crashed > 0 || tally.disagreements > 0 || tally.changed > 0)
+        return exit_could_not;
+    return tally.unexplained + losses.timed_out > 0 ? exit_failed : exit_passed;
 }
 
-int stress(const StressOptions& options) {
-    Console console(options.quiet);
+int stress(const StressOptions& options, int watcher) {
+    Console console(options.quiet, watcher);
     check_files(options);
     std::vector<std::string> fixed{page_name, results_name, results_script_name};
     if (options.pictures)
         for (const std::string& name : fixed_pictures()) fixed.push_back(name);
     ReplacedFolder folder(options.out, fixed);
-    Gpu gpu(options.technique.platform);
-    StressRun run = begin_run(options, gpu);
     PointPictures pictures(folder);
-    stress_scenes({.options = options,
-                   .gpu = gpu,
-                   .console = console,
-                   .run = run,
-                   .pictures = options.pictures ? &pictures : nullptr});
+    const StressRun run = supervised(
+        {.timeout = options.timeout,
+         .console = console,
+         .keep = [&](const auto& bytes) { pictures.keep(bytes); }},
+        [&](Pieces& pieces) { return stress_scenes(options, console, pictures, pieces); });
+    console.progress("writing " + options.out);
     pictures.finish(report_of(run));
     write_outputs(folder, options, run);
+    console.clear_progress();
     for (const std::string& note : folder.notes()) console.always(note);
     return conclude(options, run, console);
 }
@@ -182,6 +221,10 @@ void add_stress_flags(CLI::App& command, StressOptions& options) {
     command.add_option("--json", options.json, "Write the points here, as shadowproof/stress/1")
         ->type_name("FILE")
         ->check(not_empty());
+    add_timeout_flag(
+        command, options.timeout,
+        "Seconds for a technique at a point, and for reading or tracing a scene, above "
+        "which it is given up (600; 0: any number)");
     command.add_flag("!--no-pictures", options.pictures,
                      "Keep no pictures of the points beside the page");
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
@@ -198,7 +241,9 @@ Work add_stress(CLI::App& app) {
     add_technique_flags(*command, options->technique);
     add_scene_flags(*command, options->scene);
     add_stress_flags(*command, *options);
-    return [options] { return guarded([&] { return stress(*options); }, options->out); };
+    return [options] {
+        return guarded([&](int watcher) { return stress(*options, watcher); }, options->out);
+    };
 }
 
 } // namespace shadowproof

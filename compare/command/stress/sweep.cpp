@@ -3,7 +3,9 @@
 #include "compare/bench/bench_error.h"
 #include "compare/command/judged_cell.h"
 #include "compare/command/scene_result.h"
+#include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
+#include "compare/command/stress/stress_archive.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"
 #include "compare/stress/breaking.h"
@@ -82,7 +84,16 @@ struct Trial {
     }
 };
 
-StressCell try_technique(const Sweep& sweep, Trial& trial, const Technique& technique) {
+std::string place_of(const std::optional<Stress>& stress) {
+    return stress ? words_of(*stress) : std::string("as it is");
+}
+
+/// Says once what was lost.
+void complain_of(const Sweep& sweep, const std::string& place, const LostPiece& lost) {
+    complain(fmt::format("{}, {}: {}", sweep.name, place, lost.what()));
+}
+
+StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
     StressCell tried{.technique = std::string(technique.name)};
     const std::vector<std::string> words = verify_words(sweep, tried.technique, trial.stress);
     tried.command = command_of(words);
@@ -113,18 +124,33 @@ StressCell try_technique(const Sweep& sweep, Trial& trial, const Technique& tech
     return tried;
 }
 
+StressCell try_technique(const Sweep& sweep, Trial& trial, const Technique& technique) {
+    const std::string name(technique.name);
+    try {
+        return sweep.work.pieces.piece(name, [&] { return draw(sweep, trial, technique); });
+    } catch (const LostPiece& lost) {
+        if (!sweep.work.pieces.catching_up()) complain_of(sweep, place_of(trial.stress), lost);
+        return {.technique = name,
+                .refused = lost.what(),
+                .loss = lost.loss,
+                .command = command_of(verify_words(sweep, name, trial.stress))};
+    }
+}
+
 /// Traces the scene at a value, asks the witness, and judges techniques there.
 void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> stress,
                const std::vector<const Technique*>& techniques, StressPoint& point) {
     const StressWork& work = sweep.work;
+    const std::string place = place_of(stress);
     const auto progress = [&](std::string_view what) {
-        const std::string at = stress ? words_of(*stress) : std::string("as it is");
         work.console.progress(
-            fmt::format("{}{}, {}: {}: {}", work.place, sweep.name, sweep.place, at, what));
+            fmt::format("{}{}, {}: {}: {}", work.place, sweep.name, sweep.place, place, what));
     };
     progress("tracing");
     require_scene(work.options.scene.memory, scene, Workload::comparison);
-    Trial trial(scene, sweep, std::move(stress));
+    std::optional<Trial> traced;
+    work.pieces.step("tracing", [&] { traced.emplace(scene, sweep, std::move(stress)); });
+    Trial& trial = *traced;
     SceneResult& result = trial.result;
     const TraceStatistics& statistics = result.truth.statistics;
     point.triangles = scene.triangles.size();
@@ -133,14 +159,17 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     point.exact_decisions = statistics.exact_decisions;
     point.degenerate = statistics.degenerate;
     progress("asking the witness");
-    point.witness =
-        ask_witness(scene, result.truth, work.options.witness, work.options.scene.threads);
+    point.witness = work.pieces.piece("asking the witness", [&] {
+        return ask_witness(scene, result.truth, work.options.witness, work.options.scene.threads);
+    });
     if (point.witness.disagreements > 0) result.notes.push_back(words_of(point.witness));
     progress("telling the scene otherwise");
-    point.relations = check_relations(scene, result.truth, work.options.scene.threads);
+    point.relations = work.pieces.piece("telling the scene otherwise", [&] {
+        return check_relations(scene, result.truth, work.options.scene.threads);
+    });
     if (point.relations.changed > 0) result.notes.push_back(words_of(point.relations));
     if (result.bump_lit) result.color = shade(trial.tracer, result.truth);
-    if (work.pictures != nullptr) work.pictures->begin(result);
+    if (work.pictures != nullptr) work.pictures->begin(result, place);
     for (const Technique* technique : techniques) {
         progress(technique->name);
         point.cells.push_back(try_technique(sweep, trial, *technique));
@@ -153,11 +182,19 @@ void add_point(Sweep& sweep, double value, bool searched,
     StressPoint point{.value = value, .searched = searched};
     const Stress stress{std::string(sweep.parameter->name), value};
     try {
-        Scene scene = stressed(sweep.scene, stress);
-        admit(scene);
-        try_point(sweep, scene, stress, techniques, point);
+        point = sweep.work.pieces.piece(words_of(stress), [&] {
+            StressPoint tried = point;
+            Scene scene = stressed(sweep.scene, stress);
+            admit(scene);
+            try_point(sweep, scene, stress, techniques, tried);
+            return tried;
+        });
     } catch (const std::bad_alloc&) {
         point.refused = out_of_memory;
+    } catch (const LostPiece& lost) {
+        if (!sweep.work.pieces.catching_up()) complain_of(sweep, words_of(stress), lost);
+        point.refused = lost.what();
+        point.loss = lost.loss;
     } catch (const Error& error) {
         point.refused = error.what();
     }
@@ -221,10 +258,11 @@ std::vector<const StressParameter*> asked_parameters(const StressOptions& option
 
 } // namespace
 
-void stress_scene(const StressWork& work, const std::string& argument) {
+StressScene stress_scene(const StressWork& work, const std::string& argument) {
     const StressOptions& options = work.options;
     work.console.progress(work.place + argument + ": reading");
-    const Scene scene = load_scene(argument, options.scene.request());
+    const Scene scene = work.pieces.step(
+        argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     StressScene described = describe(work.run, scene, argument);
     work.console.heading(described.name);
     work.console.line(fmt::format("  {} triangles, {}x{}, light {}",
@@ -236,8 +274,11 @@ void stress_scene(const StressWork& work, const std::string& argument) {
     for (const Technique* technique : options.technique.chosen())
         if (!options.technique.techniques.empty() || suits(*technique, scene))
             sweep.techniques.push_back(technique);
-    StressPoint own{.own = true};
-    try_point(sweep, scene, std::nullopt, sweep.techniques, own);
+    const StressPoint own = work.pieces.piece("as it is", [&] {
+        StressPoint point{.own = true};
+        try_point(sweep, scene, std::nullopt, sweep.techniques, point);
+        return point;
+    });
 
     const std::vector<const StressParameter*> parameters = asked_parameters(options);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -254,7 +295,7 @@ void stress_scene(const StressWork& work, const std::string& argument) {
     }
     for (const std::string& name : described.left_out)
         work.console.line(fmt::format("  left out: {} does not suit the scene", name));
-    work.run.scenes.push_back(std::move(described));
+    return described;
 }
 
 } // namespace shadowproof

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/command/console.h"
+#include "compare/command/pieces/pieces.h"
 #include "compare/command/point_pictures.h"
 #include "compare/command/stress/options.h"
 #include "compare/stress/stress_run.h"
@@ -16,14 +17,15 @@ struct StressWork {
     const StressOptions& options;
     Gpu& gpu;
     Console& console;
-    StressRun& run;                    ///< grows
+    Pieces& pieces;
+    StressRun& run;                    ///< grows by scenes
     PointPictures* pictures = nullptr; ///< null: none are kept
     std::string place{};               ///< before each line of progress: "scene 2 of 37: "
 };
 
-/// Adds the scene to the run, with a point for each value, and prints where techniques break. A
-/// scene that is refused at some value, or a technique there, is said and ends nothing. Throws
-/// Error if the scene cannot be read.
-void stress_scene(const StressWork& work, const std::string& argument);
+/// The scene with a point for each value, and where techniques break, which is printed. A scene
+/// that is refused or lost at some value, or a technique there, is said and ends nothing. Throws
+/// Error if the scene cannot be read, or traced as it is.
+StressScene stress_scene(const StressWork& work, const std::string& argument);
 
 } // namespace shadowproof

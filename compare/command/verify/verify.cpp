@@ -2,7 +2,7 @@
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
 #include "compare/command/stopwatch.h"
-#include "compare/command/verify/supervisor.h"
+#include "compare/command/verify/worker.h"
 #include "compare/memory.h"
 
 #include <fmt/format.h>
@@ -30,10 +30,10 @@ Report begin_report(const VerifyOptions& options) {
 }
 
 /// `waited`: milliseconds since the program was started.
-int verify(const VerifyOptions& options, double waited) {
+int verify(const VerifyOptions& options, double waited, int watcher) {
     const Stopwatch stopwatch;
     const std::string started = timestamp_now();
-    Console console(options.output.quiet);
+    Console console(options.output.quiet, watcher);
     // What cannot be read or written is refused before the work.
     std::optional<ResultsFile> baseline;
     MemoryAccount memory(options.scene.memory);
@@ -46,7 +46,15 @@ int verify(const VerifyOptions& options, double waited) {
             console.line("note: --allow edge changes nothing: edge pixels never fail");
     ReportFolder folder(options.output.out);
     Report report = begin_report(options);
-    try_scenes_guarded(options, baseline, console, folder, report);
+    VerifiedScenes verified =
+        supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
+            return try_scenes({options, report, baseline, console, folder, pieces});
+        });
+    report.gl = verified.gl;
+    report.embree = verified.embree;
+    report.scenes = std::move(verified.scenes);
+    report.report_milliseconds = verified.report_milliseconds;
+    console.progress("writing " + options.output.out);
     report.milliseconds = waited + stopwatch.milliseconds();
     return end_run(folder, console, report, options.gate, baseline, options.output, started);
 }
@@ -73,7 +81,8 @@ Work add_verify(CLI::App& app) {
                      "given up (600; 0: any number)");
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
-        return guarded([&] { return verify(*options, waited); }, options->output.out);
+        return guarded([&](int watcher) { return verify(*options, waited, watcher); },
+                       options->output.out);
     };
 }
 

@@ -2,10 +2,12 @@
 
 #include "compare/blank.h"
 #include "compare/command/judged_cell.h"
+#include "compare/command/outcome.h"
+#include "compare/command/pieces/report_archive.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/standard_output.h"
+#include "compare/command/start_gpu.h"
 #include "compare/command/stopwatch.h"
-#include "compare/command/verify/messages.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <new>
+#include <span>
 #include <utility>
 
 namespace shadowproof {
@@ -33,8 +36,32 @@ std::vector<const Technique*> techniques_for(const VerifyOptions& options, const
 struct Run {
     const WorkerSetup& setup;
     Gpu& gpu;
-    std::vector<std::string>& folders; ///< taken so far
+    std::vector<SceneResult>& scenes; ///< so far
 };
+
+/// A cell, judged and written.
+struct DoneCell {
+    Cell cell{};
+    double report_milliseconds = 0; ///< spent on its ledgers and pictures
+};
+
+template <class Archive>
+void serialize(Archive& archive, DoneCell& done) {
+    auto& [cell, report_milliseconds] = done;
+    archive(cell, report_milliseconds);
+}
+
+/// A scene's results, one for each light under which it was tried.
+struct DoneScene {
+    std::vector<SceneResult> results{};
+    double report_milliseconds = 0;
+};
+
+template <class Archive>
+void serialize(Archive& archive, DoneScene& done) {
+    auto& [results, report_milliseconds] = done;
+    archive(results, report_milliseconds);
+}
 
 /// A scene under one of its lights, traced: what its techniques are judged against.
 struct Trial {
@@ -81,59 +108,73 @@ void announce(Console& console, const SceneResult& result) {
 }
 
 /// Two files may have one stem: the second is "stem-2", in the results and in the report.
-std::string unique_name(const std::vector<std::string>& folders, const std::string& wanted) {
+std::string unique_name(const Run& run, const std::string& wanted) {
     SceneResult named;
     named.name = wanted;
-    for (int number = 2;
-         std::find(folders.begin(), folders.end(), folder_of(named)) != folders.end(); ++number)
+    const auto is_taken = [&](const SceneResult& other) {
+        return folder_of(other) == folder_of(named);
+    };
+    for (int number = 2; std::ranges::any_of(run.scenes, is_taken); ++number)
         named.name = fmt::format("{}-{}", wanted, number);
     return named.name;
 }
 
-/// Judges the cell by the gate, and prints the result.
-void conclude_cell(const WorkerSetup& setup, const SceneResult& scene, Cell& cell,
-                   const ColumnWidths& widths) {
+/// Column widths of one scene's cell lines.
+ColumnWidths widths_of(const TechniqueOptions& techniques, const std::string& scene) {
+    ColumnWidths widths{.technique = 0, .scene = static_cast<int>(scene.size()), .verdict = 0};
+    for (const Technique* technique : techniques.chosen())
+        widths.technique = std::max(widths.technique, static_cast<int>(technique->name.size()));
+    for (const Verdict verdict : {Verdict::agrees, Verdict::fails_as_predicted, Verdict::defect,
+                                  Verdict::unexplained, Verdict::timed_out})
+        widths.verdict = std::max(widths.verdict, static_cast<int>(name_of(verdict).size()));
+    return widths;
+}
+
+/// Prints a cell's result.
+void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& cell) {
     const Gate& gate = setup.options.gate.gate;
-    if (setup.baseline) compare_with(*setup.baseline, scene, cell);
-    if (cell.error.empty()) cell.first_failing = first_that_fails(cell, gate);
-    setup.console.cell(scene, cell, widths, fails(cell, gate));
+    setup.console.cell(scene, cell, widths_of(setup.options.technique, scene.name),
+                       fails(cell, gate));
     if (cell.since) setup.console.line("  since the baseline: " + words_of(*cell.since));
     const std::string allowed = cause_counts(pixels_allowed(cell, gate));
     if (cell.error.empty() && !allowed.empty()) setup.console.line("  allowed: " + allowed);
 }
 
 /// Plans and traces the chosen light of a scene; the truth lies in the result.
-void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool begun,
+void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
                  std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     require_scene(options.scene.memory, scene, Workload::comparison);
     require_map(options.scene.memory, options.technique.asked.map);
     result.light = chosen_light(scene);
-    if (!begun) {
-        result.name = scene.name;
-        if (result.one_of_many) result.name += "-" + result.light.choice;
-        result.name = unique_name(run.folders, result.name);
-    }
+    result.name = scene.name;
+    if (result.one_of_many) result.name += "-" + result.light.choice;
+    result.name = unique_name(run, result.name);
     describe(result, scene);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
-    if (!begun) announce(run.setup.console, result);
+    announce(run.setup.console, result);
 
     run.setup.console.progress(fmt::format("{}: tracing", result.name));
-    Tracer tracer(scene, options.scene.threads);
-    result.truth = trace(tracer);
+    Tracer tracer = run.setup.pieces.step(result.name + ": tracing", [&] {
+        Tracer made(scene, options.scene.threads);
+        result.truth = trace(made);
+        return made;
+    });
     const auto add_note = [&](const std::string& note) {
         result.notes.push_back(note);
-        if (!begun) run.setup.console.line("  note: " + note);
+        run.setup.console.line("  note: " + note);
     };
     if (const std::optional<std::string> note = note_if_nothing_is_seen(result.truth))
         add_note(*note);
     if (options.witness > 0) {
         run.setup.console.progress(fmt::format("{}: asking the witness", result.name));
         const Agreement agreement =
-            ask_witness(scene, result.truth, options.witness, options.scene.threads);
+            run.setup.pieces.step(result.name + ": asking the witness", [&] {
+                return ask_witness(scene, result.truth, options.witness, options.scene.threads);
+            });
         if (agreement.disagreements > 0)
             throw Error(result.name, words_of(agreement),
                         "trust no verdict on this scene, and report it: this is a fault of "
@@ -145,38 +186,56 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result, bool b
     trial.emplace(scene, result.truth, std::move(plan), std::move(tracer));
 }
 
-/// Judges the chosen techniques in turn, and reports each as soon as it is judged. Those in `tried`
-/// were judged before.
-void judge_techniques(const Run& run, const Trial& trial, SceneResult& result,
-                      const std::vector<Cell>& tried) {
-    const VerifyOptions& options = run.setup.options;
-    const ColumnWidths widths = widths_of(options.technique, result.name);
-    double report_milliseconds = 0;
-    const auto add_timed = [&](const auto& work) {
-        const Stopwatch writing;
-        work();
-        report_milliseconds += writing.milliseconds();
-    };
-    // Where an earlier worker began the scene, it wrote that.
-    if (tried.empty()) add_timed([&] { run.setup.folder.add_scene(result); });
-    for (const Technique* technique : techniques_for(options, trial.scene)) {
-        if (std::any_of(tried.begin(), tried.end(),
-                        [&](const Cell& cell) { return cell.technique == technique->name; }))
-            continue;
-        run.setup.console.progress(fmt::format("{}: {}", result.name, technique->name));
-        send(run.setup.pipe,
-             messages::CellBegun{std::string(technique->name), std::string(technique->summary)});
-        Cell cell = try_technique(run, trial, *technique, report_milliseconds);
-        conclude_cell(run.setup, result, cell, widths);
-        add_timed([&] { run.setup.folder.add_cell(result, cell, options.scene.threads); });
-        send(run.setup.pipe, messages::CellDone{std::move(cell), report_milliseconds});
-        report_milliseconds = 0;
+/// Judges a technique and writes what the report shows of it, as a piece. One that is lost has a
+/// cell that says so.
+DoneCell done_cell(const Run& run, const Trial& trial, const SceneResult& result,
+                   const Technique& technique) {
+    const WorkerSetup& setup = run.setup;
+    try {
+        return setup.pieces.piece(std::string(technique.name), [&] {
+            DoneCell done;
+            Cell& cell = done.cell;
+            cell = try_technique(run, trial, technique, done.report_milliseconds);
+            if (setup.baseline) compare_with(*setup.baseline, result, cell);
+            if (cell.error.empty())
+                cell.first_failing = first_that_fails(cell, setup.options.gate.gate);
+            const Stopwatch writing;
+            setup.folder.add_cell(result, cell, setup.options.scene.threads);
+            done.report_milliseconds += writing.milliseconds();
+            return done;
+        });
+    } catch (const LostPiece& lost) {
+        DoneCell done;
+        done.cell.technique = technique.name;
+        done.cell.summary = technique.summary;
+        done.cell.error = lost.what();
+        if (lost.loss == Loss::timed_out) done.cell.verdict = Verdict::timed_out;
+        return done;
     }
-    send(run.setup.pipe, messages::SceneDone{});
 }
 
-/// An Error in `work` becomes the scene's result and does not end the run. Only for reading and
-/// tracing: a report that cannot be written ends the run. Returns whether `work` succeeded.
+/// Judges the chosen techniques in turn. Returns the milliseconds spent on the report.
+double judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
+    const WorkerSetup& setup = run.setup;
+    setup.console.progress(result.name + ": writing");
+    double report_milliseconds = setup.pieces.piece(result.name + ": writing", [&] {
+        const Stopwatch writing;
+        setup.folder.add_scene(result);
+        return writing.milliseconds();
+    });
+    for (const Technique* technique : techniques_for(setup.options, trial.scene)) {
+        setup.console.progress(fmt::format("{}: {}", result.name, technique->name));
+        DoneCell done = done_cell(run, trial, result, *technique);
+        announce(setup, result, done.cell);
+        report_milliseconds += done.report_milliseconds;
+        result.cells.push_back(std::move(done.cell));
+    }
+    return report_milliseconds;
+}
+
+/// An Error in `work`, or a loss, becomes the scene's result and does not end the run. Only for
+/// reading and tracing: a report that cannot be written ends the run. Returns whether `work`
+/// succeeded.
 template <class Work>
 bool attempt(const Run& run, SceneResult& result, const Work& work) {
     try {
@@ -187,27 +246,28 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
     } catch (const Error& error) {
         result.error = error.what();
     }
-    result.name = unique_name(run.folders, result.name);
-    run.folders.push_back(folder_of(result));
-    complain(result.error);
-    send(run.setup.pipe, messages::SceneFailed{result.name, result.error});
+    result.name = unique_name(run, result.name);
+    if (!run.setup.pieces.catching_up()) complain(result.error);
     return false;
 }
 
+SceneResult begin_result(const std::string& argument) {
+    SceneResult result;
+    result.argument = argument;
+    result.name = std::filesystem::path(argument).stem().string();
+    result.file = argument;
+    return result;
+}
+
 /// A scene with several lights is judged under each of them, with one result for each, unless one
-/// was chosen.
-void try_scene(const Run& run, const std::string& argument, std::size_t light,
-               const std::optional<SceneResult>& begun) {
+/// was chosen. The results are the last of the run.
+double try_scene(const Run& run, const std::string& argument) {
     const WorkerSetup& setup = run.setup;
     std::optional<Scene> scene;
-    std::size_t lights = light + 1;
-    for (std::size_t i = light; i < lights; ++i) {
-        const bool goes_on = begun && i == light;
-        SceneResult result;
-        result.argument = argument;
-        result.name = goes_on ? begun->name : std::filesystem::path(argument).stem().string();
-        result.file = argument;
-        if (!goes_on) send(setup.pipe, messages::SceneBegun{result});
+    std::size_t lights = 1;
+    double report_milliseconds = 0;
+    for (std::size_t i = 0; i < lights; ++i) {
+        SceneResult result = begin_result(argument);
         std::optional<Trial> trial;
         bool none_suits = false;
         const bool traced = attempt(run, result, [&] {
@@ -215,23 +275,56 @@ void try_scene(const Run& run, const std::string& argument, std::size_t light,
                 setup.console.progress(fmt::format("{}: reading", result.name));
                 SceneRequest request = setup.options.scene.request();
                 request.every_light = !request.light;
-                scene = load_scene(argument, request);
+                scene = setup.pieces.step(result.name + ": reading",
+                                          [&] { return load_scene(argument, request); });
                 none_suits = techniques_for(setup.options, *scene).empty();
-                if (request.every_light) lights = scene->lights.size();
-                send(setup.pipe, messages::SceneRead{lights, none_suits});
                 if (none_suits) return;
+                if (request.every_light) lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
             if (result.one_of_many) scene->light = i;
-            begin_trial(run, *scene, result, goes_on, trial);
+            begin_trial(run, *scene, result, trial);
         });
         // When all bundled scenes run, one that none of the named techniques is for is skipped.
-        if (none_suits) return;
-        if (!traced) continue;
-        if (!goes_on) run.folders.push_back(folder_of(result));
-        send(setup.pipe, messages::SceneTraced{result});
-        judge_techniques(run, *trial, result, goes_on ? begun->cells : std::vector<Cell>());
+        if (none_suits) break;
+        if (traced) {
+            try {
+                report_milliseconds += judge_techniques(run, *trial, result);
+            } catch (const LostPiece& lost) { // while the pictures that cells share were written
+                attempt(run, result, [&] { throw lost; });
+            }
+        }
+        // As it is sent: its pictures are written, and dropped.
+        run.scenes.push_back(unpacked<SceneResult>(packed(result)));
     }
+    return report_milliseconds;
+}
+
+/// Tries a scene as a piece: a later worker does not read it again.
+double done_scene(const Run& run, const std::string& argument) {
+    const std::size_t before = run.scenes.size();
+    const auto results = [&] { return std::span(run.scenes).subspan(before); };
+    DoneScene done;
+    try {
+        done = run.setup.pieces.piece(argument, [&] {
+            DoneScene scene;
+            scene.report_milliseconds = try_scene(run, argument);
+            if (!results().empty()) {
+                SceneResult& last = run.scenes.back();
+                last.no_longer_provoked = stopped_provoking(run.setup.begun, results());
+                if (!last.no_longer_provoked.empty())
+                    run.setup.console.always(last.name + ": " + no_longer_provoked_words(last));
+            }
+            scene.results.assign(results().begin(), results().end());
+            return scene;
+        });
+    } catch (const LostPiece& lost) {
+        SceneResult& result = done.results.emplace_back(begin_result(argument));
+        attempt(run, result, [&] { throw lost; });
+    }
+    run.scenes.resize(before);
+    for (SceneResult& result : done.results) run.scenes.push_back(std::move(result));
+    return done.report_milliseconds;
 }
 
 } // namespace
@@ -243,33 +336,13 @@ std::vector<std::string> scenes_to_verify(const VerifyOptions& options) {
     return all;
 }
 
-ColumnWidths widths_of(const TechniqueOptions& techniques, const std::string& scene) {
-    ColumnWidths widths{.technique = 0, .scene = static_cast<int>(scene.size()), .verdict = 0};
-    for (const Technique* technique : techniques.chosen())
-        widths.technique = std::max(widths.technique, static_cast<int>(technique->name.size()));
-    for (const Verdict verdict : {Verdict::agrees, Verdict::fails_as_predicted, Verdict::defect,
-                                  Verdict::unexplained, Verdict::timed_out})
-        widths.verdict = std::max(widths.verdict, static_cast<int>(name_of(verdict).size()));
-    return widths;
-}
-
-void try_scenes(const WorkerSetup& setup, StartingPoint from) {
-    try {
-        Gpu gpu(setup.options.technique.platform);
-        send(setup.pipe, messages::Begun{gpu.driver(), embree_version()});
-        const Run run{setup, gpu, from.folders};
-        const std::vector<std::string> scenes = scenes_to_verify(setup.options);
-        for (std::size_t i = from.scene; i < scenes.size(); ++i) {
-            const bool first = i == from.scene;
-            try_scene(run, scenes[i], first ? from.light : 0, first ? from.begun : std::nullopt);
-        }
-        setup.console.clear_progress();
-        send(setup.pipe, messages::Done{});
-    } catch (const std::bad_alloc&) {
-        send(setup.pipe, messages::RunFailed{out_of_memory});
-    } catch (const std::exception& error) {
-        send(setup.pipe, messages::RunFailed{error.what()});
-    }
+VerifiedScenes try_scenes(const WorkerSetup& setup) {
+    const std::unique_ptr<Gpu> gpu = start_gpu(setup.pieces, setup.options.technique.platform);
+    VerifiedScenes verified{.gl = gpu->driver(), .embree = embree_version(), .scenes = {}};
+    const Run run{setup, *gpu, verified.scenes};
+    for (const std::string& argument : scenes_to_verify(setup.options))
+        verified.report_milliseconds += done_scene(run, argument);
+    return verified;
 }
 
 } // namespace shadowproof

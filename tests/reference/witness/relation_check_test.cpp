@@ -18,7 +18,7 @@ Scene loaded(std::string_view name, int width = 40, int height = 30) {
 }
 
 TEST(RelationCheck, the_truth_of_every_bundled_scene_stays_the_same_however_the_scene_is_told) {
-    std::vector<std::string_view> tried;
+    std::vector<std::string> tried;
     for (const BundledScene& bundled : bundled_scenes()) {
         const Scene scene = loaded(bundled.name);
         const RelationCheck check = check_relations(scene, trace(Tracer(scene)), 0);

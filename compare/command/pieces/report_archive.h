@@ -1,20 +1,9 @@
-#include "compare/command/verify/messages.h"
+// How cells and scenes of a report go from process to process: without pictures and ledgers, which
+// are on disk already.
+#pragma once
 
-#include "scenes/error.h"
-
-#include <poll.h>
-#include <unistd.h>
-
-#include <cereal/archives/binary.hpp>
-#include <cereal/types/array.hpp>
-#include <cereal/types/optional.hpp>
-#include <cereal/types/string.hpp>
-#include <cereal/types/variant.hpp>
-#include <cereal/types/vector.hpp>
-#include <cerrno>
-#include <cstdint>
-#include <cstring>
-#include <sstream>
+#include "compare/command/pieces/archive.h"
+#include "compare/report/report.h"
 
 // Each structure is unpacked into all its members, so that a new member does not compile until it
 // is sent, too. Members named in capitals are not sent: pictures, and large data that is not needed
@@ -143,122 +132,6 @@ void serialize(Archive& archive, SceneResult& scene) {
            cells] = scene;
     archive(name, file, argument, width, height, triangles, digest, light, one_of_many, camera, far,
             meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit, cells);
-}
-
-namespace messages {
-
-template <class Archive>
-void serialize(Archive& archive, Begun& begun) {
-    auto& [gl, embree] = begun;
-    archive(gl, embree);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SceneBegun& begun) {
-    archive(begun.scene);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SceneRead& read) {
-    auto& [lights, none_suits] = read;
-    archive(lights, none_suits);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SceneTraced& traced) {
-    archive(traced.scene);
-}
-
-template <class Archive>
-void serialize(Archive& archive, SceneFailed& failed) {
-    auto& [name, error] = failed;
-    archive(name, error);
-}
-
-template <class Archive>
-void serialize(Archive& archive, CellBegun& begun) {
-    auto& [technique, summary] = begun;
-    archive(technique, summary);
-}
-
-template <class Archive>
-void serialize(Archive& archive, CellDone& done) {
-    auto& [cell, report_milliseconds] = done;
-    archive(cell, report_milliseconds);
-}
-
-template <class Archive>
-void serialize(Archive& /*archive*/, SceneDone& /*done*/) {}
-
-template <class Archive>
-void serialize(Archive& archive, RunFailed& failed) {
-    archive(failed.error);
-}
-
-template <class Archive>
-void serialize(Archive& /*archive*/, Done& /*done*/) {}
-
-} // namespace messages
-
-namespace {
-
-/// Each message is preceded by the number of its bytes.
-using Length = std::uint64_t;
-
-void write_whole(int pipe, const std::string& bytes) {
-    for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t written = write(pipe, bytes.data() + at, bytes.size() - at);
-        if (written < 0 && errno != EINTR)
-            throw Error("shadowproof", "the process that watches over this one is gone",
-                        "run it again");
-        if (written > 0) at += static_cast<std::size_t>(written);
-    }
-}
-
-} // namespace
-
-void send(int pipe, const Message& message) {
-    std::ostringstream stream;
-    {
-        cereal::BinaryOutputArchive archive(stream);
-        archive(message);
-    }
-    const std::string body = stream.str();
-    const Length length = body.size();
-    std::string bytes(sizeof length, '\0');
-    std::memcpy(bytes.data(), &length, sizeof length);
-    write_whole(pipe, bytes + body);
-}
-
-bool MessageReader::holds_message() const {
-    Length length = 0;
-    if (bytes_.size() < sizeof length) return false;
-    std::memcpy(&length, bytes_.data(), sizeof length);
-    return bytes_.size() - sizeof length >= length;
-}
-
-void MessageReader::read_some(int milliseconds) {
-    pollfd waiting{.fd = pipe_, .events = POLLIN, .revents = 0};
-    if (poll(&waiting, 1, milliseconds) <= 0) return;
-    constexpr std::size_t most = std::size_t{1} << 16;
-    const std::size_t held = bytes_.size();
-    bytes_.resize(held + most);
-    const ssize_t got = read(pipe_, bytes_.data() + held, most);
-    bytes_.resize(held + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    ended_ = got == 0 || (got < 0 && errno != EINTR);
-}
-
-std::optional<Message> MessageReader::next(int milliseconds) {
-    if (!holds_message() && !ended_) read_some(milliseconds);
-    if (!holds_message()) return std::nullopt;
-    Length length = 0;
-    std::memcpy(&length, bytes_.data(), sizeof length);
-    std::istringstream stream(bytes_.substr(sizeof length, length));
-    bytes_.erase(0, sizeof length + length);
-    cereal::BinaryInputArchive archive(stream);
-    Message message;
-    archive(message);
-    return message;
 }
 
 } // namespace shadowproof
