@@ -71,9 +71,11 @@ public:
         in_cone_ = truth.in_cone;
         const std::int64_t ideal = ideal_depth(direction);
         // The light reaches the point, exactly: no light-facing triangle lies between both. Where
-        // the crossings' doubles have one there, it is as near the surface as doubles can tell.
-        const bool misordered =
-            truth.triangle == shown_ && truth.visibility == Visibility::lit && ideal != 0;
+        // the crossings' doubles have one there, it is as near the surface as doubles can tell. A
+        // triangle that fills a hole may lie there all the same.
+        const bool has_holes_filled = volumes_.casters.triangles.size() > scene_.triangles.size();
+        const bool misordered = !has_holes_filled && truth.triangle == shown_ &&
+                                truth.visibility == Visibility::lit && ideal != 0;
         moved = moved || misordered;
         volumes_.counted.crossings(direction, crossings_);
         for (const int move : {0, -1, 1}) collect_clipped(direction, move, ideal, moved, readings);

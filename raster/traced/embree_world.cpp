@@ -100,18 +100,21 @@ std::string settings_of_device() {
     return settings;
 }
 
-/// Copies of the rays in Embree's layout.
+/// Copies of the rays in Embree's layout. With few lanes in an instruction set, Embree divides the
+/// packet and looks at all of its rays: those that are not asked for point nowhere, and end before
+/// they begin.
 void copy_rays(const FloatRays& rays, RTCRay16& to, std::array<int, traced_packet>& valid) {
     for (std::size_t i = 0; i < traced_packet; ++i) {
-        valid[i] = rays.valid[i] ? -1 : 0;
-        to.org_x[i] = rays.origin_x[i];
-        to.org_y[i] = rays.origin_y[i];
-        to.org_z[i] = rays.origin_z[i];
-        to.dir_x[i] = rays.direction_x[i];
-        to.dir_y[i] = rays.direction_y[i];
-        to.dir_z[i] = rays.direction_z[i];
-        to.tnear[i] = rays.near[i];
-        to.tfar[i] = rays.far[i];
+        const bool asked = rays.valid[i];
+        valid[i] = asked ? -1 : 0;
+        to.org_x[i] = asked ? rays.origin_x[i] : 0;
+        to.org_y[i] = asked ? rays.origin_y[i] : 0;
+        to.org_z[i] = asked ? rays.origin_z[i] : 0;
+        to.dir_x[i] = asked ? rays.direction_x[i] : 0;
+        to.dir_y[i] = asked ? rays.direction_y[i] : 0;
+        to.dir_z[i] = asked ? rays.direction_z[i] : 1;
+        to.tnear[i] = asked ? rays.near[i] : 0;
+        to.tfar[i] = asked ? rays.far[i] : -1;
         to.time[i] = 0;
         to.mask[i] = 0xffffffffU;
         to.id[i] = static_cast<unsigned int>(i);
@@ -167,7 +170,7 @@ void EmbreeWorld::find_nearest(FloatRays& rays) const {
     for (std::size_t i = 0; i < traced_packet; ++i) {
         const bool hit = rays.valid[i] && traced.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         rays.hit[i] = hit ? traced.hit.primID[i] : no_triangle;
-        rays.far[i] = traced.ray.tfar[i];
+        if (rays.valid[i]) rays.far[i] = traced.ray.tfar[i];
     }
 }
 
