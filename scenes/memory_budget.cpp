@@ -48,6 +48,14 @@ MemoryHold MemoryAccount::hold(const MemoryNeed& need) {
     return {*this, need.bytes};
 }
 
+MemoryBudget MemoryAccount::left() const {
+    MemoryBudget budget = budget_;
+    const std::uint64_t beside = held_ - program_bytes;
+    if (budget.bytes != MemoryBudget::no_limit)
+        budget.bytes = budget.bytes > beside ? budget.bytes - beside : 0;
+    return budget;
+}
+
 void MemoryAccount::keep(const MemoryNeed& need) {
     require(need);
     held_ += need.bytes;

@@ -69,6 +69,8 @@ public:
     void keep(const MemoryNeed& need);
 
     std::uint64_t held() const { return held_; }
+    /// The budget of what follows: less what is held beside the program itself.
+    MemoryBudget left() const;
 
 private:
     friend class MemoryHold;

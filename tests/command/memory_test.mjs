@@ -83,6 +83,15 @@ test('a picture of heights that decodes to more than the budget is refused', () 
   assert.ok(sanitized || run.peak < 300 * megabyte, String(run.peak));
 });
 
+test('pictures that are checked together are held together', () => {
+  const names = Array.from({ length: 6 }, (_, i) => `even-${i}.png`);
+  for (const name of names) writeFileSync(join(scratch, name), evenPng(6000, 6000));
+  const run = measured(['check', 'ordinary', ...names, '--memory', '700MB']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /^shadowproof: even-[1-5]\.png: .*700 MB/);
+  assert.ok(sanitized || run.peak < 700 * megabyte, String(run.peak));
+});
+
 test('words in a picture are passed over, however long they are', () => {
   writeFileSync(join(scratch, 'words.png'), evenPng(16, 16, [longText(500 * megabyte)]));
   const run = measured(['normal-map', 'words.png', '-o', 'n.png', '--memory', '400MB']);

@@ -173,10 +173,11 @@ MeasuredPart measure(const BenchOptions& options, const std::optional<BenchRun>&
     return outcome;
 }
 
-MeasuredPart measured(const BenchOptions& options, Console& console, const ReplacedFolder& folder) {
+MeasuredPart measured(const BenchOptions& options, MemoryAccount& memory, Console& console,
+                      const ReplacedFolder& folder) {
     // Workers overwrite the file.
     std::optional<BenchRun> kept;
-    if (options.resume) kept = kept_run(options.json);
+    if (options.resume) kept = kept_run(options.json, memory);
     PointPictures pictures(folder);
     MeasuredPart outcome = supervised(
         {.timeout = options.timeout,
@@ -193,15 +194,15 @@ MeasuredPart measured(const BenchOptions& options, Console& console, const Repla
 }
 
 /// Measures, or takes over what was measured.
-MeasuredPart outcome_of(const BenchOptions& options, Console& console,
+MeasuredPart outcome_of(const BenchOptions& options, MemoryAccount& memory, Console& console,
                         const ReplacedFolder& folder) {
-    if (options.from.empty()) return measured(options, console, folder);
-    MeasuredPart outcome{.run = read_bench(options.from)};
+    if (options.from.empty()) return measured(options, memory, console, folder);
+    MeasuredPart outcome{.run = read_bench(options.from, &memory)};
     refuse_to_lose(std::filesystem::is_directory(options.from)
                        ? std::filesystem::path(options.from) / results_name
                        : std::filesystem::path(options.from),
                    options.out);
-    take_over_pictures(options.from, outcome.run, folder, options.pictures);
+    take_over_pictures(options.from, memory, outcome.run, folder, options.pictures);
     print_run(outcome.run, console);
     return outcome;
 }
@@ -272,15 +273,16 @@ std::string extent_of(const BenchRun& run) {
 int bench(const BenchOptions& options, int watcher) {
     Console console(options.quiet, watcher);
     check_files(options);
+    MemoryAccount memory(options.scene.memory);
     std::optional<BenchRun> older;
-    if (!options.against.empty()) older = read_bench(options.against);
+    if (!options.against.empty()) older = read_bench(options.against, &memory);
     std::vector<std::string> fixed{page_name, results_name, results_script_name};
     if (options.pictures && !options.scaling) {
         const std::vector<std::string> pictures = fixed_pictures();
         fixed.insert(fixed.end(), pictures.begin(), pictures.end());
     }
     ReplacedFolder folder(options.out, fixed);
-    const auto [run, complete] = outcome_of(options, console, folder);
+    const auto [run, complete] = outcome_of(options, memory, console, folder);
     console.progress("writing " + options.out);
     write_outputs(folder, options, run, older);
     console.clear_progress();

@@ -24,12 +24,12 @@ void BenchKeeper::keep(const BenchRun& run) {
     since_.emplace();
 }
 
-std::optional<BenchRun> kept_run(const std::string& file) {
+std::optional<BenchRun> kept_run(const std::string& file, MemoryAccount& memory) {
     std::error_code failure;
     using std::filesystem::file_type;
     if (std::filesystem::symlink_status(file, failure).type() == file_type::not_found)
         return std::nullopt;
-    return read_bench(file);
+    return read_bench(file, &memory);
 }
 
 void require_same_settings(const std::string& file, const BenchRun& kept, const BenchRun& now) {

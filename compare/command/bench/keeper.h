@@ -4,6 +4,7 @@
 
 #include "compare/bench/bench_run.h"
 #include "compare/command/stopwatch.h"
+#include "scenes/memory_budget.h"
 
 #include <optional>
 #include <string>
@@ -26,7 +27,7 @@ private:
 };
 
 /// What an earlier run left in the file; none if there is no such file.
-std::optional<BenchRun> kept_run(const std::string& file);
+std::optional<BenchRun> kept_run(const std::string& file, MemoryAccount& memory);
 
 /// Throws Error naming the file where the kept run was of another version, driver or machine than
 /// the one that begins now, or had other settings.

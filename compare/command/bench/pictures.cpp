@@ -14,12 +14,11 @@ namespace shadowproof {
 
 namespace fs = std::filesystem;
 
-void take_over_pictures(const std::string& from, BenchRun& run, const ReplacedFolder& folder,
-                        bool wanted) {
+void take_over_pictures(const std::string& from, const MemoryAccount& memory, BenchRun& run,
+                        const ReplacedFolder& folder, bool wanted) {
     const fs::path given = fs::absolute(from);
     const fs::path older = given.filename() == results_name ? given.parent_path() : given;
     const FolderPart part{folder, std::string(pictures_folder) + "/"};
-    const MemoryAccount account;
     std::set<std::string> taken;
     const Manifest written =
         wanted && fs::is_directory(older) ? read_manifest(older).value_or(Manifest()) : Manifest();
@@ -27,7 +26,7 @@ void take_over_pictures(const std::string& from, BenchRun& run, const ReplacedFo
         if (!name.starts_with(part.below) || name == part.below + page_name) continue;
         std::error_code failure;
         if (!fs::is_regular_file(fs::symlink_status(older / name, failure))) continue;
-        const FileBytes bytes = read_bytes(older / name, Place((older / name).string()), account);
+        const FileBytes bytes = read_bytes(older / name, Place((older / name).string()), memory);
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         if (fingerprint_of(text) != fingerprint) continue;
         folder.add(name, text);

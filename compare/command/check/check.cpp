@@ -45,9 +45,13 @@ const std::string& judged_file(const CheckOptions& options, std::size_t i) {
     return options.mask.empty() ? options.pictures[i] : options.mask;
 }
 
-Picture read(const std::string& file, const MemoryAccount& memory) {
+/// Its pixels stay in the account.
+Picture read(const std::string& file, MemoryAccount& memory) {
     constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-    return read_picture(file, {.memory = memory, .most_pixels = most_pixels});
+    Picture picture = read_picture(file, {.memory = memory, .most_pixels = most_pixels});
+    memory.keep({picture.values.size() * sizeof(float), file, "its pixels",
+                 "check fewer pictures at once"});
+    return picture;
 }
 
 void require_size(const std::string& file, const Picture& picture, int width, int height) {
@@ -113,7 +117,7 @@ struct Pictures {
     PictureSize size{};
 };
 
-Pictures read_pictures(const CheckOptions& options, const MemoryAccount& memory, Console& console,
+Pictures read_pictures(const CheckOptions& options, MemoryAccount& memory, Console& console,
                        Pieces& pieces) {
     const auto read_one = [&](const std::string& file) {
         console.progress(file + ": reading");
@@ -176,7 +180,7 @@ void judge_picture(const CheckOptions& options, const TracedScene& traced, std::
 struct CheckWork {
     const CheckOptions& options;
     const std::optional<ResultsFile>& baseline;
-    const MemoryAccount& memory;
+    MemoryAccount& memory;
     Console& console;
     const ReportFolder& folder;
     Pieces& pieces;
@@ -224,9 +228,9 @@ void announce(const CheckWork& work, const Scene& scene) {
 /// The work of a worker: the scene with a cell for each picture.
 SceneResult check_pictures(const CheckWork& work) {
     const CheckOptions& options = work.options;
-    const MemoryBudget& budget = options.view.memory;
     Console& console = work.console;
     const Pictures pictures = read_pictures(options, work.memory, console, work.pieces);
+    const MemoryBudget budget = work.memory.left();
     require_picture(budget, pictures.size.width, pictures.size.height, Workload::comparison);
     SceneOptions view = options.view;
     view.size = pictures.size;
