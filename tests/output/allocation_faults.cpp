@@ -18,9 +18,10 @@
 
 // What glibc's own are called as well, so that these need not be looked up, which allocates.
 extern "C" {
-void* __libc_malloc(std::size_t);              // NOLINT
-void* __libc_calloc(std::size_t, std::size_t); // NOLINT
-void* __libc_realloc(void*, std::size_t);      // NOLINT
+void* __libc_malloc(std::size_t);                // NOLINT
+void* __libc_calloc(std::size_t, std::size_t);   // NOLINT
+void* __libc_realloc(void*, std::size_t);        // NOLINT
+void* __libc_memalign(std::size_t, std::size_t); // NOLINT
 }
 
 namespace {
@@ -72,6 +73,18 @@ void* allocate(std::size_t size) {
     return memory;
 }
 
+void* aligned(std::size_t alignment, std::size_t size) {
+    return fails(counts_malloc) ? nullptr : __libc_memalign(alignment, size);
+}
+
+void* allocate(std::size_t size, std::align_val_t alignment) {
+    const auto bytes = static_cast<std::size_t>(alignment);
+    void* const memory =
+        fails(counts_new || counts_malloc) ? nullptr : __libc_memalign(bytes, size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
 } // namespace
 
 extern "C" {
@@ -93,6 +106,21 @@ void* calloc(std::size_t number, std::size_t size) noexcept {
 void* realloc(void* memory, std::size_t size) noexcept {
     return fails(counts_malloc) ? nullptr : __libc_realloc(memory, size);
 }
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+    return aligned(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+    return aligned(alignment, size);
+}
+/// Unlike the others it returns what went wrong.
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+    const bool is_power_of_two = alignment != 0 && (alignment & (alignment - 1)) == 0;
+    if (!is_power_of_two || alignment % sizeof(void*) != 0) return EINVAL;
+    void* const got = aligned(alignment, size);
+    if (got == nullptr) return ENOMEM;
+    *memory = got;
+    return 0;
+}
 }
 
 void* operator new(std::size_t size) {
@@ -100,6 +128,12 @@ void* operator new(std::size_t size) {
 }
 void* operator new[](std::size_t size) {
     return allocate(size == 0 ? 1 : size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return allocate(size == 0 ? 1 : size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return allocate(size == 0 ? 1 : size, alignment);
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);
@@ -111,5 +145,17 @@ void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
 void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
     std::free(memory);
 }
