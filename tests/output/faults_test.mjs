@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'nod
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { grayPng } from '../command/png.mjs';
-import { assertRefused, contentOf, faults, killedAfter, operationsOf, run, scratch }
+import { assertRefused, changes, contentOf, faults, killed, killedAfter, operationsOf, run, scratch }
   from './faults.mjs';
 
 const program = process.env.SHADOWPROOF;
@@ -68,10 +68,10 @@ function assertMended(below, where) {
 
 test('verify: killed at file operations and at random moments, a report is whole', async () => {
   const below = place('verify-killed');
-  const count = operationsOf(verify('zfail'), below, { cwd: below });
+  const count = operationsOf(verify('zfail'), below, { cwd: below, ...changes });
   // Each of the operations of a folder that is replaced is tried in replace_test.mjs.
   for (let at = 1; at <= count; at += Math.ceil(count / 25)) {
-    run(verify('zfail'), { cwd: below, env: faults(below, { at, kill: 1 }) });
+    run(verify('zfail'), { cwd: below, env: faults(below, { at, ...killed }) });
     assertWhole(below, `killed at operation ${at} of ${count}`);
     assertMended(below, `killed at operation ${at} of ${count}`);
   }

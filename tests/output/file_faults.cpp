@@ -8,6 +8,7 @@
 //   FAULTS_KILL     set: instead of failing, the call ends all processes by SIGKILL
 //   FAULTS_WITHOUT  what the file system does not have: "unnamed" files, "exchange" of two names,
 //                   or both, with a comma between
+//   FAULTS_CHANGES  set: calls that only read or ask are not counted
 //   FAULTS_BYTES    from that many bytes written below the folder on, writing fails (ENOSPC)
 #include "tests/output/file_faults.h"
 
@@ -38,6 +39,7 @@ struct Settings {
     unsigned long at = 0;
     int reason = EIO;
     bool kill = false;
+    bool changes_alone = false;
     bool without_unnamed = false;
     bool without_exchange = false;
     bool has_budget = false;
@@ -57,6 +59,7 @@ Settings::Settings() {
     if (const char* text = std::getenv("FAULTS_AT")) at = std::strtoul(text, nullptr, 10);
     if (const char* text = std::getenv("FAULTS_ERRNO")) reason = std::atoi(text);
     kill = std::getenv("FAULTS_KILL") != nullptr;
+    changes_alone = std::getenv("FAULTS_CHANGES") != nullptr;
     if (const char* text = std::getenv("FAULTS_WITHOUT")) {
         without_unnamed = std::strstr(text, "unnamed") != nullptr;
         without_exchange = std::strstr(text, "exchange") != nullptr;
@@ -133,6 +136,10 @@ bool fails(bool counted) {
     if (set.kill) kill_all(set);
     errno = set.reason;
     return true;
+}
+
+bool fails_to_ask(bool counted) {
+    return !settings().changes_alone && fails(counted);
 }
 
 std::size_t granted(int descriptor, std::size_t bytes) {

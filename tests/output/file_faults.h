@@ -24,6 +24,8 @@ bool is_below(int folder, const char* path);
 
 /// Counts a call; whether it is the one that fails. errno is set then, and kept otherwise.
 bool fails(bool counted);
+/// The same of a call that changes nothing, which FAULTS_CHANGES leaves out.
+bool fails_to_ask(bool counted);
 
 /// How many of `bytes` still fit: fewer, where the budget ends among them.
 std::size_t granted(int descriptor, std::size_t bytes);
