@@ -1,17 +1,19 @@
 // A shared object for LD_PRELOAD: memory that runs out where a test says so. It counts the
 // allocations of the process from main() to its end, since nobody can answer for those before; of
 // the processes that it forks, each goes on from the count of its parent.
-//   ALLOCATION_AT     the allocation that fails, from 1; none: all are counted and none fails
-//   ALLOCATION_KIND   new: those of operator new alone; else all that come to malloc too
-//   ALLOCATION_COUNT  a file that gets the number of allocations when the process ends
+//   ALLOCATION_COUNTER  a file of 16 bytes, as uint64: the highest count of any process, and
+//                       whether an allocation has failed; without it nothing is counted
+//   ALLOCATION_AT       the allocation that fails, from 1, in the process that reaches it first;
+//                       none: all are counted and none fails
+//   ALLOCATION_KIND     new: those of operator new alone; else all that come to malloc too
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -26,8 +28,14 @@ void* __libc_memalign(std::size_t, std::size_t); // NOLINT
 
 namespace {
 
+struct Shared {
+    std::atomic<unsigned long> most;
+    std::atomic<unsigned long> has_failed;
+};
+
 std::atomic<bool> in_main = false;
 std::atomic<unsigned long> count = 0;
+Shared* shared = nullptr;
 unsigned long at = 0;
 bool counts_new = false;
 bool counts_malloc = false;
@@ -35,24 +43,26 @@ bool counts_malloc = false;
 [[gnu::constructor]] void begin() {
     if (const char* text = std::getenv("ALLOCATION_AT")) at = std::strtoul(text, nullptr, 10);
     const char* const kind = std::getenv("ALLOCATION_KIND");
-    if (kind == nullptr) return;
+    const char* const counter = std::getenv("ALLOCATION_COUNTER");
+    if (kind == nullptr || counter == nullptr) return;
+    const int file = ::open(counter, O_RDWR | O_CLOEXEC);
+    if (file < 0) return;
+    void* const mapped =
+        ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    ::close(file);
+    if (mapped == MAP_FAILED) return;
+    shared = static_cast<Shared*>(mapped);
     counts_new = std::strcmp(kind, "new") == 0;
     counts_malloc = !counts_new;
 }
 
-[[gnu::destructor]] void end() {
-    const char* const file = std::getenv("ALLOCATION_COUNT");
-    if (file == nullptr) return;
-    char text[32];
-    const int length = std::snprintf(text, sizeof text, "%lu", count.load());
-    const int opened = ::open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    if (opened < 0) return;
-    if (::write(opened, text, static_cast<std::size_t>(length)) != length) ::abort();
-    ::close(opened);
-}
-
 bool fails(bool counted) {
-    if (!counted || !in_main || count.fetch_add(1) + 1 != at) return false;
+    if (!counted || !in_main) return false;
+    const unsigned long now = count.fetch_add(1) + 1;
+    unsigned long most = shared->most;
+    while (now > most && !shared->most.compare_exchange_weak(most, now)) {
+    }
+    if (now != at || shared->has_failed.exchange(1) != 0) return false;
     errno = ENOMEM;
     return true;
 }
