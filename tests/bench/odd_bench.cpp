@@ -8,6 +8,7 @@
 #include "compare/families.h"
 #include "raster/render.h"
 #include "raster/technique.h"
+#include "scenes/generated.h"
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
 #include "scenes/stress/parameter.h"
@@ -78,7 +79,6 @@ std::vector<Row> rows() {
     for (const auto& [parameter, value] : std::vector<std::pair<const char*, double>>{
              {"coincident_faces", 5},
              {"coincident_faces", 64},
-             {"nested_volumes", 100},
              {"light_elevation", 1e-6},
              {"light_elevation", 0},
              {"light_to_face", 0},
@@ -90,11 +90,15 @@ std::vector<Row> rows() {
              {"sliver_aspect", 1e9},
          }) {
         const Stress stress{parameter, value};
-        stresses.push_back({words_of(stress), [stress] {
-                                return stressed(small("ordinary"), stress);
-                            }});
+        stresses.push_back(
+            {words_of(stress), [stress] { return stressed(small("ordinary"), stress); }});
     }
+    const auto nested = [] {
+        return stressed(small("ordinary"), {.parameter = "nested_volumes", .value = 100});
+    };
     return {stresses,
+            {{"as many triangles", [] { return dense_scene(570'000, side, side); }},
+             {"nested_volumes=100", nested}},
             {{"grid beside rays", [] { return grid(0.37); }},
              {"grid on rays", [] { return grid(0); }}}};
 }
