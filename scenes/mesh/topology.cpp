@@ -1,5 +1,7 @@
 #include "scenes/mesh/topology.h"
 
+#include "scenes/roundoff.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -173,7 +175,7 @@ bool encloses_negative_volume(const Scene& scene, std::span<const std::uint32_t>
         volume += glm::dot(a, glm::cross(b, c));
         size += glm::length(a) * glm::length(b) * glm::length(c);
     }
-    return volume < -(16 + static_cast<double>(triangles.size())) * 0x1p-53 * size;
+    return volume < -(16 + static_cast<double>(triangles.size())) * double_roundoff * size;
 }
 
 std::vector<CasterReport> inspect_casters(const Scene& scene) {

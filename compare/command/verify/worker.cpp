@@ -45,11 +45,7 @@ struct DoneCell {
     double report_milliseconds = 0; ///< spent on its ledgers and pictures
 };
 
-template <class Archive>
-void serialize(Archive& archive, DoneCell& done) {
-    auto& [cell, report_milliseconds] = done;
-    archive(cell, report_milliseconds);
-}
+SHADOWPROOF_SEND_ALL(DoneCell, cell, report_milliseconds)
 
 /// A scene's results, one for each light under which it was tried.
 struct DoneScene {
@@ -57,11 +53,7 @@ struct DoneScene {
     double report_milliseconds = 0;
 };
 
-template <class Archive>
-void serialize(Archive& archive, DoneScene& done) {
-    auto& [results, report_milliseconds] = done;
-    archive(results, report_milliseconds);
-}
+SHADOWPROOF_SEND_ALL(DoneScene, results, report_milliseconds)
 
 /// A scene under one of its lights, traced: what its techniques are judged against.
 struct Trial {
