@@ -7,6 +7,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/standard_output.h"
 #include "compare/families.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
 #include "compare/report/color_words.h"

@@ -80,7 +80,7 @@ function claimWords({ claim, share }, pixel) {
                                              : words;
 }
 
-/** The blocks of a cell's colours, if it has some. Damaged ones do not affect the ledgers. */
+/** The blocks of a cell's colours, if it has some. Damaged ones do not affect the evidence. */
 async function openColors({ scene, cell, id, sceneFile, cellFile, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;

@@ -105,6 +105,12 @@ test('what a family adds to its cells is checked by that family, and by no other
   }).code, 3);
 });
 
+test('the report folder holds the same results as --json, but for nothing', () => {
+  const folder = JSON.parse(readFileSync(join(scratch, 'report/results.json'), 'utf8'));
+  const { code, ...results } = all;
+  assert.deepEqual(folder, results);
+});
+
 test('a claim of shares of light tells how many pixels and how wrong they are, validly', () => {
   const results = resultsOf(['verify', 'spot', '--technique', 'spot_map,spot_map_pcf',
                              '--map-size', '64', '--size', '96x96']);
@@ -114,12 +120,6 @@ test('a claim of shares of light tells how many pixels and how wrong they are, v
   assert.ok(shared.wrongness > 0 && shared.wrongness < shared.differing);
   assert.ok(shared.causes.filter > 0);
   assert.deepEqual([whole.partly_lit, whole.wrongness], [undefined, undefined]);
-});
-
-test('the report folder holds the same results as --json, but for nothing', () => {
-  const folder = JSON.parse(readFileSync(join(scratch, 'report/results.json'), 'utf8'));
-  const { code, ...results } = all;
-  assert.deepEqual(folder, results);
 });
 
 test('a scene that cannot be read is an error in valid results, and the others are tried', () => {

@@ -8,6 +8,7 @@
 #include "compare/command/standard_output.h"
 #include "compare/command/start_gpu.h"
 #include "compare/command/stopwatch.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"

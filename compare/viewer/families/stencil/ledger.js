@@ -25,6 +25,18 @@ function pixelFacts(record) {
   ]);
 }
 
+/** What became of a crossing that is not counted, where `test` is the caster's. */
+const statusWords = {
+  counted: 'counted',
+  beyond: { depth_pass: 'behind the surface, not asked for',
+            depth_fail: 'in front of the surface, not asked for' },
+  lost_near: 'lost: in front of the near plane',
+  lost_far: 'lost: clipped at the far plane',
+  lost_cap: 'lost: the cap is missing',
+};
+const wordsOfStatus = (status, test) =>
+  (status === 'beyond' ? statusWords.beyond[test] : statusWords[status] ?? status);
+
 /** What a counted crossing adds to a technique's counter. */
 const testOf = (technique, i) => technique.tests?.[i] ?? technique.test;
 const countedAs = (technique, i, change) =>
