@@ -22,25 +22,25 @@ function(shadowproof_add_test)
     set(values NAME SCENE SIZE CAMERA LIGHT TIME GATE BASELINE OUT)
     set(lists TECHNIQUES ALLOW)
     cmake_parse_arguments(PARSE_ARGV 0 given "" "${values}" "${lists}")
-    set(who "shadowproof_add_test(${given_NAME})")
+    set(call "shadowproof_add_test(${given_NAME})")
     foreach(argument NAME SCENE)
         if("${given_${argument}}" STREQUAL "")
-            message(FATAL_ERROR "${who}: ${argument} is missing; write "
+            message(FATAL_ERROR "${call}: ${argument} is missing; write "
                 "shadowproof_add_test(NAME name SCENE scene.gltf)")
         endif()
     endforeach()
     if(DEFINED given_UNPARSED_ARGUMENTS)
         list(JOIN given_UNPARSED_ARGUMENTS " " unknown)
         list(JOIN values ", " all)
-        message(FATAL_ERROR "${who}: '${unknown}' is not known; it takes one value each for ${all}, "
+        message(FATAL_ERROR "${call}: '${unknown}' is not known; it takes one value each for ${all}, "
             "and any number for TECHNIQUES, ALLOW")
     endif()
     if(DEFINED given_KEYWORDS_MISSING_VALUES)
         list(JOIN given_KEYWORDS_MISSING_VALUES ", " empty)
-        message(FATAL_ERROR "${who}: no value follows ${empty}; give one, or leave the word out")
+        message(FATAL_ERROR "${call}: no value follows ${empty}; give one, or leave the word out")
     endif()
     if(DEFINED given_GATE AND NOT given_GATE MATCHES "^(defects|differences)$")
-        message(FATAL_ERROR "${who}: GATE '${given_GATE}' is not known; give defects or differences")
+        message(FATAL_ERROR "${call}: GATE '${given_GATE}' is not known; give defects or differences")
     endif()
 
     # Other names are bundled scenes.

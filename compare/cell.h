@@ -21,7 +21,7 @@ namespace shadowproof {
 struct Cell {
     std::string technique;
     std::string family;  ///< family of claims, which decides how it is judged
-    std::string summary; ///< one clause: how the technique counts
+    std::string summary; ///< one clause: how the technique works
     /// Words that make this cell again, where it is no technique: those after the program's name.
     std::vector<std::string> command;
     std::string error; ///< if not empty, the cell has no result: the other members are meaningless,

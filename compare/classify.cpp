@@ -215,7 +215,26 @@ void check_colors(const Case& tried, Comparison& comparison) {
                 comparison.cause.at(x, y) = static_cast<std::uint8_t>(*cause);
 }
 
+ShareFigures share_figures(const JudgedClaim& claim, const Image<std::uint8_t>& cause) {
+    ShareFigures figures;
+    for (std::size_t i = 0; i < cause.pixels.size(); ++i) {
+        if (claim.frame.claim.pixels[i] == Visibility::partly_lit) ++figures.partly_lit;
+        if (cause.pixels[i] != no_difference &&
+            cause.pixels[i] != static_cast<std::uint8_t>(Cause::edge))
+            figures.wrongness += wrongness(claim.traced.truth().visibility, claim.frame, i);
+    }
+    return figures;
+}
+
 } // namespace
+
+double wrongness(const Image<Visibility>& truth, const Frame& frame, std::size_t pixel) {
+    const Visibility right = truth.pixels[pixel];
+    if (frame.claim.pixels[pixel] != Visibility::partly_lit || right == Visibility::background)
+        return 1;
+    const double light = lit_share(frame, pixel);
+    return right == Visibility::lit ? 1 - light : light;
+}
 
 Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& judge) {
     const int width = traced.truth().visibility.width;
@@ -257,6 +276,8 @@ Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& 
     }
     if (frame.shows_surface()) check_surfaces(tried, at_centre, comparison);
     if (!frame.color.pixels.empty()) check_colors(tried, comparison);
+    if (!frame.share.pixels.empty())
+        comparison.shares = share_figures(tried.claim, comparison.cause);
     comparison.summary = judge.summary(comparison.evidence, comparison.cause);
     count_causes(comparison);
     return comparison;

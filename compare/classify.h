@@ -19,6 +19,12 @@ struct FirstDifference {
     Cause cause = Cause::unexplained;
 };
 
+/// What the shares of light come to that a claim has.
+struct ShareFigures {
+    std::uint64_t partly_lit = 0; ///< pixels
+    double wrongness = 0; ///< light by which all pixels that differ are off, those of edge apart
+};
+
 struct Comparison {
     Image<std::uint8_t> cause; ///< Cause, or no_difference
     /// CauseSet::bits of the further causes without which `cause` alone makes no difference to the
@@ -33,13 +39,18 @@ struct Comparison {
     std::optional<FirstDifference> first;
     std::string evidence_name; ///< Judge::evidence
     EvidenceCheck evidence;
-    EvidenceSummary summary;          ///< figures of the evidence
-    std::optional<ColorCheck> colors; ///< if the frame has colours
+    EvidenceSummary summary;            ///< figures of the evidence
+    std::optional<ColorCheck> colors;   ///< if the frame has colours
+    std::optional<ShareFigures> shares; ///< if the frame has shares of light
 };
 
 inline std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
     return comparison.causes[static_cast<std::size_t>(cause)];
 }
+
+/// How far a claim is from the truth at a pixel that differs, given by its index: by a share of the
+/// light where it is partly lit; by 1 elsewhere, and where the truth is background.
+double wrongness(const Image<Visibility>& truth, const Frame& frame, std::size_t pixel);
 
 /// All pictures must have the same size (asserted). `judge`: the frame's (judge_of). After
 /// thousands of unexplained pixels the others are compared at their centres only, so some of those

@@ -1,5 +1,6 @@
-// Unexplained evidence of a technique: counters, surfaces, colours, and figures and pictures of its
-// volumes. The one place that knows all kinds of evidence; judging and writing use it.
+// What of a claim's evidence is unexplained, in words: what was read back and the surfaces shown,
+// colours, and what its family adds (EvidenceSummary::unexplained). The verdict and all writers
+// read it here.
 #pragma once
 
 #include "compare/classify.h"

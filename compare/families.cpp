@@ -19,13 +19,16 @@ std::span<const Family> all_families() {
     return families;
 }
 
-std::unique_ptr<Judge> judge_of(const TracedScene& traced, const Frame& frame) {
+const Family* find_family(std::string_view name) {
     const auto families = all_families();
-    const auto found = std::find_if(families.begin(), families.end(), [&](const Family& family) {
-        return family.name == frame.family;
-    });
-    assert(found != families.end());
-    return found->judge(traced, frame);
+    const auto found = std::ranges::find(families, name, &Family::name);
+    return found == families.end() ? nullptr : &*found;
+}
+
+std::unique_ptr<Judge> judge_of(const TracedScene& traced, const Frame& frame) {
+    const Family* const family = find_family(frame.family);
+    assert(family != nullptr);
+    return family->judge(traced, frame);
 }
 
 } // namespace shadowproof

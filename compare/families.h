@@ -3,12 +3,17 @@
 
 #include "compare/judge/judge.h"
 
+#include <memory>
 #include <span>
+#include <string_view>
 
 namespace shadowproof {
 
 /// All families in the order of the registry, families.inc.
 std::span<const Family> all_families();
+
+/// Null where no family has that name.
+const Family* find_family(std::string_view name);
 
 /// The judge of a claim, by its family; keeps references to both. Asserts that the family is known.
 std::unique_ptr<Judge> judge_of(const TracedScene& traced, const Frame& frame);

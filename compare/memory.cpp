@@ -101,14 +101,4 @@ void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work
         {scene_bytes(scene, work), scene.file.string(), most.name + " and the rest of the work", most.remedy});
 }
 
-// A texel has four bytes in OpenGL and four as it is read back, and a fifth is added.
-void require_map(const MemoryBudget& budget, const MapSettings& settings) {
-    if (!settings.size) return;
-    const int size = *settings.size;
-    require_memory(budget, program_bytes,
-                   {6 * pixels_of(size, size) * 10, fmt::format("--map-size {}", size),
-                    fmt::format("a cube map of {}x{} texels a face", size, size),
-                    "try a smaller --map-size"});
-}
-
 } // namespace shadowproof

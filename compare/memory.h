@@ -6,7 +6,6 @@
 
 #include "scenes/memory_budget.h"
 #include "scenes/scene.h"
-#include "scenes/shadow_map.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -39,8 +38,5 @@ std::uint64_t scene_bytes(const Scene& scene, Workload work);
 /// Throws Error naming the scene's file and what of it takes most, where the work on it at the size
 /// of its camera cannot fit.
 void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work);
-
-/// Throws Error naming --map-size where a map that was asked for cannot fit.
-void require_map(const MemoryBudget& budget, const MapSettings& settings);
 
 } // namespace shadowproof

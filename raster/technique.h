@@ -1,5 +1,5 @@
-// A technique: how it counts shadow volumes, what it is known to fail at, what it needs, and the
-// function that draws it.
+// A technique: what it is called, what it needs, what it is known to fail at, and the function that
+// draws or traces a scene with it. Which family judges its claim, its frames say (Frame::family).
 #pragma once
 
 #include "scenes/cause.h"
@@ -18,7 +18,7 @@ class Gpu;
 
 struct Technique {
     std::string_view name;    ///< "zfail_reversed"
-    std::string_view summary; ///< one clause: how it counts
+    std::string_view summary; ///< one clause: how it works
     std::string_view source;  ///< where it is described
     std::string_view needs;   ///< what it requires of scene and driver
     /// Frame time relative to zfail_reversed, the geometric mean over all bundled scenes that it

@@ -1,14 +1,14 @@
-// The steps at which an OpenGL driver rounds, and how often: the constants that every error bound
-// is made of. Bounds for the judge are derived in compare/driver, those for what is
-// decided before drawing in scenes/plan and scenes/mesh; bytes are in scenes/byte_blending.h.
+// How often an OpenGL driver rounds, and to which grid it snaps: with roundoff.h the constants that
+// every bound of its errors is made of. Bounds for the judge are derived in compare/driver, those
+// for what is decided before drawing in scenes/plan and scenes/mesh; bytes are in
+// scenes/byte_blending.h.
 #pragma once
+
+#include "scenes/roundoff.h"
 
 #include <cmath>
 
 namespace shadowproof {
-
-inline constexpr double float_roundoff = 0x1p-24;  ///< largest relative error of rounding to float
-inline constexpr double double_roundoff = 0x1p-53; ///< the same of double
 
 /// Of one coordinate that a float matrix transforms: its entry (1), the product (1), the sums (3).
 inline constexpr int transform_roundings = 5;

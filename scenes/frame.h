@@ -20,7 +20,7 @@
 namespace shadowproof {
 
 /// What a pixel shows; the values are those of the class map, 8-bit gray. Only claims are partly
-/// lit: how much, their evidence tells.
+/// lit, never the truth: how much, Frame::share says.
 enum class Visibility : std::uint8_t { background = 0, shadowed = 64, partly_lit = 160, lit = 255 };
 
 /// A part of a frame, and its time.
@@ -33,6 +33,9 @@ struct Frame {
     /// By what the claim is judged: the name of its family (compare/families.inc).
     std::string_view family;
     Image<Visibility> claim;
+    /// How much of the light is claimed at each pixel, 0 to 1; read where the claim is partly lit.
+    /// Empty where the claim is all or nothing.
+    Image<double> share{};
     /// The surface that is shown at each pixel; empty where the claim tells of none.
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
     Image<float> depth;            ///< window depth in [0, 1]
@@ -42,11 +45,12 @@ struct Frame {
     /// them: floats neither clamped nor rounded, or k / 255 where the buffer holds bytes.
     /// Background is black.
     Image<glm::vec3> color{};
-    ColorModel color_model{};                ///< how they were made
-    std::optional<CounterEvidence> counted;  ///< where shadow volumes were counted
-    std::optional<PicturedShadows> pictured; ///< where pictures tell the claim
-    std::optional<MapEvidence> mapped;       ///< where a shadow map was asked
-    std::optional<TracedRays> rays;          ///< where rays were traced in float
+    ColorModel color_model{}; ///< how they were made
+    // The evidence, one member per family that has any:
+    std::optional<CounterEvidence> counted;  ///< shadow volumes: the counter read back
+    std::optional<PicturedShadows> pictured; ///< pictures: how bright they are
+    std::optional<MapEvidence> mapped;       ///< shadow maps: the texels read back
+    std::optional<TracedRays> rays;          ///< traced shadows: the rays as they were shot
     double milliseconds = 0; ///< making the evidence, drawing and finishing, without the read-back
     std::vector<Stage> stages{};       ///< of one more frame, which waited for each; may be empty
     std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
@@ -54,12 +58,11 @@ struct Frame {
     bool shows_surface() const { return !triangle.pixels.empty(); }
 };
 
-/// How much of the light the claim shows at a pixel, given by its index: 0 to 1. Where it is partly
-/// lit the frame must have a map, and counts as many as its claim has pixels.
+/// How much of the light the claim shows at a pixel, given by its index: 0 to 1. A frame with a
+/// pixel that is partly lit must have shares.
 inline double lit_share(const Frame& frame, std::size_t pixel) {
-    if (frame.claim.pixels[pixel] != Visibility::partly_lit)
-        return frame.claim.pixels[pixel] == Visibility::lit ? 1 : 0;
-    return 1.0 * frame.mapped->lit_comparisons.pixels[pixel] / frame.mapped->model.asked();
+    if (frame.claim.pixels[pixel] == Visibility::partly_lit) return frame.share.pixels[pixel];
+    return frame.claim.pixels[pixel] == Visibility::lit ? 1 : 0;
 }
 
 /// The driver that drew a frame, as it identifies itself.

@@ -1,5 +1,7 @@
 #include "scenes/orientation.h"
 
+#include "scenes/roundoff.h"
+
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -51,7 +53,7 @@ constexpr double smallest = std::numeric_limits<double>::min();
 /// at most the smallest double, a few times and up to r times over: by less than the smallest
 /// normal one for each unit of r.
 double determinant_error(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
-    return 50 * 0x1p-53 * largest(p) * largest(q) * largest(r) +
+    return 50 * double_roundoff * largest(p) * largest(q) * largest(r) +
            smallest * std::max(1.0, largest(r));
 }
 

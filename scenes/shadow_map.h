@@ -43,7 +43,8 @@ inline constexpr std::array all_map_formats{MapFormat::d16, MapFormat::d24, MapF
 inline constexpr std::array all_map_cullings{MapCulling::none, MapCulling::front, MapCulling::back};
 inline constexpr std::array all_map_averages{MapAverage::comparisons, MapAverage::values};
 
-/// Texels a side of the largest block: the shares of one byte.
+/// Texels along a side of the largest block that is averaged. The shader adds the number of texels
+/// that say `lit` to a byte that holds `shadowed`, and more would not fit.
 inline constexpr int largest_map_filter = 13;
 
 constexpr std::string_view name_of(MapValue value) {
@@ -91,7 +92,7 @@ struct MapSettings {
     std::optional<MapFormat> format{};
     std::optional<MapCulling> culling{};
     std::optional<double> near{}; ///< in the file's units of length
-    std::optional<double> far{};  ///< likewise
+    std::optional<double> far{};  ///< in the file's units of length
     std::optional<int> filter{};  ///< texels a side of the block
     std::optional<MapAverage> average{};
 };
@@ -127,8 +128,6 @@ struct MapEvidence {
     /// As read back, one per face, in OpenGL's order for a cube; rows from the top of the picture
     /// that the face's camera takes.
     std::vector<Image<float>> faces;
-    /// Where comparisons are averaged: how many of MapModel::asked say `lit`, at each pixel.
-    Image<std::uint8_t> lit_comparisons{};
     DepthFormat format{};        ///< of the texture, as the driver names it
     double map_milliseconds = 0; ///< drawing the map, in a frame that waited for it
 };

@@ -10,8 +10,8 @@
 namespace shadowproof {
 
 struct BenchChanges {
-    std::vector<std::string> losses; ///< a sentence each
-    std::vector<std::string> gains;  ///< "
+    std::vector<std::string> losses; ///< what became worse, one sentence each
+    std::vector<std::string> gains;  ///< what became better, one sentence each
     std::vector<std::string> notes;  ///< what makes the runs differ, and what cannot be compared
     std::size_t compared = 0;        ///< points
 };

@@ -1,4 +1,4 @@
-// A benchmark as CSV (RFC 4180): a line for each point, for spreadsheets and plots of others.
+// A benchmark as CSV (RFC 4180): one line per point, for spreadsheets and other programs that plot.
 #pragma once
 
 #include "compare/bench/bench_run.h"

@@ -1,7 +1,8 @@
 #include "compare/bench/bench_file.h"
 
 #include "compare/bench/bench_json.h"
-#include "compare/results/json_rules.h"
+#include "compare/json/json_rules.h"
+#include "scenes/roundoff.h"
 
 #include <cmath>
 #include <system_error>
@@ -19,26 +20,26 @@ constexpr const char* measure_again = "measure again with shadowproof bench";
 constexpr JsonRemedies of_bench{"name a file that bench --json wrote, or the folder of its plot",
                                 "give the whole file that bench --json wrote"};
 
-void schema(const Place& place) {
+void schema(const JsonPlace& place) {
     if (place.value != bench_schema)
         refuse(place, fmt::format("must be \"{}\", but is {}", bench_schema, shown(place.value)),
                "give what bench --json wrote, or use the shadowproof that wrote it");
 }
 
-void finite(const Place& place) {
+void finite(const JsonPlace& place) {
     require(place.value.is_number() && std::isfinite(place.value.get<double>()), place,
             "a finite number");
 }
-void positive(const Place& place) {
+void positive(const JsonPlace& place) {
     require(place.value.is_number() && place.value.get<double>() > 0, place, "a number above 0");
 }
 
-void settings(const Place& place) {
+void settings(const JsonPlace& place) {
     require(place.value.is_object(), place, "an object");
     for (const auto& [name, value] : place.value.items()) text(place.at(name));
 }
 
-void time(const Place& place) {
+void time(const JsonPlace& place) {
     object(place, {{"median", milliseconds},
                    {"low", milliseconds},
                    {"high", milliseconds},
@@ -52,7 +53,7 @@ void time(const Place& place) {
 }
 
 /// `count`: of the point's own samples.
-void stage(const Place& place, std::size_t count) {
+void stage(const JsonPlace& place, std::size_t count) {
     object(place, {{"median", milliseconds}, {"samples", some_of<milliseconds>}});
     const auto samples = place.value.at("samples").get<std::vector<double>>();
     if (samples.size() != count) refuse(place.at("samples"), "are not as many as those of \"ms\"");
@@ -61,7 +62,7 @@ void stage(const Place& place, std::size_t count) {
 }
 
 /// A cell of the report beside the plot. The plot links to it, and it may lead nowhere else.
-void cell_address(const Place& place) {
+void cell_address(const JsonPlace& place) {
     constexpr std::string_view page = "pictures/index.html#";
     constexpr std::string_view plain =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
@@ -75,15 +76,15 @@ void cell_address(const Place& place) {
             place, "the address of a cell, as \"pictures/index.html#near_plane/zpass\"");
 }
 
-void any_object(const Place& place) {
+void any_object(const JsonPlace& place) {
     require(place.value.is_object(), place, "an object");
 }
 
-void color(const Place& place) {
+void color(const JsonPlace& place) {
     object(place, {{"rmse", amount}, {"largest", amount}, {"p999", amount}});
 }
 
-void point(const Place& place) {
+void point(const JsonPlace& place) {
     object(place, {{"scene", some_text},
                    {"technique", some_text},
                    {"family", text, Need::optional},
@@ -114,11 +115,11 @@ void point(const Place& place) {
     const auto most = static_cast<double>(sum);
     if (place.value.at("falsely_lit").get<double>() +
             place.value.at("falsely_shadowed").get<double>() >
-        most + 2 * most * 0x1p-53 * most)
+        most + 2 * most * double_roundoff * most)
         refuse(place.at("falsely_lit"), "is more than what differs, with \"falsely_shadowed\"");
 }
 
-void scene(const Place& place) {
+void scene(const JsonPlace& place) {
     object(place, {{"name", some_text},
                    {"file", text},
                    {"digest", text},
@@ -129,30 +130,30 @@ void scene(const Place& place) {
                    {"finished", boolean}});
 }
 
-void left_out(const Place& place) {
+void left_out(const JsonPlace& place) {
     object(place, {{"scene", text},
                    {"technique", text, Need::optional},
                    {"settings", settings, Need::optional},
                    {"why", text}});
 }
 
-void machine(const Place& place) {
+void machine(const JsonPlace& place) {
     object(place, {{"processor", text}, {"cores", count}, {"system", text}});
 }
 
-void exponent(const Place& place) {
+void exponent(const JsonPlace& place) {
     object(place, {{"value", finite}, {"low", finite}, {"high", finite}});
 }
 
-void broken(const Place& place) {
+void broken(const JsonPlace& place) {
     object(place, {{"size", positive}, {"below", exponent}, {"above", exponent}});
 }
 
-void growth_point(const Place& place) {
+void growth_point(const JsonPlace& place) {
     object(place, {{"size", positive}, {"ms", time}});
 }
 
-void growth(const Place& place) {
+void growth(const JsonPlace& place) {
     object(place, {{"axis", some_text},
                    {"scene", text},
                    {"technique", some_text},
@@ -172,7 +173,7 @@ bool are_one(const Json& a, const Json& b) {
 } // namespace
 
 void check_bench(const Json& bench, const std::string& file) {
-    const Place whole{file, "", bench, measure_again};
+    const JsonPlace whole{file, "", bench, measure_again};
     object(whole, {{"schema", schema}}); // before the rules of that schema
     object(whole, {{"version", some_text},
                    {"gl", gl},
@@ -184,7 +185,7 @@ void check_bench(const Json& bench, const std::string& file) {
                    {"points", list_of<point>},
                    {"left_out", list_of<left_out>},
                    {"scaling", list_of<growth>}});
-    const Place points = whole.at("points");
+    const JsonPlace points = whole.at("points");
     for (std::size_t i = 0; i < points.value.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             if (are_one(points.value.at(i), points.value.at(k)))

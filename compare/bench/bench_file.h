@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/bench/bench_run.h"
-#include "compare/results/results_file.h"
+#include "compare/json/json_file.h"
 
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/bench/bench_run.h"
-#include "compare/results/results_file.h"
+#include "compare/json/json_file.h"
 
 #include <string>
 #include <string_view>

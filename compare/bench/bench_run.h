@@ -31,7 +31,7 @@ struct BenchColor {
 struct BenchError {
     std::uint64_t pixels = 0; ///< of the picture
     std::uint64_t differing = 0;
-    // A pixel that is partly lit counts by the share of light by which it is off.
+    // Pixels; one that is partly lit counts by the share of the light by which it is off.
     double falsely_lit = 0;
     double falsely_shadowed = 0;
     std::vector<std::pair<std::string, std::uint64_t>> causes{}; ///< in the order of all_causes

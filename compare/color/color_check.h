@@ -35,14 +35,15 @@ struct ColorCheck {
     Image<float> error;          ///< largest of the channels' differences, in steps of 1/255
     Image<ColorVerdict> verdict; ///< of every pixel
     std::uint64_t judged = 0;
-    double largest = 0;             ///< a channel's largest difference, in 1/255; here and below
-    int largest_x = 0;              ///< its pixel, the first in rows from the top
-    int largest_y = 0;              ///< "
+    // Differences are in steps of 1/255.
+    double largest = 0;             ///< a channel's largest difference
+    int largest_x = 0;              ///< its pixel: column; the first in rows from the top
+    int largest_y = 0;              ///< and row
     double rmse = 0;                ///< over the channels of all judged pixels
     double percentile999 = 0;       ///< 99.9 % of the judged pixels' errors are no larger
-    std::uint64_t beyond = 0;       ///< pixels by verdict
-    std::uint64_t unpredicted = 0;  ///< includes the unexplained ones
-    std::uint64_t moved = 0;        ///< "
+    std::uint64_t beyond = 0;       ///< pixels of that verdict
+    std::uint64_t unpredicted = 0;  ///< pixels of that verdict, and those that are unexplained
+    std::uint64_t moved = 0;        ///< pixels of that verdict
     std::uint64_t interpolated = 0; ///< pixels within the bound only by snapping and rounding
     BoundWidth bound_width;
     /// Pixels beyond the bound, by the ColorTerm that moves each most (the index).

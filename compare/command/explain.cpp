@@ -7,6 +7,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/standard_output.h"
 #include "compare/families.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
 #include "compare/report/color_words.h"
@@ -93,6 +94,7 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record,
                      found.cause == static_cast<std::uint8_t>(Cause::unexplained));
         at.family = frame.family;
         at.claim = frame.claim.at(x, y);
+        at.share = lit_share(frame, frame.claim.index(x, y));
         at.shows_surface = frame.shows_surface();
         if (at.shows_surface) at.shown = frame.triangle.at(x, y);
         at.cause = found.cause;
@@ -107,6 +109,12 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record,
         at.error = error.what();
     }
     return at;
+}
+
+/// "lit", "partly_lit 0.6875"
+std::string claim_words(const TechniqueAtPixel& technique) {
+    if (technique.claim != Visibility::partly_lit) return std::string(name_of(technique.claim));
+    return fmt::format("{} {:.4g}", name_of(technique.claim), technique.share);
 }
 
 /// "near_plane", "near_plane with counter"
@@ -182,7 +190,7 @@ public:
         for (std::size_t i = 0; i < account.columns.size(); ++i)
             add(account.columns[i].title, Side::right,
                 [i](const auto& row) { return row.account.columns[i].text; });
-        add("claim", Side::left, [](const auto& row) { return std::string(name_of(row.claim)); });
+        add("claim", Side::left, claim_words);
         add("cause", Side::left, cause_words);
         if (!account.remark.title.empty())
             add(account.remark.title, Side::left,

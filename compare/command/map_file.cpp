@@ -2,7 +2,7 @@
 
 #include "compare/command/options.h"
 #include "compare/output/write_file.h"
-#include "scenes/load/encode_picture.h"
+#include "scenes/load/picture/encode_picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "compare/command/output_files.h"
 #include "compare/output/write_file.h"
 #include "scenes/error.h"
-#include "scenes/load/picture.h"
+#include "scenes/load/picture/picture.h"
 #include "scenes/surface/relief.h"
 
 #include <fmt/format.h>

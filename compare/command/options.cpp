@@ -100,7 +100,7 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
             [&](const std::string& text) {
                 settings.normalisation = parse_setting(all_normalisations, "--normalise", text);
             },
-            "How lit vectors are made of unit length: " + names_of(all_normalisations) +
+            "How the vectors of lighting are normalised: " + names_of(all_normalisations) +
                 " (each technique's own)")
         ->type_name("HOW");
     command

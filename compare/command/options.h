@@ -4,7 +4,7 @@
 #include "compare/report/report.h"
 #include "raster/gl/context.h"
 #include "raster/technique.h"
-#include "scenes/load/scene_request.h"
+#include "scenes/load/common/scene_request.h"
 #include "scenes/memory_budget.h"
 #include "scenes/stress/parameter.h"
 #include "scenes/technique_settings.h"

@@ -39,17 +39,8 @@ SceneResult without_pictures(SceneResult& scene) {
 
 } // namespace
 
-template <class Archive>
-void serialize(Archive& archive, PictureGroup& group) {
-    auto& [scene, point, settings, written, result] = group;
-    archive(scene, point, settings, written, result);
-}
-
-template <class Archive>
-void serialize(Archive& archive, PictureNews& news) {
-    auto& [group, begun, cell] = news;
-    archive(group, begun, cell);
-}
+SHADOWPROOF_SEND_ALL(PictureGroup, scene, point, settings, written, result)
+SHADOWPROOF_SEND_ALL(PictureNews, group, begun, cell)
 
 std::vector<std::string> fixed_pictures() {
     std::vector<std::string> files;

@@ -1,7 +1,7 @@
 #include "compare/command/truth_exr.h"
 
 #include "compare/output/write_file.h"
-#include "scenes/load/encode_picture.h"
+#include "scenes/load/picture/encode_picture.h"
 
 #include <glm/geometric.hpp>
 #include <initializer_list>

@@ -26,12 +26,12 @@ struct PixelSpread {
 /// Not finite if it does not meet it.
 glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction);
 
-/// Values at the middle, with error bounds.
+/// Values at the middle, with error bounds. No vector is normalised.
 struct Interpolated {
     glm::dvec3 from_eye{0, 0, 0}; ///< Q of shading.h
     glm::dvec3 to_light{0, 0, 0}; ///< vector to the light, or its direction
-    glm::dvec3 normal{0, 0, 0};   ///< none of these is normalised
-    glm::dvec3 tangent{0, 0, 0};  ///< "
+    glm::dvec3 normal{0, 0, 0};
+    glm::dvec3 tangent{0, 0, 0};
     double from_eye_off = 0;
     double to_light_off = 0;
     double normal_off = 0;

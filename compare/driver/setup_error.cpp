@@ -149,9 +149,9 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
-template <class Freedom>
+template <class ErrorOf>
 double largest_error(const Camera& camera, const std::vector<PictureTriangle>& triangles,
-                     const CoveredPixel& pixel, const Freedom& error_of) {
+                     const CoveredPixel& pixel, const ErrorOf& error_of) {
     const glm::dvec2 place = project(camera, camera.eye + pixel.direction);
     double covering = -1;
     double any = 0;
@@ -186,7 +186,7 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 
 // Twice the area changes by an edge's length times the move of the corner across from it, and by
 // products of two moves.
-bool may_turn_over(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
     const std::vector<PicturePoint> polygon =
         clipped_polygon(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);

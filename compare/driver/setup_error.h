@@ -29,9 +29,9 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& side, const CoveredPixel& pixel);
 
-/// Whether a triangle may cover the pixel turned over: its corners' errors, and snapping by up to
-/// the pixel's reach along each axis, may reverse the way round in which they run.
-bool may_turn_over(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
+/// Whether a triangle may cover the pixel flipped, so that its other side is seen: its corners'
+/// errors, and snapping by up to the pixel's reach along each axis, may reverse their winding.
+bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
 /// The largest error for a triangle of the picture, over all pixels within `reach` of it.
 double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach);

@@ -1,5 +1,5 @@
-// What judges share whose claims are classes alone, without surface or counter: nothing but the
-// claim is predicted, and what differs is an edge's or unexplained.
+// The base of the judges of claims that are classes alone, without surface or counter. Nothing but
+// the claim is predicted, and a pixel that differs is `edge` or unexplained.
 #pragma once
 
 #include "compare/judge/judge.h"

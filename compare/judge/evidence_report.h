@@ -31,7 +31,7 @@ struct EvidenceSummary {
     std::vector<std::string> pictures; ///< kinds of EvidenceReport::pictures
 };
 
-/// A named list of values for the viewer, encoded (compare/report/blocks.h).
+/// A named list of values for the viewer, encoded (compare/json/blocks.h).
 using Blocks = std::vector<std::pair<std::string, std::string>>;
 
 /// What a report shows of the evidence.

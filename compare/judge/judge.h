@@ -1,6 +1,5 @@
-// What all families of claims are judged by: the questions that a family's judge answers of a
-// claim, pixel by pixel and as a whole. Everything else (edge, verdict, gate, writers) knows no
-// family.
+// The judge of a claim: what a family of claims implements, pixel by pixel and for the claim as a
+// whole. Edges, verdicts, the gate and the report know no family; they read what its judge returns.
 #pragma once
 
 #include "compare/driver/coarse_outlines.h"
@@ -20,6 +19,8 @@
 #include <vector>
 
 namespace shadowproof {
+
+struct JsonPlace; // compare/json/json_place.h
 
 struct PixelPlace {
     int x = 0;
@@ -60,7 +61,7 @@ struct Region {
     std::span<Finding> findings; ///< one per place
 };
 
-/// The judge of one claim: a family's answers. All are asked by several threads at once.
+/// The judge of one claim. Its functions are called by several threads at once.
 class Judge {
 public:
     Judge() = default;
@@ -105,6 +106,10 @@ struct Family {
     std::string_view name;
     std::string_view summary; ///< one clause: what its evidence is
     std::unique_ptr<Judge> (*judge)(const TracedScene& traced, const Frame& frame) = nullptr;
+    /// Checks what EvidenceSummary::results has added to a cell of results.json that is read back,
+    /// by the rules of json_rules.h; the members of all families are checked already. Throws Error.
+    /// Null: it adds nothing.
+    void (*check_results)(const JsonPlace& cell) = nullptr;
 };
 
 } // namespace shadowproof

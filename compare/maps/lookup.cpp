@@ -41,9 +41,9 @@ glm::dvec2 place_of(const Camera& camera, const glm::dvec3& from_light) {
     return project(camera, camera.eye + from_light);
 }
 
-/// A vector's error: of the matrix that turns it to a spot's axes, an entry, a product and the
+/// A vector's error: of the matrix that rotates it into a spot's axes, an entry, a product and the
 /// sums; a cube asks with the vector itself.
-glm::dvec3 turned_error(const LightView& light, const UncertainPoint& point) {
+glm::dvec3 rotated_error(const LightView& light, const UncertainPoint& point) {
     if (light.model().shape == MapModel::Shape::cube) return point.error;
     const glm::dvec3 size = glm::abs(point.from_light) + point.error;
     return point.error + 4 * v * (size.x + size.y + size.z);
@@ -115,7 +115,7 @@ std::optional<PossibleLookup>
 find_possible_lookup(const LightView& light, const UncertainPoint& point,
                      const std::function<bool(const PossibleLookup&)>& holds) {
     const MapModel& model = light.model();
-    const UncertainPoint asked{point.from_light, turned_error(light, point)};
+    const UncertainPoint asked{point.from_light, rotated_error(light, point)};
     const std::array<glm::dvec3, 8> corners = corners_of(asked.from_light, asked.error);
     for (std::size_t face = 0; face < model.faces(); ++face) {
         if (!may_pierce(light, face, asked)) continue;

@@ -1,5 +1,5 @@
-// Which texels of a shadow map a point asks, and what it is compared with: exactly, and within what
-// a driver may make of it.
+// Where a point is looked up in a shadow map, and what its own value is compared with there:
+// exactly, and within the bounds of what a driver may make of it.
 #pragma once
 
 #include "compare/maps/light_view.h"
@@ -12,17 +12,17 @@
 
 namespace shadowproof {
 
-/// What a point asks. Given relative to the light.
+/// Where a point, given relative to the light, is looked up in the map.
 struct Lookup {
     Texel texel;            ///< the one at the point's place
     glm::ivec2 first{0, 0}; ///< of the block that is averaged, if one is; it may lie beside the map
-    double value = 0;       ///< the point's own: distance or depth, world units
+    double value = 0;       ///< what is compared: the point's distance or depth, world units
     double depth = 0;       ///< along the face's axis
     bool in_map = true;     ///< false behind a spot's camera or beside its square
 };
 Lookup lookup(const LightView& light, const glm::dvec3& from_light);
 
-/// Calls visit(texel) for each texel that is asked.
+/// Calls visit(texel) for each texel that is read.
 template <class Visit>
 void visit_asked(const MapModel& model, const Lookup& lookup, const Visit& visit) {
     if (model.filter == 0) return visit(lookup.texel);
@@ -32,7 +32,7 @@ void visit_asked(const MapModel& model, const Lookup& lookup, const Visit& visit
                         std::clamp(lookup.first.y + y, 0, model.size - 1)});
 }
 
-/// Of the texels that `asked` asks, the nearest to `place`.
+/// Of the texels that the lookup `asked` reads, the nearest to `place`.
 Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place);
 
 /// A point relative to the light, with bounds of its components' errors.
@@ -41,13 +41,13 @@ struct UncertainPoint {
     glm::dvec3 error{0, 0, 0};
 };
 
-/// What may be asked, and bounds of the point's own value.
+/// A lookup that the sampler may make for a point, given the point's errors.
 struct PossibleLookup {
-    Lookup lookup;  ///< its texels alone: where a block is asked, `first` and the face
-    double low = 0; ///< of the value
-    double high = 0;
+    Lookup lookup;   ///< which texels are read; its value is not set
+    double low = 0;  ///< the least that Lookup::value may be
+    double high = 0; ///< and the most
 };
-/// The first of all questions that may be asked for which `holds`.
+/// The first of the possible lookups for which `holds` is true; none where it is for no lookup.
 std::optional<PossibleLookup>
 find_possible_lookup(const LightView& light, const UncertainPoint& point,
                      const std::function<bool(const PossibleLookup&)>& holds);
@@ -66,7 +66,7 @@ bool is_shadowed(const MapModel& model, double stored, double value);
 /// values are averaged, all or none.
 int lit_comparisons(const LightView& light, const Lookup& lookup);
 
-/// How many may say so.
+/// How many of them may say `lit`: at least, and at most.
 struct LitRange {
     int least = 0;
     int most = 0;

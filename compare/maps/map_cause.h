@@ -6,22 +6,33 @@
 
 namespace shadowproof {
 
-/// A wrong answer: what asked, and what it was told.
+/// A wrong answer: the point whose light was looked up in the map, and what was found there.
 struct WrongAnswer {
-    std::uint32_t receiver = no_triangle;
-    glm::dvec3 from_light{0, 0, 0}; ///< the point that asked
-    Lookup lookup;                  ///< its exact own
-    LightView::Shown shown;         ///< by the texel that was asked
-    bool claims_light = false;      ///< falsely lit, else falsely shadowed
+    std::uint32_t receiver = no_triangle; ///< the triangle that the point lies on
+    glm::dvec3 from_light{0, 0, 0};       ///< the point, relative to the light
+    Lookup lookup;                        ///< where it is looked up, exactly
+    LightView::Shown shown;               ///< by the texel that was read
+    bool claims_light = false;            ///< falsely lit, else falsely shadowed
 };
 
-/// The first of these that makes the answer right. Where a block is averaged, its own texel alone
-/// (filter); what follows is of that texel's answer. Falsely shadowed: a map that reaches the point
-/// (range), exact values (precision); else the ray through the point itself, as no caster lies on
-/// it: acne where the texel shows the receiver or a triangle that has a corner in common with it,
-/// resolution where it shows another. Falsely lit: exact values (precision), the ray through the
-/// point itself (resolution), no bias (leak, which may need that ray, too), casters drawn from all
-/// sides (open_mesh), a map that reaches the occluder (range).
+/// The cause of a wrong answer: the first of these changes that makes the answer right.
+///
+/// Where a block of texels is averaged:
+///   filter      only the texel at the point's own place is asked. Where that texel's answer is
+///               wrong as well, the changes below are applied to it
+/// Falsely shadowed:
+///   range       the map reaches the point
+///   precision   the texel holds its exact value
+///   acne        the ray goes through the point itself, instead of the texel's centre; no caster
+///               lies on that ray. The texel shows the receiver, or a triangle that shares a corner
+///               with it
+///   resolution  the same, and the texel shows another triangle
+/// Falsely lit:
+///   precision   the texel holds its exact value
+///   resolution  the ray goes through the point itself
+///   leak        there is no bias; perhaps this needs the ray through the point, too
+///   open_mesh   both sides of casters are drawn
+///   range       the map reaches the occluder
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
 
 } // namespace shadowproof

@@ -6,14 +6,10 @@
 namespace shadowproof {
 
 /// How many comparisons, of MapModel::asked, the claim says to have found light; -1 where it shows
-/// background or contradicts itself.
+/// background, or a share that is no such number.
 int claimed_lit(const JudgedClaim& claim, PixelPlace p);
 
 /// Whether the claim shows light at a pixel that differs, where there is none.
 bool claims_light(const JudgedClaim& claim, PixelPlace p);
-
-/// How far the claim is from the truth at a pixel that differs: by a share of the light where it is
-/// partly lit; else, and where it contradicts itself or the truth is background, by 1.
-double wrongness(const JudgedClaim& claim, PixelPlace p);
 
 } // namespace shadowproof

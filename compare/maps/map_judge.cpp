@@ -5,6 +5,7 @@
 #include "compare/maps/map_cause.h"
 #include "compare/maps/map_claim.h"
 #include "compare/maps/map_report.h"
+#include "compare/maps/map_results.h"
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
 
@@ -94,17 +95,9 @@ public:
     }
 
     EvidenceSummary summary(const EvidenceCheck& check,
-                            const Image<std::uint8_t>& cause) const override {
-        MapFigures figures{
+                            const Image<std::uint8_t>& /*cause*/) const override {
+        const MapFigures figures{
             .straddling = check.in_band, .asked = texels_.size(), .unexplained = not_shown_.size()};
-        for (int y = 0; y < cause.height; ++y)
-            for (int x = 0; x < cause.width; ++x) {
-                const PixelPlace p{x, y};
-                if (claim_.frame.claim.at(x, y) == Visibility::partly_lit) ++figures.partly_lit;
-                if (cause.at(x, y) != no_difference &&
-                    cause.at(x, y) != static_cast<std::uint8_t>(Cause::edge))
-                    figures.wrongness += wrongness(claim_, p);
-            }
         return summary_of_map(*claim_.frame.mapped, figures, claim_.traced.scene().unit);
     }
 
@@ -396,7 +389,10 @@ std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
 } // namespace
 
 Family map_family() {
-    return {.name = "map", .summary = "shadow maps, whose texels are read back", .judge = judge};
+    return {.name = "map",
+            .summary = "shadow maps, whose texels are read back",
+            .judge = judge,
+            .check_results = check_map_results};
 }
 
 } // namespace shadowproof

@@ -1,6 +1,6 @@
 #include "compare/maps/map_report.h"
 
-#include "compare/report/blocks.h"
+#include "compare/json/blocks.h"
 #include "compare/words.h"
 #include "scenes/cause.h"
 
@@ -105,10 +105,6 @@ EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures
     results["texels"] = figures.asked;
     results["texels_unexplained"] = figures.unexplained;
     results["straddling"] = figures.straddling;
-    if (map.model.filter > 0) {
-        results["partly_lit"] = figures.partly_lit;
-        results["wrongness"] = figures.wrongness;
-    }
     results["ms"] = map.map_milliseconds;
     summary.results = Json{{"map", std::move(results)}}.dump();
     summary.pictures = {"texels"};

@@ -24,8 +24,6 @@ struct MapFigures {
     std::uint64_t straddling = 0;  ///< pixels that another texel than the centre's explains
     std::uint64_t asked = 0;       ///< texels
     std::uint64_t unexplained = 0; ///< texels
-    std::uint64_t partly_lit = 0;  ///< pixels
-    double wrongness = 0; ///< of all pixels but those of edge: the light by which they are off
 };
 
 /// Members of the cell in results.json. Lengths are multiplied by `unit` (Scene::unit).

@@ -1,6 +1,7 @@
 #include "compare/picture/picture_judge.h"
 
 #include "compare/judge/class_judge.h"
+#include "compare/picture/picture_results.h"
 #include "compare/words.h"
 
 #include <fmt/format.h>
@@ -76,8 +77,10 @@ std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
 } // namespace
 
 Family picture_family() {
-    return {
-        .name = "picture", .summary = "a picture that somebody's renderer made", .judge = judge};
+    return {.name = "picture",
+            .summary = "a picture that somebody's renderer made",
+            .judge = judge,
+            .check_results = check_picture_results};
 }
 
 } // namespace shadowproof

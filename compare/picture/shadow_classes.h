@@ -5,7 +5,7 @@
 
 #include "reference/predict/traced_scene.h"
 #include "scenes/frame.h"
-#include "scenes/load/picture.h"
+#include "scenes/load/picture/picture.h"
 
 #include <optional>
 #include <string>
@@ -22,12 +22,16 @@ struct PictureFiles {
 /// A claim of family "picture". `picture`, and `twin` where there is one, have the size of the
 /// scene's camera. By `mask` the picture itself is black and white.
 ///
-/// Light and shadow are fitted per mesh, whatever is true of its pixels. Shadow is what surfaces
-/// show that are averted from the light or, where none are seen, the darker of two groups of
-/// brightness; with a twin it is no difference. Light is what is brighter, by the angle at which it
-/// falls. A pixel's class is the nearer of the two. Where they lie no further apart than two steps
-/// of the file's integers and four times what shadows scatter, or where one is missing, the pixel
-/// is not decided. Neither is one whose surface is averted: it is dark in any case.
+/// Each mesh has its own colours of shadow and of light, fitted to all of its pixels without regard
+/// to whether they are truly lit:
+///   shadow  the typical colour of surfaces that face away from the light; where none is seen, of
+///           the darker of two groups of pixels. With a twin, values are differences, and it is 0
+///   light   the typical colour of brighter pixels, for each angle at which the light falls
+/// A pixel is lit or shadowed, whichever colour is nearer. It is undecided where
+///   - its surface faces away from the light, which is dark whatever the picture does;
+///   - one of the two colours is missing;
+///   - they differ by no more than two steps of the file's integers plus four times the scatter of
+///     the shadow's pixels.
 ///
 /// Throws Error, naming the file, where a picture is of one colour, or tells light from shadow
 /// nowhere.

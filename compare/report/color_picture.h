@@ -13,8 +13,8 @@ Image<Rgb> color_picture(const Image<glm::vec3>& linear);
 /// The bumped normals as normal maps show them, in world space: 0.5 + 0.5 n. Background is black.
 Image<Rgb> normal_picture(const Image<Shading>& shadings);
 
-/// The tangents likewise; black also where a surface has no bump map. Where they jump, so does the
-/// frame that a bump map is read in.
+/// The tangents in the same way; black also where a surface has no bump map. Where they jump, so
+/// does the frame that a bump map is read in.
 Image<Rgb> tangent_picture(const Image<Shading>& shadings);
 
 } // namespace shadowproof

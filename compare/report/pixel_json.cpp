@@ -18,6 +18,7 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
     const std::string& members = technique.account.members;
     if (!members.empty()) json.update(Json::parse(members));
     json["claim"] = name_of(technique.claim);
+    if (technique.claim == Visibility::partly_lit) json["share"] = technique.share;
     if (technique.shows_surface) json["shown"] = triangle_json(scene, technique.shown);
     json["cause"] =
         technique.cause == no_difference ? Json(nullptr) : Json(all_causes[technique.cause].name);

@@ -19,6 +19,7 @@ struct TechniqueAtPixel {
     std::string family;
     std::string error; ///< if not empty, it could not run and the rest is meaningless
     Visibility claim = Visibility::background;
+    double share = 0; ///< of the light, where the claim is partly lit
     bool shows_surface = true;
     std::uint32_t shown = no_triangle;  ///< the triangle read back, where it shows surfaces
     std::uint8_t cause = no_difference; ///< Cause, or no_difference

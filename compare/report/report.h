@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowproof {
@@ -60,7 +61,11 @@ std::string picture_path(const SceneResult& scene, const Cell& cell, const std::
 std::string truth_path(const SceneResult& scene);
 std::string color_path(const SceneResult& scene);
 
-/// results.json of schema shadowproof/results/1.
+inline constexpr std::string_view results_schema = "shadowproof/results/1";
+/// Format of the data beside the results: a viewer reads only its own format.
+inline constexpr int results_format = 6;
+
+/// results.json of that schema.
 std::string to_json(const Report& report);
 /// JUnit XML: one suite per scene, one case per cell; valid by Ant's schema and by Jenkins'.
 /// `timestamp`: when the run began, "2024-01-31T23:59:59".

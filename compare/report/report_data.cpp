@@ -1,6 +1,6 @@
 #include "compare/report/report_data.h"
 
-#include "compare/report/blocks.h"
+#include "compare/json/blocks.h"
 #include "compare/report/color_picture.h"
 #include "compare/report/light_json.h"
 
@@ -39,6 +39,11 @@ std::string picture_block(const Image<Visibility>& picture) {
     return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
 }
 
+/// Shares of light: a float each.
+std::string picture_block(const Image<double>& shares) {
+    return block(std::vector<float>(shares.pixels.begin(), shares.pixels.end()));
+}
+
 /// Three bytes per pixel: those of the .png, whose pixels a page opened from disk may not read.
 std::string picture_block(const Image<Rgb>& picture) {
     return block("u8", 3 * picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
@@ -72,6 +77,8 @@ std::string scene_script(const SceneResult& scene) {
 std::string cell_script(const SceneResult& scene, const Cell& cell) {
     Json header = Json::object();
     Blocks blocks{{"claim", picture_block(cell.frame.claim)}};
+    if (!cell.frame.share.pixels.empty())
+        blocks.emplace_back("share", picture_block(cell.frame.share));
     if (cell.evidence) {
         header = Json::parse(cell.evidence->header());
         for (auto& named : cell.evidence->blocks(cell.frame)) blocks.push_back(std::move(named));

@@ -12,8 +12,9 @@ namespace shadowproof {
 /// scenes with the true colours.
 std::string scene_script(const SceneResult& scene);
 
-/// FOLDER/TECHNIQUE/cell.js: claim and counters of all pixels, ledgers of those that differ;
-/// where the technique has colours, those too, with their verdicts.
+/// FOLDER/TECHNIQUE/cell.js: the claim of all pixels, with shares of light where it has some, and
+/// what its family's evidence has to show (EvidenceReport); where the technique has colours, those
+/// too, with their verdicts.
 std::string cell_script(const SceneResult& scene, const Cell& cell);
 
 /// results.js: the results as a script. Besides results.json the only file with times.

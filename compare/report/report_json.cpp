@@ -1,5 +1,5 @@
+#include "compare/json/json_file.h"
 #include "compare/report/report.h"
-#include "compare/results/results_file.h"
 
 namespace shadowproof {
 
@@ -75,6 +75,10 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     json["differing"] = comparison.differing;
     json["causes"] = causes_of(comparison);
     if (comparison.several > 0) json["several"] = comparison.several;
+    if (comparison.shares) {
+        json["partly_lit"] = comparison.shares->partly_lit;
+        json["wrongness"] = comparison.shares->wrongness;
+    }
     if (comparison.first)
         json["first"] = {{"x", comparison.first->x},
                          {"y", comparison.first->y},

@@ -1,6 +1,6 @@
 #include "compare/results/baseline.h"
 
-#include "compare/report/blocks.h"
+#include "compare/json/blocks.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>

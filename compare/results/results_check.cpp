@@ -1,6 +1,9 @@
 #include "compare/results/results_check.h"
 
-#include "compare/results/json_rules.h"
+#include "compare/families.h"
+#include "compare/json/json_rules.h"
+#include "compare/report/report.h"
+#include "compare/results/results_figures.h"
 
 #include <fmt/format.h>
 
@@ -15,22 +18,19 @@ namespace {
 
 using Json = ResultsJson;
 
-void always_true(const Place& place) {
+void always_true(const JsonPlace& place) {
     require(place.value == true, place, "true, as what could not run fails");
 }
 /// OpenGL's pictures have sides of 32 bits, so the product of two does not overflow.
-void side(const Place& place) {
+void side(const JsonPlace& place) {
     require(is_count(place.value, 1) && place.value.get<std::uint64_t>() <= 0x7fffffff, place,
             "a whole number from 1 to 2147483647");
 }
-void whole_number(const Place& place) {
-    require(place.value.is_number_integer(), place, "a whole number");
-}
-void folder(const Place& place) {
+void folder(const JsonPlace& place) {
     require(place.value.is_string() && is_plain_name(place.value.get_ref<const std::string&>()),
             place, "a plain folder name of letters, digits, '-' and '_'");
 }
-void family(const Place& place) {
+void family(const JsonPlace& place) {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
     const auto holds = [&](const std::string& name) {
         return !name.empty() && std::all_of(name.begin(), name.end(), is_letter);
@@ -38,7 +38,7 @@ void family(const Place& place) {
     require(place.value.is_string() && holds(place.value.get_ref<const std::string&>()), place,
             "a family's name of small letters and '_'");
 }
-void digest(const Place& place) {
+void digest(const JsonPlace& place) {
     const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
     const auto holds = [&](const std::string& d) {
         return d.size() == 16 && std::all_of(d.begin(), d.end(), is_digit);
@@ -47,22 +47,22 @@ void digest(const Place& place) {
             "16 digits of 0-9 and a-f");
 }
 
-void gate(const Place& place) {
+void gate(const JsonPlace& place) {
     one_of(place, {"defects", "differences"});
 }
-void verdict(const Place& place) {
+void verdict(const JsonPlace& place) {
     one_of(place, {"agrees", "fails_as_predicted", "defect", "unexplained"});
 }
-void timed_out(const Place& place) {
+void timed_out(const JsonPlace& place) {
     one_of(place, {"timed_out"});
 }
 
-void schema(const Place& place) {
+void schema(const JsonPlace& place) {
     if (place.value != results_schema)
         refuse(place, fmt::format("must be \"{}\", but is {}", results_schema, shown(place.value)),
                "give a results.json of shadowproof, or use the shadowproof that wrote it");
 }
-void format(const Place& place) {
+void format(const JsonPlace& place) {
     if (place.value != results_format)
         refuse(place, fmt::format("must be {}, but is {}", results_format, shown(place.value)),
                "write the results again with shadowproof verify, or use the shadowproof that wrote "
@@ -70,13 +70,13 @@ void format(const Place& place) {
 }
 
 /// Results with an error have no figures: with both they would be ambiguous.
-void nothing_beside_error(const Place& place, std::initializer_list<const char*> names) {
+void nothing_beside_error(const JsonPlace& place, std::initializer_list<const char*> names) {
     for (const char* name : names)
         if (place.value.contains(name))
             refuse(place, fmt::format("has both \"error\" and \"{}\"", name));
 }
 
-void reference(const Place& place) {
+void reference(const JsonPlace& place) {
     object(place, {{"ms", milliseconds},
                    {"build_ms", milliseconds},
                    {"rays", count},
@@ -87,69 +87,58 @@ void reference(const Place& place) {
                    {"degenerate", count}});
 }
 
-void first(const Place& place) {
+void first(const JsonPlace& place) {
     object(place, {{"x", count}, {"y", count}, {"cause", cause}});
 }
 
-void ledger(const Place& place) {
-    object(place, {{"equal", count}, {"in_band", count}, {"unexplained", count}});
-}
-
-void cause_or_none(const Place& place) {
+void cause_or_none(const JsonPlace& place) {
     if (!place.value.is_null()) cause(place);
 }
 
-void change(const Place& place) {
+void change(const JsonPlace& place) {
     object(place, {{"x", count},
                    {"y", count},
                    {"cause", cause_or_none, Need::optional},
                    {"was", cause_or_none, Need::optional}});
 }
 
-void since(const Place& place) {
+void since(const JsonPlace& place) {
     object(
         place,
         {{"new", count}, {"gone", count}, {"changed", count}, {"first", change, Need::optional}});
 }
 
-void baseline(const Place& place) {
+void baseline(const JsonPlace& place) {
     object(place, {{"file", text},
                    {"passed", boolean, Need::optional},
                    {"notes", list_of<text>, Need::optional}});
 }
 
-void truth_images(const Place& place) {
+void truth_images(const JsonPlace& place) {
     object(place, {{"truth", text}, {"color", text, Need::optional}});
 }
-void cell_images(const Place& place) {
+void cell_images(const JsonPlace& place) {
     object(place, {{"claim", text},
                    {"difference", text},
                    {"cause", text},
-                   {"volumes", text, Need::optional},
-                   {"texels", text, Need::optional},
                    {"color", text, Need::optional},
                    {"color_error", text, Need::optional}});
 }
-void counted_images(const Place& place) {
-    cell_images(place);
-    object(place, {{"volumes", text}});
-}
-
-void place_in_picture(const Place& place) {
+void place_in_picture(const JsonPlace& place) {
     object(place, {{"x", count}, {"y", count}});
 }
 
-void bound_width(const Place& place) {
+void bound_width(const JsonPlace& place) {
     object(place, {{"median", number}, {"p999", number}, {"widest", number}});
 }
 
 /// By the names of ColorTerm.
-void beyond_by(const Place& place) {
+void beyond_by(const JsonPlace& place) {
     require(place.value.is_object(), place, "an object");
     for (const auto& [name, pixels] : place.value.items()) count(place.at(name));
 }
 
-void color(const Place& place) {
+void color(const JsonPlace& place) {
     object(place, {{"judged", count},
                    {"largest", number},
                    {"largest_at", place_in_picture, Need::optional},
@@ -166,49 +155,7 @@ void color(const Place& place) {
                    {"bumps", text}});
 }
 
-void figure(const Place& place) {
-    object(place, {{"shown", count}, {"low", count}, {"high", count}});
-}
-
-void wrong_faces(const Place& place) {
-    object(place, {{"x", count}, {"y", count}, {"faces", figure}});
-}
-
-void volumes(const Place& place) {
-    object(place, {{"checked", count},
-                   {"unexplained", count},
-                   {"fragments", figure},
-                   {"against", figure, Need::optional},
-                   {"first", wrong_faces, Need::optional},
-                   {"words", some_text, Need::optional}});
-}
-
-void map(const Place& place) {
-    object(place, {{"size", size},
-                   {"bias", number},
-                   {"value", text},
-                   {"format", text},
-                   {"culling", text},
-                   {"near", number},
-                   {"far", number},
-                   {"texels", count},
-                   {"texels_unexplained", count},
-                   {"straddling", count},
-                   {"filter", size, Need::optional},
-                   {"average", text, Need::optional},
-                   {"partly_lit", count, Need::optional},
-                   {"wrongness", amount, Need::optional},
-                   {"ms", milliseconds}});
-}
-
-void saved(const Place& place) {
-    object(place, {{"against", text},
-                   {"ms", number},
-                   {"volume_fragments", whole_number},
-                   {"plan_ms", number, Need::optional}});
-}
-
-void failed_cell(const Place& place) {
+void failed_cell(const JsonPlace& place) {
     object(place, {{"name", text},
                    {"summary", text},
                    {"command", text},
@@ -218,33 +165,33 @@ void failed_cell(const Place& place) {
     nothing_beside_error(place, {"images", "causes", "cause_map"});
 }
 
-void cell(const Place& place) {
+void cell(const JsonPlace& place) {
     if (place.value.is_object() && could_not_run(place.value)) return failed_cell(place);
-    object(place, {{"name", folder}, {"family", family}});
-    const Need counted = place.value.at("family") == "stencil" ? Need::required : Need::optional;
-    object(place, {{"summary", text},
+    object(place, {{"name", folder},
+                   {"family", family},
+                   {"summary", text},
                    {"command", text},
                    {"fails", boolean},
                    {"ms", milliseconds},
-                   {"volume_fragments", count, counted},
                    {"left_out", list_of<text>, Need::optional},
-                   {"map", map, Need::optional},
-                   {"saved", saved, Need::optional},
                    {"verdict", verdict},
                    {"pixels", size},
                    {"differing", count},
                    {"causes", causes},
                    {"several", count, Need::optional},
+                   {"partly_lit", count, Need::optional},
+                   {"wrongness", amount, Need::optional},
                    {"first", first, Need::optional},
-                   {"ledger", ledger, counted},
                    {"color", color, Need::optional},
-                   {"volumes", volumes, counted},
-                   {"images", counted == Need::required ? counted_images : cell_images},
+                   {"images", cell_images},
                    {"cause_map", some_text},
                    {"since", since, Need::optional}});
+    // Of a family that a newer version knows, its own members are accepted as they are.
+    const Family* const own = find_family(place.value.at("family").get<std::string>());
+    if (own != nullptr && own->check_results != nullptr) own->check_results(place);
 }
 
-void scene(const Place& place) {
+void scene(const JsonPlace& place) {
     if (place.value.is_object() && could_not_run(place.value)) {
         object(place, {{"name", text},
                        {"file", text},
@@ -270,7 +217,7 @@ void scene(const Place& place) {
                    {"images", truth_images},
                    {"techniques", some_of<cell>}});
     check_scene_figures(place);
-    const Place cells = place.at("techniques");
+    const JsonPlace cells = place.at("techniques");
     std::set<std::string> names;
     for (std::size_t i = 0; i < cells.value.size(); ++i) {
         check_cell_figures(cells.at(i), place.value);
@@ -280,7 +227,7 @@ void scene(const Place& place) {
 }
 
 /// A cell's data are found by the folder of its scene.
-void check_folders_differ(const Place& scenes) {
+void check_folders_differ(const JsonPlace& scenes) {
     std::set<std::string> folders;
     for (std::size_t i = 0; i < scenes.value.size(); ++i) {
         const Json& scene = scenes.value.at(i);
@@ -311,7 +258,7 @@ bool scene_fails(const Json& scene) {
 }
 
 void check_results(const Json& results, const std::string& file) {
-    const Place whole{file, "", results};
+    const JsonPlace whole{file, "", results};
     // The schema's name is checked before its rules.
     object(whole, {{"schema", schema}});
     object(whole, {{"format", format}});

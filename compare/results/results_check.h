@@ -3,7 +3,7 @@
 // reach, and does not say which member of an object has a wrong name.
 #pragma once
 
-#include "compare/results/results_file.h"
+#include "compare/json/json_file.h"
 
 #include <string>
 #include <string_view>

@@ -1,24 +1,26 @@
-#include "compare/classify.h"
-#include "compare/report/blocks.h"
+#include "compare/results/results_figures.h"
+
+#include "compare/json/blocks.h"
+#include "compare/json/json_rules.h"
 #include "compare/results/results_check.h"
-#include "compare/results/results_place.h"
 #include "scenes/cause.h"
 
 #include <array>
-#include <initializer_list>
 #include <numeric>
 #include <optional>
 
 namespace shadowproof {
+
+using namespace json_rules;
 
 namespace {
 
 using Json = ResultsJson;
 
 /// What a picture's path must begin with; the rest is "NAME.png".
-void pictures_in(const Place& images, const std::string& folder) {
+void pictures_in(const JsonPlace& images, const std::string& folder) {
     for (const auto& [name, path] : images.value.items()) {
-        const Place place = images.at(name);
+        const JsonPlace place = images.at(name);
         require(path.is_string(), place, "a string");
         const auto& whole = path.get_ref<const std::string&>();
         const bool beneath = whole.starts_with(folder + "/") && whole.ends_with(".png") &&
@@ -27,13 +29,6 @@ void pictures_in(const Place& images, const std::string& folder) {
                                  folder.size() + 1, whole.size() - folder.size() - 5));
         require(beneath, place, fmt::format("the path of a picture, \"{}/NAME.png\"", folder));
     }
-}
-
-std::uint64_t sum(const Json& figures, std::initializer_list<const char*> names) {
-    return std::accumulate(names.begin(), names.end(), std::uint64_t{0},
-                           [&](std::uint64_t total, const char* name) {
-                               return total + figures.at(name).get<std::uint64_t>();
-                           });
 }
 
 using CausePixels = std::array<std::uint64_t, all_causes.size()>;
@@ -46,7 +41,7 @@ CausePixels pixels_by_cause(const Json& causes) {
 }
 
 /// Checks that the counts are those of the map.
-void check_cause_map(const Place& map, const CausePixels& counts, std::uint64_t pixels) {
+void check_cause_map(const JsonPlace& map, const CausePixels& counts, std::uint64_t pixels) {
     const auto& packed_map = map.value.get_ref<const std::string&>();
     // No zlib stream grows more than 1032-fold (zlib technical details): a small text that claims
     // a huge picture takes no memory. Base64 is longer than its bytes, and 16 covers the rest.
@@ -65,35 +60,8 @@ void check_cause_map(const Place& map, const CausePixels& counts, std::uint64_t 
                                     all_causes[i].name, counts[i]));
 }
 
-void require_sum(const Place& place, std::uint64_t is, std::uint64_t must_be, const char* of) {
-    if (is != must_be) refuse(place, fmt::format("adds up to {}, but {} is {}", is, of, must_be));
-}
-
-void require_figure(const Place& figure, std::int64_t shown, const char* what) {
-    require(figure.value.at("shown") == shown, figure.at("shown"),
-            fmt::format("{}, {}", shown, what));
-    require(figure.value.at("low").get<std::uint64_t>() <=
-                figure.value.at("high").get<std::uint64_t>(),
-            figure, "no range whose low end is above its high one");
-}
-
-/// Checks that figures compared with predictions are the cell's own.
-void check_volumes(const Place& cell, std::uint64_t pixels) {
-    const Place volumes = cell.at("volumes");
-    const auto fragments = cell.value.at("volume_fragments").get<std::int64_t>();
-    require(volumes.value.at("checked") == pixels, volumes.at("checked"),
-            fmt::format("{}, the pixels of the cell", pixels));
-    require_figure(volumes.at("fragments"), fragments, "the cell's own \"volume_fragments\"");
-    require(volumes.value.contains("first") ==
-                (volumes.value.at("unexplained").get<std::uint64_t>() > 0),
-            volumes, "\"first\" where pixels are unexplained, and only there");
-    if (!cell.value.contains("saved") || !volumes.value.contains("against")) return;
-    const auto saved = cell.value.at("saved").at("volume_fragments").get<std::int64_t>();
-    require_figure(volumes.at("against"), fragments + saved, "what the cell has and has saved");
-}
-
 /// An eye ray for each pixel, and at most one to the light for what it sees.
-void check_rays(const Place& reference, std::uint64_t pixels) {
+void check_rays(const JsonPlace& reference, std::uint64_t pixels) {
     const auto rays = reference.value.at("rays").get<std::uint64_t>();
     const std::uint64_t seen = sum(reference.value, {"lit", "shadowed"});
     require(
@@ -105,7 +73,7 @@ void check_rays(const Place& reference, std::uint64_t pixels) {
 
 } // namespace
 
-void check_cell_figures(const Place& cell, const Json& scene) {
+void check_cell_figures(const JsonPlace& cell, const Json& scene) {
     if (could_not_run(cell.value)) return;
     const std::string folder = scene.at("folder").get<std::string>();
     pictures_in(cell.at("images"), folder + "/" + cell.value.at("name").get<std::string>());
@@ -118,15 +86,10 @@ void check_cell_figures(const Place& cell, const Json& scene) {
     const CausePixels counts = pixels_by_cause(cell.value.at("causes"));
     require_sum(cell.at("causes"), std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}),
                 differing, "\"differing\"");
-    if (cell.value.contains("ledger"))
-        require_sum(cell.at("ledger"),
-                    sum(cell.value.at("ledger"), {"equal", "in_band", "unexplained"}), pixels,
-                    "\"pixels\"");
     check_cause_map(cell.at("cause_map"), counts, pixels);
     if (cell.value.contains("several"))
         require(cell.value.at("several").get<std::uint64_t>() <= differing, cell.at("several"),
                 "no more than \"differing\"");
-    if (cell.value.at("family") == "stencil") check_volumes(cell, pixels);
     if (cell.value.contains("first") != (differing > 0))
         refuse(cell, differing > 0 ? "lacks \"first\", though pixels differ"
                                    : "has \"first\", though no pixel differs");
@@ -136,7 +99,7 @@ void check_cell_figures(const Place& cell, const Json& scene) {
             cell.at("first"), "a pixel of the picture");
 }
 
-void check_scene_figures(const Place& scene) {
+void check_scene_figures(const JsonPlace& scene) {
     pictures_in(scene.at("images"), scene.value.at("folder").get<std::string>());
     const auto pixels = scene.value.at("width").get<std::uint64_t>() *
                         scene.value.at("height").get<std::uint64_t>();

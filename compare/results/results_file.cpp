@@ -1,13 +1,7 @@
 #include "compare/results/results_file.h"
 
-#include "compare/output/descriptor.h"
 #include "compare/results/results_check.h"
-#include "scenes/error.h"
-#include "scenes/load/gltf/memory.h"
 
-#include <fmt/format.h>
-
-#include <string_view>
 #include <system_error>
 
 namespace shadowproof {
@@ -16,68 +10,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Results nest nine deep. Parsing is recursive, and a file must not make the stack overflow.
-constexpr int deepest = 64;
-
-constexpr std::uint64_t largest = std::uint64_t{1} << 30U; // bytes
-
 constexpr JsonRemedies of_results{"name a results.json, or the folder of a report",
                                   "give the whole results.json that shadowproof wrote"};
 
-/// Only a regular file is opened: a FIFO would wait for a writer, and a device never ends.
-std::string text_of(const fs::path& file, const JsonRemedies& remedies,
-                    const MemoryAccount* memory) {
-    const char* const remedy = remedies.name;
-    std::error_code failure;
-    if (!fs::exists(file, failure))
-        throw Error(file.string(),
-                    failure ? fmt::format("cannot be read ({})", failure.message())
-                            : "there is no such file",
-                    remedy);
-    if (!fs::is_regular_file(file, failure))
-        throw Error(file.string(), "cannot be read (it is not a file)", remedy);
-    const std::uint64_t size = fs::file_size(file, failure);
-    if (failure || size > largest)
-        throw Error(file.string(), fmt::format("has more than {} bytes", largest), remedy);
-    if (memory != nullptr)
-        memory->require({size, file.string(), "its text", "merge fewer runs at once"});
-    std::string text;
-    text.reserve(size);
-    try {
-        read_pieces(fs::canonical(file), [&](std::string_view piece) { text += piece; });
-    } catch (const std::system_error& error) {
-        throw Error(file.string(), fmt::format("cannot be read ({})", error.code().message()),
-                    remedy);
-    }
-    return text;
-}
-
-/// Where the parser stopped; past the last byte, the error is that the file ends.
-[[noreturn]] void throw_not_json(const std::string& text, const std::string& file, std::size_t byte,
-                                 const char* give_whole) {
-    if (text.empty()) throw Error(file, "is empty", give_whole);
-    if (byte > text.size())
-        throw Error(file, fmt::format("is cut off after byte {}", text.size()), give_whole);
-    throw Error(file, fmt::format("is not JSON at byte {}", byte), give_whole);
-}
-
 } // namespace
-
-ResultsJson parse_json(const std::string& text, const std::string& file,
-                       const JsonRemedies& remedies) {
-    const auto not_too_deep = [&](int depth, ResultsJson::parse_event_t, ResultsJson&) {
-        if (depth > deepest)
-            throw Error(file, fmt::format("nests deeper than {}", deepest), remedies.whole);
-        return true;
-    };
-    try {
-        return ResultsJson::parse(text, not_too_deep);
-    } catch (const ResultsJson::parse_error& error) {
-        throw_not_json(text, file, error.byte, remedies.whole);
-    } catch (const ResultsJson::out_of_range&) {
-        throw Error(file, "holds a number beyond every double", remedies.whole);
-    }
-}
 
 ResultsJson parse_results(const std::string& text, const std::string& file) {
     ResultsJson results = parse_json(text, file, of_results);
@@ -85,30 +21,10 @@ ResultsJson parse_results(const std::string& text, const std::string& file) {
     return results;
 }
 
-std::string json_text(const fs::path& file, const JsonRemedies& remedies, MemoryAccount* memory) {
-    std::string text = text_of(file, remedies, memory);
-    // Once as read, once as merged, and as text again.
-    if (memory != nullptr)
-        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest)) + 4 * text.size(),
-                      file.string(), "its values", "merge fewer runs at once"});
-    return text;
-}
-
 ResultsFile read_results(const fs::path& path, MemoryAccount* memory) {
     std::error_code ignored;
     const fs::path file = fs::is_directory(path, ignored) ? path / "results.json" : path;
     return {file, parse_results(json_text(file, of_results, memory), file.string())};
-}
-
-std::string results_text(const ResultsJson& results) {
-    return results.dump(1, ' ', false, ResultsJson::error_handler_t::replace) + "\n";
-}
-
-std::string shown(const ResultsJson& value) {
-    constexpr std::size_t longest = 60; // bytes: beside two file names on a line
-    std::string text = value.dump(-1, ' ', true, ResultsJson::error_handler_t::replace);
-    if (text.size() > longest) text = text.substr(0, longest - 3) + "...";
-    return text;
 }
 
 } // namespace shadowproof

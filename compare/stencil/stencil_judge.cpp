@@ -5,6 +5,7 @@
 #include "compare/stencil/pixel_cause.h"
 #include "compare/stencil/stencil_account.h"
 #include "compare/stencil/stencil_report.h"
+#include "compare/stencil/stencil_results.h"
 
 #include <algorithm>
 #include <limits>
@@ -157,7 +158,8 @@ std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
 Family stencil_family() {
     return {.name = "stencil",
             .summary = "shadow volumes, counted in a buffer that is read back",
-            .judge = judge};
+            .judge = judge,
+            .check_results = check_stencil_results};
 }
 
 } // namespace shadowproof

@@ -1,6 +1,6 @@
 #include "compare/stencil/stencil_report.h"
 
-#include "compare/report/blocks.h"
+#include "compare/json/blocks.h"
 #include "compare/report/report_legend.h"
 #include "compare/stencil/ledger_table.h"
 #include "compare/words.h"

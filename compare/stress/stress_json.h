@@ -1,7 +1,7 @@
 // What stress finds as JSON of schema shadowproof/stress/1 (docs/stress.schema.json).
 #pragma once
 
-#include "compare/results/results_file.h"
+#include "compare/json/json_file.h"
 #include "compare/stress/stress_run.h"
 
 #include <string_view>

@@ -1,6 +1,7 @@
 #include "compare/traced/float_bounds.h"
 
 #include "reference/exact/norms.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace shadowproof {
 
 namespace {
 
-constexpr double u = 0x1p-24; ///< half of a float's last place
+constexpr double u = float_roundoff;
 /// Terms of at most this do not overflow: at most two of them are added (U + V), and rounding makes
 /// none twice as large.
 constexpr double largest_term = std::numeric_limits<float>::max() / 4;
@@ -131,8 +132,6 @@ bool may_overflow(const Numbers& n, const Corners& t, const AnyRay& ray) {
 /// enclose it, and rounding keeps that order, so that they are met if it is. The two sides of one
 /// axis keep their order as well: a box without thickness is lost to other axes alone.
 Meeting box_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement) {
-    // Embree takes smaller ones for that: min_rcp_input of its math/constants.h, in rcp_safe.
-    constexpr double least_component = 1e-18;
     const glm::dvec3 lower = glm::min(glm::min(t.a, t.b), t.c);
     const glm::dvec3 upper = glm::max(glm::max(t.a, t.b), t.c);
     std::array<double, 3> enter{};

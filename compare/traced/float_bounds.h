@@ -4,6 +4,7 @@
 
 #include "reference/trace/any_rays.h"
 #include "reference/trace/view.h"
+#include "scenes/roundoff.h"
 
 #include <cstdint>
 
@@ -26,11 +27,13 @@ struct FloatMeeting {
 /// there (find_nearby). A side at b is met at (b - o) / d, computed as fl(b r - fl(o r)) or
 /// fl(fl(b - o) r), with r a reciprocal. With u = 2^-24, r is off by at most 3.3 u, |b - o| times
 /// that; fl(o r) by u |o|; the last operation by u |b - o|: together less than 5.3 u (|b| + |o|).
-/// What the rounding of components below 1e-18 adds is less than 2^-53 of the largest coordinate.
-inline constexpr double traversal_share = 8 * 0x1p-24;
+/// What the rounding of components below least_component adds is less than 2^-53 of the largest
+/// coordinate.
+inline constexpr double traversal_share = 8 * float_roundoff;
 
-/// `ray`: of floats. `enlargement`: by traversal_share. Neither never nor always where a product
-/// may overflow.
+/// What Embree may report of a ray, whose numbers must be floats, and the triangle with corners
+/// `t`. `enlargement`: by how much its traversal may misplace the sides of boxes along each axis
+/// (traversal_share). `perhaps` wherever a product of its floats may overflow.
 FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement);
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
 #include "compare/traced/ray_check.h"
 
 #include "scenes/camera.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -237,7 +238,7 @@ void find_what_was_lost(const TracedClaim& claim, RayTile& tile, bool eye_rays) 
         if (!tile.faults[l].empty()) return;
         if (eye_rays) {
             AnyRay ray = claim.eye_ray(p);
-            if (pixel.seen != no_triangle) ray.far = pixel.depth * (1 - 16 * 0x1p-24);
+            if (pixel.seen != no_triangle) ray.far = pixel.depth * (1 - 16 * float_roundoff);
             certain.set(rays, lane, ray);
         } else if (pixel.shot && pixel.occluder == no_triangle) {
             certain.set(rays, lane, claim.shadow_ray(p));

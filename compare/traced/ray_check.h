@@ -37,16 +37,17 @@ struct TracedClaim {
     }
 };
 
-/// The rounded hit point as the recorded floats give it.
+/// The hit point that the technique computes in float from its eye ray: origin + depth * direction.
 glm::vec3 rounded_hit(const TracedClaim& claim, PixelPlace p);
 
-/// The shadow ray that the technique's model has there, computed anew; its direction is zero where
-/// none can be shot. `distance`: in place of the model's.
+/// The shadow ray that the technique's model starts at that point. Its direction is zero where none
+/// can be shot. `distance`: the epsilon or offset, in place of the model's own.
 FloatRay expected_shadow_ray(const TracedClaim& claim, PixelPlace p, float distance);
 
 AnyRay as_exact(const FloatRay& ray);
 
-/// What is wrong with a pixel's rays, in words that follow "the pixel's"; empty: nothing.
+/// What is wrong with a pixel's rays, as the rest of a sentence that begins "the pixel's"; empty
+/// where nothing is.
 using RayFault = std::string_view;
 
 /// Pixels of one tile of four by four, and what is wrong with each.
@@ -61,7 +62,8 @@ RayTile tile_at(const Frame& frame, int left, int top);
 /// Fills in RayTile::faults.
 void check_rays(const TracedClaim& claim, RayTile& tile);
 
-/// What is wrong with what all pixels share: eye, limits, the model's distance.
+/// What is wrong with the numbers that all pixels share: the eye, the rays' limits, the model's
+/// distance.
 RayFault fault_of_all(const TracedClaim& claim);
 
 } // namespace shadowproof

@@ -1,6 +1,6 @@
 #include "compare/traced/ray_report.h"
 
-#include "compare/report/blocks.h"
+#include "compare/json/blocks.h"
 
 #include <limits>
 #include <nlohmann/json.hpp>

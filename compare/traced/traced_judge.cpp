@@ -3,6 +3,7 @@
 #include "compare/traced/ray_cause.h"
 #include "compare/traced/ray_report.h"
 #include "compare/traced/ray_story.h"
+#include "compare/traced/traced_results.h"
 #include "reference/parallel.h"
 
 #include <fmt/format.h>
@@ -14,9 +15,9 @@ namespace shadowproof {
 
 namespace {
 
-/// Rays have no lateral freedom: their floats are known, and what a rasterizer may do to vertices
-/// does not concern them. So nothing is looked for around a pixel, and nothing is `edge`: a pixel
-/// is settled at its centre, or unexplained.
+/// Rays have no lateral error: their floats are known, and no rasterizer snaps them. So nothing is
+/// looked for around a pixel, and nothing is `edge`: a pixel is settled at its centre, or
+/// unexplained.
 class TracedJudge final : public Judge {
 public:
     TracedJudge(const TracedScene& traced, const Frame& frame)
@@ -110,7 +111,10 @@ std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
 } // namespace
 
 Family traced_family() {
-    return {.name = "traced", .summary = "shadow rays traced in float", .judge = judge};
+    return {.name = "traced",
+            .summary = "shadow rays traced in float",
+            .judge = judge,
+            .check_results = check_traced_results};
 }
 
 } // namespace shadowproof

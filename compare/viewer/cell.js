@@ -52,7 +52,7 @@ function pictureChoice(page, side, label) {
     id: `choose-${side}`,
     onchange: (event) => { page.look.of[side] = event.target.value; page.update(); },
   }, picturesOf(page.opened.cell).map((name) => element('option', {
-    value: name, selected: page.look.of[side] === name }, pictureTitles[name]))));
+    value: name, selected: page.look.of[side] === name }, titleOf(page.opened.cell, name)))));
 }
 
 /** What the compared views need: which two, and how far. */
@@ -100,7 +100,7 @@ function pane(page, name) {
   const { scene, cell } = page.opened;
   const problem = name ? page.pictures[name].problem
     : page.look.of.map((each) => page.pictures[each].problem).find(Boolean);
-  const title = name ? pictureTitles[name] : comparedTitle(page.look);
+  const title = name ? titleOf(cell, name) : comparedTitle(page.look, cell);
   const canvas = element('canvas', {
     class: 'pane', role: 'img', 'data-picture': name,
     style: `aspect-ratio:${page.opened.width}/${page.opened.height}`,
@@ -116,8 +116,8 @@ function pane(page, name) {
   return element('figure', {}, element('figcaption', {}, element('b', {}, title)), canvas);
 }
 
-function comparedTitle({ view, of, flipped }) {
-  const [left, right] = of.map((name) => pictureTitles[name]);
+function comparedTitle({ view, of, flipped }, cell) {
+  const [left, right] = of.map((name) => titleOf(cell, name));
   if (view === 'toggle') return flipped ? right : left;
   return view === 'slide' ? `${left} | ${right}` : `${left}, then ${right}`;
 }
@@ -128,7 +128,7 @@ function hoverWords(opened, point) {
   const [x, y] = point.map(Math.floor);
   const pixel = y * opened.width + x;
   const truth = opened.visibility ? visibilityNames[opened.visibility[pixel]] : 'unknown';
-  const claim = opened.claim ? visibilityNames[opened.claim[pixel]] : 'unknown';
+  const claim = opened.claim ? claimWords(opened, pixel) : 'unknown';
   const cause = opened.causes && opened.causes[pixel] !== noDifference
     ? `, ${received.legend.causes[opened.causes[pixel]].name}` : '';
   const colors = opened.cell.color ? `; ${colorWords(opened, pixel)}` : '';
@@ -169,27 +169,6 @@ function valueRows({ visibility, claim }) {
     element('td', { class: 'number' }, said ? grouped(said[value]) : '?')));
 }
 
-const countersShown = 12;
-
-function counterRows({ predicted, readBack, bits }) {
-  const before = predicted && talliedAll(predicted);
-  const after = readBack && talliedAll(readBack);
-  const values = [...new Set([...before?.keys() ?? [], ...after?.keys() ?? []])]
-    .sort((a, b) => Math.abs(asCount(a, bits)) - Math.abs(asCount(b, bits)) || a - b);
-  const rows = values.slice(0, countersShown).map((value) => {
-    const count = asCount(value, bits);
-    return element('tr', {},
-      element('th', { scope: 'row' }, swatch(`rgb(${counterColor(count).join(',')})`),
-              count < 0 ? `${value} (${count})` : String(value)),
-      element('td', { class: 'number' }, before ? grouped(before.get(value) ?? 0) : '?'),
-      element('td', { class: 'number' }, after ? grouped(after.get(value) ?? 0) : '?'));
-  });
-  if (values.length > countersShown)
-    rows.push(element('tr', {}, element('td', { colspan: 3 },
-                                        `and ${values.length - countersShown} more values`)));
-  return rows;
-}
-
 function legendTable(title, heads, rows) {
   const there = rows.filter(Boolean);
   if (there.length === 0) return null;
@@ -205,68 +184,43 @@ const legends = (page) => element('div', { class: 'legends' },
               contradictionRows(page.opened)),
   legendTable('Colour error', ['Colour', 'Pixels', 'Meaning'], colorErrorRows(page.opened.cell)),
   legendTable('Values', ['Class', 'Truth', 'Claim'], valueRows(page.opened)),
-  legendTable('Counter', ['Value', 'Predicted', 'Read back'], counterRows(page.opened)));
+  familyOf(page.opened.cell).legends(page.opened));
 
 function remarks(title, items) {
   return items?.length ? [element('p', { class: 'label' }, title),
                           element('ul', {}, items.map((item) => element('li', {}, item)))] : null;
 }
 
-/** "3.1 ms and 271,004 volume fragments against zfail_reversed" */
-const savingWords = ({ against, ms, volume_fragments: fragments, plan_ms: planning }) =>
-  `${ms < 0 ? '−' : ''}${milliseconds(Math.abs(ms))} and ` +
-  `${fragments < 0 ? '−' : ''}${grouped(Math.abs(fragments))} volume fragments a frame against ` +
-  `${against}, after ${milliseconds(planning)} of planning`;
-
-/** "z-pass, which ...: explains 67,754 wrong pixels, contradicts 0" */
-const diagnosisWords = (cell) => cell.diagnosis?.map(({ words, explained, contradicted }) =>
-  `${words}: explains ${counted(explained, 'wrong pixel')}, contradicts ${grouped(contradicted)}`);
-
-/** "1,204 to 1,210" */
-const rangeWords = ({ low, high }) =>
-  (low === high ? grouped(low) : `${grouped(low)} to ${grouped(high)}`);
-
 /** Plan, times, versions and the command that makes this cell again. */
 function howMade(results, { scene, cell }) {
   const { reference, provokes } = scene;
+  const family = familyOf(cell);
   return element('section', { class: 'made', 'aria-labelledby': 'made-title' },
     element('h2', { id: 'made-title' }, 'How it was made'),
     cell.command ? commandLine('copy-command', 'Reproduce this cell', cell.command) : null,
     facts([
       ['Technique', cell.summary], ['Drawn in', cell.error ? null : milliseconds(cell.ms)],
-      ['Volume fragments', cell.volume_fragments === undefined ? null
-                                                                  : grouped(cell.volume_fragments)],
-      ['Predicted', cell.volumes && rangeWords(cell.volumes.fragments)],
-      ['Saved', cell.saved && savingWords(cell.saved)],
+      ...family.facts(cell),
       ['Truth traced in', reference && milliseconds(reference.ms)],
       ['Rays', reference && grouped(reference.rays)],
       ['Decided in exact arithmetic', reference && grouped(reference.exact_decisions)],
       ['File', scene.file], ['Size', `${scene.width} × ${scene.height}`],
       ['Triangles', scene.triangles && grouped(scene.triangles)], ['Light', scene.light],
       ['Provokes', provokes?.join(', ')]]),
-    remarks('What would explain wrong pixels', diagnosisWords(cell)),
+    family.remarks(cell).map(([title, items]) => remarks(title, items)),
     remarks('Left out by the technique', cell.left_out),
     remarks('The plan: left out, as this scene does not need it', scene.left_out),
     remarks('Notes', scene.notes),
     madeWith(results));
 }
 
-/** Warnings above the pictures: damage, blank truth, unexplained counters and colours. */
+/** Warnings above the pictures: unexplained evidence and colours, blank truth, damage. */
 function warnings(opened) {
   const { scene, cell, problems } = opened;
   const said = [unpredictedWords(opened), ...problems].filter(Boolean);
   if (scene.reference && scene.reference.lit + scene.reference.shadowed === 0)
     said.unshift('The truth is blank: no pixel sees a surface.');
-  if (cell.volumes?.words)
-    said.unshift(`Nothing that the volumes’ faces make: ${cell.volumes.words}.`);
-  if (cell.ledger?.unexplained > 0) {
-    const { first } = cell.ledger;
-    said.unshift(`The counter read back is not the one predicted, nor any in the band, or no ` +
-                 `rasterizer would show that triangle at that depth, at ` +
-                 `${counted(cell.ledger.unexplained, 'pixel')}` +
-                 `${first ? `; the first is (${first.x}, ${first.y})` : ''}.`);
-  }
-  return said.map(alertLine);
+  return [...familyOf(cell).alarms(cell).filter(Boolean), ...said].map(alertLine);
 }
 
 function cellHead(results, scene, cell) {

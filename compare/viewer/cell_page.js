@@ -57,7 +57,7 @@ function makePage(opened, pictures, look) {
   page.flip = () => {
     look.flipped = !look.flipped;
     const title = page.stage.querySelector('figcaption b');
-    if (title) title.textContent = comparedTitle(look);
+    if (title) title.textContent = comparedTitle(look, opened.cell);
     page.repaint();
   };
   page.stopBlinking = () => {
@@ -74,7 +74,7 @@ function makePage(opened, pictures, look) {
     const names = picturesOf(opened.cell);
     look.of[side] = names[(names.indexOf(look.of[side]) + 1) % names.length];
     page.update();
-    announce(pictureTitles[look.of[side]]);
+    announce(titleOf(opened.cell, look.of[side]));
   };
   page.shift = (by) => {
     look.at = hundredths(Math.min(1, Math.max(0, look.at + by)));
@@ -187,7 +187,7 @@ async function showCell(results, scene, cell, params) {
   showPixel(page);
   page.resizes = new ResizeObserver(() => {
     page.repaint();
-    drawCutaway(page);
+    familyOf(opened.cell).shown(page);
   });
   page.resizes.observe(page.stage);
 }

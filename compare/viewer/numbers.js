@@ -44,9 +44,6 @@ const counted = (count, one, many = `${one}s`) => `${grouped(count)} ${count ===
 /** "+1", "-1" with a hyphen as the command has it, "0". */
 const signed = (value) => (value > 0 ? `+${value}` : String(value));
 
-/** A stored counter as the signed count that it stands for: 255 of 8 bits is -1. */
-const asCount = (stored, bits) => (stored >= 2 ** (bits - 1) ? stored - 2 ** bits : stored);
-
 const milliseconds = (ms) => `${ms.toFixed(1)} ms`;
 
 /** 1, 2, 5, 10, ... within a range. */

@@ -5,8 +5,6 @@ const noDifference = 255;
 const noTriangle = 0xffffffff;
 const partlyLit = 160;
 const visibilityNames = { 0: 'background', 64: 'shadowed', [partlyLit]: 'partly lit', 255: 'lit' };
-const exactnessNames = ['filtered', 'exact', 'degenerate'];
-const statusNames = ['counted', 'beyond', 'lost_near', 'lost_far', 'lost_cap'];
 
 /** The cause of each pixel; decoded when its cell is opened. */
 function causeMap(scene, cell, problems) {
@@ -72,9 +70,17 @@ function checkCell(opened) {
 }
 
 const lengthsOfCell = (cell, pixels) =>
-  ({ claim: pixels, ...familyOf(cell).blocks(pixels, cell.differing) });
+  ({ claim: pixels, ...(cell.partly_lit === undefined ? {} : { share: pixels }),
+     ...familyOf(cell).blocks(pixels, cell.differing) });
 
-/** The blocks of a cell's colours, if it has some. Damaged ones do not affect the ledgers. */
+/** What is claimed at a pixel: "lit", "partly lit (68.8 %)". */
+function claimWords({ claim, share }, pixel) {
+  const words = visibilityNames[claim[pixel]];
+  return claim[pixel] === partlyLit && share ? `${words} (${printed(100 * share[pixel], 3)} %)`
+                                             : words;
+}
+
+/** The blocks of a cell's colours, if it has some. Damaged ones do not affect the evidence. */
 async function openColors({ scene, cell, id, sceneFile, cellFile, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;
@@ -105,11 +111,8 @@ async function openCell(scene, cell) {
     differing: causes ? differingPixels(causes) : new Uint32Array(0),
     visibility: truth?.visibility ?? null,
     claim: blocks?.claim ?? null,
-    predicted: blocks?.predicted ?? null,
-    readBack: blocks?.read_back ?? null,
-    faces: blocks?.faces ?? null,
+    share: blocks?.share ?? null,
     blocks,
-    bits: cellFile?.counting?.bits ?? 8,
     ...await openColors({ scene, cell, id, sceneFile, cellFile, problems }),
   };
   if (opened.visibility) checkTruth(opened);

@@ -1,18 +1,19 @@
-// The pictures of a cell: seven panes, and three of colours where the technique has some, that zoom
-// and pan as one, or two in one pane that slide, blend or toggle. A pane is a canvas that shows the
-// picture's pixels as they are, by nearest sampling.
+// The pictures of a cell: panes that zoom and pan as one, or two in one pane that slide, blend or
+// toggle. They are four of every claim, three of colours where it has some, and those of its family.
+// A pane is a canvas that shows the picture's pixels as they are, by nearest sampling.
 
 const pictureNames = ['truth', 'claim', 'difference', 'cause'];
 const colorPictureNames = ['true_color', 'claimed_color', 'color_error'];
 const pictureTitles = { true_color: 'True colour', claimed_color: 'Claimed colour',
                         color_error: 'Colour error', truth: 'Truth', claim: 'Claim',
-                        difference: 'Difference', cause: 'Cause', predicted: 'Counter predicted',
-                        read_back: 'Counter read back', volumes: 'Volumes',
-                        texels: 'Texels asked' };
+                        difference: 'Difference', cause: 'Cause' };
 
 /** The names of a cell's pictures, colours first. */
 const picturesOf = (cell) =>
-  [...(cell.color ? colorPictureNames : []), ...pictureNames, ...familyOf(cell).pictures];
+  [...(cell.color ? colorPictureNames : []), ...pictureNames,
+   ...Object.keys(familyOf(cell).pictures)];
+
+const titleOf = (cell, name) => pictureTitles[name] ?? familyOf(cell).pictures[name];
 
 /** The two that are compared until others are chosen. */
 const comparedFirst = (cell) =>
@@ -34,32 +35,11 @@ function loadedImage(path, width, height) {
   });
 }
 
-/** Colours of a signed counter: none dark, positive from blue to yellow, negative red. */
-function counterColor(count) {
-  const up = [[32, 92, 150], [76, 150, 190], [130, 190, 180], [190, 215, 140], [240, 228, 66]];
-  const down = [[213, 94, 0], [160, 52, 60], [204, 121, 167], [235, 180, 210]];
-  if (count === 0) return [22, 22, 28];
-  const colors = count > 0 ? up : down;
-  return colors[Math.min(Math.abs(count), colors.length) - 1];
-}
-
-function counterPicture(values, width, height, bits) {
-  const canvas = element('canvas', { width, height });
-  const context = canvas.getContext('2d');
-  const pixels = context.createImageData(width, height);
-  const colors = new Map();
-  values.forEach((value, i) => {
-    if (!colors.has(value)) colors.set(value, [...counterColor(asCount(value, bits)), 255]);
-    pixels.data.set(colors.get(value), 4 * i);
-  });
-  context.putImageData(pixels, 0, 0);
-  return canvas;
-}
-
 /** A picture's value at one pixel, as a word that fits into the pixel. */
 function pixelWord(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack, faces, trueColor, claimedColor,
-          colorVerdict } = opened;
+  const { visibility, claim, share, causes, trueColor, claimedColor, colorVerdict } = opened;
+  const family = familyOf(opened.cell);
+  if (name in family.pictures) return family.word(opened, name, pixel);
   switch (name) {
   case 'true_color': return trueColor ? bytesAt(trueColor, pixel).join(' ') : '';
   case 'claimed_color': return claimedColor ? bytesAt(claimedColor, pixel).join(' ') : '';
@@ -67,11 +47,9 @@ function pixelWord(opened, name, pixel) {
     : isUnpredicted(colorVerdict[pixel]) ? 'unpredicted'
     : colorVerdict[pixel] === colorBeyond ? 'beyond' : '';
   case 'truth': return visibility ? valueNames[visibility[pixel]] : '';
-  case 'claim': return claim ? valueNames[claim[pixel]] : '';
-  case 'predicted': return predicted ? String(predicted[pixel]) : '';
-  case 'read_back': return readBack ? String(readBack[pixel]) : '';
-  case 'volumes': return faces ? String(faces[pixel]) : '';
-  case 'texels': return '';
+  case 'claim': return !claim ? ''
+    : claim[pixel] === partlyLit && share ? `${Math.round(100 * share[pixel])}%`
+    : valueNames[claim[pixel]];
   case 'cause': return !causes || causes[pixel] === noDifference ? ''
     : received.legend.causes[causes[pixel]].name;
   default: return !visibility || !claim || claim[pixel] === visibility[pixel] ? ''
@@ -84,8 +62,8 @@ const colorBytes = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at 
 
 /** Black or white, whichever is read on the pixel's own colour. */
 function pixelInk(opened, name, pixel) {
-  const { visibility, claim, causes, predicted, readBack, faces, bits, trueColor, claimedColor,
-          colorVerdict } = opened;
+  const { visibility, claim, causes, trueColor, claimedColor, colorVerdict } = opened;
+  const family = familyOf(opened.cell);
   const colors = {
     true_color: () => bytesAt(trueColor, pixel),
     claimed_color: () => bytesAt(claimedColor, pixel),
@@ -93,15 +71,12 @@ function pixelInk(opened, name, pixel) {
       causeLegend(isUnpredicted(colorVerdict[pixel]) ? 'unexplained' : 'shading').color),
     truth: () => [visibility[pixel], visibility[pixel], visibility[pixel]],
     claim: () => [claim[pixel], claim[pixel], claim[pixel]],
-    predicted: () => counterColor(asCount(predicted[pixel], bits)),
-    read_back: () => counterColor(asCount(readBack[pixel], bits)),
-    texels: () => [40, 40, 44],
-    volumes: () => (faces[pixel] > 2 ? [255, 192, 64] : [40, 40, 44]),
     cause: () => colorBytes(received.legend.causes[causes[pixel]].color),
     difference: () => colorBytes(
       received.legend.contradictions[contradictionOf(visibility[pixel], claim[pixel])].color),
   };
-  return isDark(colors[name]()) ? '#ffffff' : '#000000';
+  const color = name in family.pictures ? family.color(opened, name, pixel) : colors[name]();
+  return isDark(color) ? '#ffffff' : '#000000';
 }
 
 async function loadedPictures(opened) {
@@ -113,7 +88,7 @@ async function loadedPictures(opened) {
   const fromFiles = picturesOf(cell).filter((name) => !drawn.some(([other]) => other === name));
   await Promise.all(fromFiles.map(async (name) => {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
-      : { problem: `the results name no picture of the ${pictureTitles[name].toLowerCase()}` };
+      : { problem: `the results name no picture of the ${titleOf(cell, name).toLowerCase()}` };
   }));
   for (const [name, image] of drawn)
     pictures[name] = image ? { image }

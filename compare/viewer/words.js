@@ -38,34 +38,20 @@ const causeCounts = (cell) =>
 function reasonOf(cell) {
   if (cell.error) return cell.error;
   const [worst] = causesOf(cell);
-  const counters = cell.ledger?.unexplained ?? 0;
-  const said = [];
-  if (counters > 0)
-    said.push(`The counter read back is not the one predicted at ${counted(counters, 'pixel')}`);
+  const family = familyOf(cell);
+  const said = family.faults(cell).filter(Boolean);
   const colors = cell.color?.unpredicted ?? 0;
   if (colors > 0)
     said.push(`The colour is not what the technique’s arithmetic predicts at ` +
               counted(colors, 'pixel'));
-  if (cell.volumes?.words) said.push(`Not as predicted: ${cell.volumes.words}`);
   if (worst && worst[0] !== 'edge')
     said.push(`${worst[0]} at ${counted(worst[1], 'pixel')}: ${causeLegend(worst[0]).meaning}`);
-  if (cell.diagnosis?.length) said.push(`Best explained by ${diagnosisWords(cell)[0]}`);
+  said.push(...family.explained(cell));
   if (said.length === 0)
     said.push(cell.differing > 0 ? 'Only edge pixels differ, within the rasterizer’s error bound'
                                  : 'Every pixel agrees');
   return `${said.join('. ')}.`;
 }
-
-const statusWords = {
-  counted: 'counted',
-  beyond: { depth_pass: 'behind the surface, not asked for',
-            depth_fail: 'in front of the surface, not asked for' },
-  lost_near: 'lost: in front of the near plane',
-  lost_far: 'lost: clipped at the far plane',
-  lost_cap: 'lost: the cap is missing',
-};
-const wordsOfStatus = (status, test) =>
-  (status === 'beyond' ? statusWords.beyond[test] : statusWords[status] ?? status);
 
 /** The same settings and technique, for one pixel. Gates and files do not concern it. */
 const explainCommand = (command, x, y) =>

@@ -44,17 +44,16 @@ std::string_view light_shader(const MapModel& model) {
 static_assert(static_cast<int>(Visibility::shadowed) + largest_map_filter * largest_map_filter <=
               static_cast<int>(Visibility::lit));
 
-/// The shares of comparisons that say `lit`, which map_light_spot_filtered.frag adds to `shadowed`,
-/// taken out of the claim.
-Image<std::uint8_t> take_shares(const MapModel& model, Image<Visibility>& claim) {
-    Image<std::uint8_t> shares(claim.width, claim.height);
+/// The shares of comparisons that say `lit`, whose number map_light_spot_filtered.frag adds to
+/// `shadowed`, taken out of the claim.
+Image<double> take_shares(const MapModel& model, Image<Visibility>& claim) {
+    Image<double> shares(claim.width, claim.height);
     for (std::size_t i = 0; i < claim.pixels.size(); ++i) {
         const auto byte = static_cast<std::uint8_t>(claim.pixels[i]);
         const int lit = byte - static_cast<int>(Visibility::shadowed);
-        if (claim.pixels[i] == Visibility::lit)
-            shares.pixels[i] = static_cast<std::uint8_t>(model.asked());
+        if (claim.pixels[i] == Visibility::lit) shares.pixels[i] = 1;
         if (lit <= 0 || lit >= model.asked()) continue;
-        shares.pixels[i] = static_cast<std::uint8_t>(lit);
+        shares.pixels[i] = 1.0 * lit / model.asked();
         claim.pixels[i] = Visibility::partly_lit;
     }
     return shares;
@@ -111,7 +110,7 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
                                .faces = read_map(gl, frames.map),
                                .format = depth_format(gl, frames.map.texture),
                                .map_milliseconds = time.stages.front().milliseconds};
-    if (model.filter > 0) frame.mapped->lit_comparisons = take_shares(model, frame.claim);
+    if (model.filter > 0) frame.share = take_shares(model, frame.claim);
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
     frame.milliseconds = time.milliseconds;

@@ -2,6 +2,8 @@
 // certain or known to be uncertain.
 #pragma once
 
+#include "scenes/roundoff.h"
+
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -18,7 +20,7 @@ struct Bounded {
     double value = 0;
     double error = 0;
 
-    static constexpr double u = 0x1p-53;
+    static constexpr double u = double_roundoff;
     static constexpr double slack = 1 + 8 * u;
     static constexpr double underflow = std::numeric_limits<double>::min();
 

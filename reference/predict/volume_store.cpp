@@ -32,7 +32,7 @@ Key key_of(const Scene& scene, const Counting& counting) {
 } // namespace
 
 /// Volumes that need another scene hold it, with all that is traced in it, and pictures of depths:
-/// of these there is one at a time, beside what somebody still uses.
+/// of these there is one at a time, beside those that are still in use.
 struct VolumeStore::Kept {
     using Entry = std::pair<Key, std::shared_ptr<const CountedVolumes>>;
     std::mutex mutex;

@@ -43,7 +43,7 @@ struct LightingLanes {
     // Given as interpolated, not of length zero, and replaced by N, towards the visible side:
     LaneVectors normal;
     // Computed:
-    LaneVectors bumped; ///< N', likewise
+    LaneVectors bumped; ///< N', towards the visible side
     LaneVectors to_light;
     LaneVectors half;
     alignas(64) Lanes<double> strength{}; ///< of the light, by cone and distance

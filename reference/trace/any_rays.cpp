@@ -29,10 +29,6 @@ AnyRay AnyRays::ray(int lane) const {
 
 namespace {
 
-/// As little as directions are told apart (find_nearby): Embree takes smaller components for that,
-/// min_rcp_input of its math/constants.h.
-constexpr double least_component = 1e-18;
-
 /// The largest coordinate on each axis.
 glm::dvec3 reach_of(const Hierarchy& hierarchy) {
     const Entry& root = hierarchy.entries.front();

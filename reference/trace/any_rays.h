@@ -44,9 +44,13 @@ public:
     virtual void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) = 0;
 };
 
+/// The smallest component of a direction that Embree's traversal tells from zero: it takes this one
+/// in place of smaller ones (min_rcp_input of its math/constants.h, in rcp_safe).
+inline constexpr double least_component = 1e-18;
+
 /// Visits at least all triangles whose own box a ray meets when it is enlarged, on each axis, by
 /// `share` of the largest coordinate there (of ray origin and scene) and by `share` of 2^-32 of the
-/// largest of all, and directions with components below 1e-18 are taken for any such.
+/// largest of all. Components of directions below least_component may then have any value up to it.
 void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found);
 
 /// How much find_nearby enlarges boxes for a ray.

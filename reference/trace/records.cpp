@@ -34,7 +34,7 @@ using Number = hn::Vec<Doubles>;
 
 constexpr Doubles doubles;
 constexpr Floats floats;
-constexpr double u = 0x1p-53; ///< rounding unit of double
+constexpr double u = double_roundoff; ///< rounding unit of double
 constexpr double v = float_roundoff;
 
 Number number(double x) {

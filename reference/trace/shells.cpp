@@ -2,6 +2,7 @@
 
 #include "reference/trace/state.h"
 #include "scenes/mesh/topology.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <array>
@@ -90,7 +91,7 @@ bool is_inverted(const Scene& scene, std::span<const std::uint32_t> triangles) {
         volume += glm::dot(glm::cross(v[0], v[1]), v[2]);
         size += glm::length(v[0]) * glm::length(v[1]) * glm::length(v[2]);
     }
-    return volume < -(16 + static_cast<double>(triangles.size())) * 0x1p-53 * size;
+    return volume < -(16 + static_cast<double>(triangles.size())) * double_roundoff * size;
 }
 
 /// Whether the triangles of a closed shell, as seen from the light, cover more of the sky by their

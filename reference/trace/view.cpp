@@ -2,6 +2,7 @@
 
 #include "reference/exact/norms.h"
 #include "reference/parallel.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,7 @@ namespace {
 /// the direction) and l that of an edge: the normal's components are off by 8 u l^2 (two products
 /// of edges rounded to u), which weighs 3 m; the dot product adds 4 u times its 3 terms of m 2 l^2.
 std::int8_t side_of(const glm::dvec4& from, const Corners& t, const Predicates& predicates) {
-    constexpr double u = 0x1p-53;
+    constexpr double u = double_roundoff;
     const glm::dvec3 a = from.w * t.a - glm::dvec3(from);
     const glm::dvec3 ab = t.b - t.a;
     const glm::dvec3 ac = t.c - t.a;

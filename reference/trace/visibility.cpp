@@ -2,6 +2,7 @@
 
 #include "reference/exact/norms.h"
 #include "reference/trace/faces.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@ namespace shadowproof {
 
 namespace {
 
-constexpr double u = 0x1p-53;
+constexpr double u = double_roundoff;
 
 float below(double x) {
     return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());

@@ -1,5 +1,5 @@
-// Whether the truth stays the same where the scene is only told otherwise (scenes/relations), and
-// where two points change places that see each other or do not.
+// Whether the truth stays the same where the scene is changed in ways that must not change its
+// picture (scenes/relations), and whether two points see each other from either end.
 #pragma once
 
 #include "reference/trace/trace.h"

@@ -75,25 +75,26 @@ private:
                             : fmt::format("the {} \"{}\"", kind, name);
     }
 
-    void check_place(const std::string& who, const glm::dvec3& place) const {
+    void check_place(const std::string& what, const glm::dvec3& place) const {
         if (size_of(place) <= limit_) return;
-        refuse(fmt::format("{} is at {}, which is not within {:.3g} of the origin", who,
+        refuse(fmt::format("{} is at {}, which is not within {:.3g} of the origin", what,
                            words_of(place), limit_ * scene_.unit),
                "move it nearer, or scale the scene");
     }
 
-    void check_smallest(const std::string& who, const char* where, const glm::dvec3& vector) const {
+    void check_smallest(const std::string& what, const char* where,
+                        const glm::dvec3& vector) const {
         for (int k = 0; k < 3; ++k)
             if (vector[k] != 0 && std::abs(vector[k]) < smallest_number)
                 refuse(fmt::format("{} {} ({}, {}, {}), and products of a number below {:.3g} are "
                                    "lost in doubles",
-                                   who, where, vector.x, vector.y, vector.z, smallest_number),
+                                   what, where, vector.x, vector.y, vector.z, smallest_number),
                        "write 0 for it");
     }
 
-    void check_axis(const std::string& who, const glm::dvec3& axis) const {
+    void check_axis(const std::string& what, const glm::dvec3& axis) const {
         if (std::isfinite(size_of(axis)) && size_of(axis) > 0) return;
-        refuse(fmt::format("{} points along ({}, {}, {})", who, axis.x, axis.y, axis.z),
+        refuse(fmt::format("{} points along ({}, {}, {})", what, axis.x, axis.y, axis.z),
                "mend its node's transform");
     }
 
@@ -207,14 +208,14 @@ private:
     }
 
     void check_light(const Light& light) const {
-        const std::string who = named("light", light.name);
+        const std::string what = named("light", light.name);
         if (light.kind != Light::Kind::directional) {
-            check_place(who, light.position);
-            check_smallest(who, "is at", light.position);
+            check_place(what, light.position);
+            check_smallest(what, "is at", light.position);
         }
         if (light.kind != Light::Kind::point) {
-            check_axis(who, light.direction);
-            check_smallest(who, "points along", light.direction);
+            check_axis(what, light.direction);
+            check_smallest(what, "points along", light.direction);
         }
     }
 };

@@ -1,7 +1,7 @@
 // The bundled scenes by name.
 #pragma once
 
-#include "scenes/load/scene_request.h"
+#include "scenes/load/common/scene_request.h"
 #include "scenes/scene.h"
 
 #include <filesystem>

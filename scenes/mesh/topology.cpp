@@ -1,6 +1,10 @@
 #include "scenes/mesh/topology.h"
 
+<<<<<<< HEAD
 #include "scenes/first_of_same.h"
+=======
+#include "scenes/roundoff.h"
+>>>>>>> h13
 
 #include <fmt/format.h>
 
@@ -167,7 +171,7 @@ bool encloses_negative_volume(const Scene& scene, std::span<const std::uint32_t>
         volume += glm::dot(a, glm::cross(b, c));
         size += glm::length(a) * glm::length(b) * glm::length(c);
     }
-    return volume < -(16 + static_cast<double>(triangles.size())) * 0x1p-53 * size;
+    return volume < -(16 + static_cast<double>(triangles.size())) * double_roundoff * size;
 }
 
 std::vector<CasterReport> inspect_casters(const Scene& scene) {

@@ -214,14 +214,14 @@ std::string reason_to_leave_out(const Scene& scene, const Body& caster,
 std::vector<std::uint32_t> first_of_body(const Scene& scene) {
     const std::vector<std::uint32_t> welded = weld_by_position(scene.positions);
     UnionFind bodies(scene.meshes.size());
-    constexpr std::uint32_t nobody = 0xffffffffU;
-    std::vector<std::uint32_t> owner(scene.positions.size(), nobody);
+    constexpr std::uint32_t none = 0xffffffffU;
+    std::vector<std::uint32_t> owner(scene.positions.size(), none);
     for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         if (!scene.meshes[mesh].casts) continue;
         for (const std::uint32_t triangle : triangles_of(scene.meshes[mesh]))
             for (int k = 0; k < 3; ++k) {
                 std::uint32_t& first = owner[welded[scene.triangles[triangle][k]]];
-                if (first == nobody) first = mesh;
+                if (first == none) first = mesh;
                 bodies.unite(first, mesh);
             }
     }

@@ -96,7 +96,7 @@ Plan make_plan(const Scene& scene) {
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
     plan.around_light = triangles_around_light(scene);
     if (plan.around_light.empty())
-        plan.left_out.push_back("turning casters round: none has the light inside");
+        plan.left_out.push_back("flipping casters: none has the light inside");
     plan.volume_meets_near = volume_meets(scene, scene.camera.near);
     if (!plan.volume_meets_near)
         plan.left_out.push_back("near cap: no volume meets the near plane, z-pass is enough");

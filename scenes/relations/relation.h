@@ -13,7 +13,7 @@
 
 namespace shadowproof {
 
-/// A scene told otherwise. Its picture has the same pixels; its triangles may have other numbers.
+/// A scene that was changed. Its picture has the same pixels; its triangles may have other numbers.
 struct RetoldScene {
     Scene scene{};
     std::vector<std::uint32_t> original{}; ///< of each triangle, the one that it is or is part of

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenes/cube_map.h"
+#include "scenes/roundoff.h"
 
 #include <cstdint>
 #include <glm/gtc/type_precision.hpp>
@@ -26,6 +27,6 @@ glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
 /// differ by 4/64 and a step of 2/255 at most; the interpolation's own four roundings are of
 /// numbers up to 1.
 inline constexpr double cube_lookup_error =
-    3 * 64 * 0x1p-24 * 2 * (4 / 64.0 + 2 / 255.0) + 8 * 0x1p-24;
+    3 * 64 * float_roundoff * 2 * (4 / 64.0 + 2 / 255.0) + 8 * float_roundoff;
 
 } // namespace shadowproof

@@ -142,7 +142,7 @@ Section spaces_agree(const std::vector<std::unique_ptr<Lit>>& scenes, Gpu& gpu) 
 }
 
 Section cube_map_error() {
-    std::string text = "A cube map makes vectors of unit length (Voorhies and Foran 1994; "
+    std::string text = "A cube map normalises vectors (Voorhies and Foran 1994; "
                        "Kilgard), with 8 bits a\n"
                        "component and bilinear filtering within a face. How far what is looked up "
                        "is from the unit\n"
@@ -180,13 +180,13 @@ Section cube_map_error() {
             "gains little. The worst vectors lie along the faces' edges, where no filter reaches\n"
             "over. One step of Newton and Raphson from a guess by the float's bits leaves 0.00175\n"
             "(Lomont 2003), everywhere.\n";
-    return {"A cube map makes vectors of unit length", text, ""};
+    return {"A cube map normalises vectors", text, ""};
 }
 
 /// Means of what n x n texels show under a light and an eye, three ways.
 struct Filtered {
     double averaged_reflections = 0; ///< the truth: mean of all highlights
-    double averaged_normals = 0;     ///< highlight of the mean normal, of unit length
+    double averaged_normals = 0;     ///< highlight of the mean normal, normalised
     double dimmed = 0;               ///< the same times the mean's length (Kilgard's dimFactor)
 };
 

@@ -46,7 +46,7 @@ test('a cause that is allowed passes the gate, one pixel more than allowed does 
   assert.deepEqual(resultsOf('report/results.json').allow, ['far_plane', 'edge']);
 });
 
-test('edges need no allowance, and who gives one is told', () => {
+test('edges need no allowance, and a run that gives one is told so', () => {
   const note = /^note: --allow edge changes nothing/m;
   assert.match(shadowproof([...zpass, '--allow', 'edge=5']).out, note);
   assert.doesNotMatch(shadowproof([...zpass, '--allow', 'precision']).out, note);

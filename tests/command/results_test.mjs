@@ -78,10 +78,48 @@ test('results whose figures contradict each other are refused, and the figure is
   refused((scene) => (scene.reference.rays = 1), /reference\/rays/);
 });
 
+test('what a family adds to its cells is checked by that family, and by no other', () => {
+  const report = (family, change) => {
+    const { code, ...results } = structuredClone(all);
+    const cells = results.scenes.flatMap(({ techniques }) => techniques);
+    change(cells.find((cell) => cell.family === family));
+    writeFileSync(join(scratch, 'changed.json'), JSON.stringify(results));
+    return shadowproof(['report', '--from', 'changed.json', '--out', 'changed']);
+  };
+  for (const [family, change, why] of [
+    ['stencil', (cell) => delete cell.ledger, /lacks "ledger"/],
+    ['stencil', (cell) => (cell.ledger.equal += 1), /ledger adds up to/],
+    ['stencil', (cell) => delete cell.images.volumes, /images lacks "volumes"/],
+    ['map', (cell) => (cell.map.size = 0), /map\/size must be/],
+    ['traced', (cell) => delete cell.rays, /lacks "rays"/],
+    ['traced', (cell) => (cell.rays.unexplained += 1), /rays adds up to/],
+  ]) {
+    const run = report(family, change);
+    assert.equal(run.code, 3, `${family}: ${change}`);
+    assert.match(run.err, why);
+  }
+  // Of a family that this program does not know, what all families have is enough.
+  assert.notEqual(report('stencil', (cell) => {
+    cell.family = 'later';
+    delete cell.ledger;
+  }).code, 3);
+});
+
 test('the report folder holds the same results as --json, but for nothing', () => {
   const folder = JSON.parse(readFileSync(join(scratch, 'report/results.json'), 'utf8'));
   const { code, ...results } = all;
   assert.deepEqual(folder, results);
+});
+
+test('a claim of shares of light tells how many pixels and how wrong they are, validly', () => {
+  const results = resultsOf(['verify', 'spot', '--technique', 'spot_map,spot_map_pcf',
+                             '--map-size', '64', '--size', '96x96']);
+  assertValid(results);
+  const [whole, shared] = results.scenes[0].techniques;
+  assert.ok(shared.partly_lit > 0 && shared.partly_lit <= shared.differing);
+  assert.ok(shared.wrongness > 0 && shared.wrongness < shared.differing);
+  assert.ok(shared.causes.filter > 0);
+  assert.deepEqual([whole.partly_lit, whole.wrongness], [undefined, undefined]);
 });
 
 test('a scene that cannot be read is an error in valid results, and the others are tried', () => {

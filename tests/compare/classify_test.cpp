@@ -157,6 +157,24 @@ TEST_F(Classify, every_pixel_counted_by_cause_is_marked_in_the_cause_map) {
               static_cast<std::uint8_t>(comparison.first->cause));
 }
 
+TEST(Wrongness, is_the_share_of_the_light_by_which_a_partly_lit_pixel_is_off_and_else_1) {
+    Image<Visibility> truth(1, 1);
+    Frame frame;
+    frame.claim = Image<Visibility>(1, 1);
+    frame.share = Image<double>(1, 1, 11.0 / 16);
+    const auto off = [&](Visibility right, Visibility claim) {
+        truth.pixels[0] = right;
+        frame.claim.pixels[0] = claim;
+        return wrongness(truth, frame, 0);
+    };
+    EXPECT_EQ(off(Visibility::lit, Visibility::partly_lit), 5.0 / 16);
+    EXPECT_EQ(off(Visibility::shadowed, Visibility::partly_lit), 11.0 / 16);
+    EXPECT_EQ(off(Visibility::background, Visibility::partly_lit), 1);
+    // The share of a pixel that is not partly lit is not read.
+    EXPECT_EQ(off(Visibility::shadowed, Visibility::lit), 1);
+    EXPECT_EQ(off(Visibility::lit, Visibility::shadowed), 1);
+}
+
 /// Each fault on a scene that shows it (the headers of the faults say which).
 struct Injection {
     std::string fault;

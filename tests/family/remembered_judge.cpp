@@ -1,5 +1,5 @@
 // The smallest judge there can be: of claims without surface, evidence or colours. A pixel that
-// differs is an edge's where its class is true somewhere in its band, else unexplained.
+// differs is `edge` where its class is true somewhere in its band, else unexplained.
 #include "compare/judge/class_judge.h"
 
 namespace shadowproof {

@@ -3,7 +3,7 @@
 // Takes the .gltf, .glb, .md2 and .png files below the folders, and mutates each anew: its tree and
 // geometry, its pictures, its bytes. `verify` at 32x32 must answer each with an exit code of 0 to
 // 3, within 20 s and 2 GB, and every message must have a file, a place and a reason; so must
-// `normal-map` of pictures. Exits 1 where one did not. Judgements that nobody explains are listed.
+// `normal-map` of pictures. Exits 1 where one did not. Unexplained judgements are listed.
 // Mutants that are odd or listed lie in the folder KEEP.
 #include "tests/fuzz/campaign.h"
 

@@ -1,9 +1,9 @@
 // FileBytes of a picture: decoded, or refused in a sentence before more is allocated than was
 // allowed.
-#include "scenes/load/picture.h"
+#include "scenes/load/picture/picture.h"
 
 #include "scenes/error.h"
-#include "scenes/load/openimageio/openimageio.h"
+#include "scenes/load/picture/openimageio.h"
 #include "tests/fuzz/allocations.h"
 #include "tests/fuzz/findings.h"
 #include "tests/fuzz/promises.h"

@@ -1,5 +1,5 @@
 // The whole way of a small scene: loaded, traced, drawn by a robust stencil technique and a second
-// one, judged. What nobody explains, a defect of a robust technique, too much time and memory
+// one, judged. An unexplained pixel, a defect of a robust technique, too much time, and memory
 // beyond what was estimated are broken promises. With SHADOWPROOF_FUZZ_FINDINGS=FOLDER these are
 // kept there, few of each kind, and the run goes on.
 #include "compare/blank.h"

@@ -100,7 +100,7 @@ std::string odd_triangle(Scene& scene, Dice& dice) {
     switch (dice.below(4)) {
     case 0:
         std::swap(triangle.x, triangle.y);
-        return fmt::format("triangle {} turned round", number);
+        return fmt::format("triangle {} flipped", number);
     case 1:
         triangle.z = triangle.x;
         return fmt::format("triangle {} collapsed", number);

@@ -57,7 +57,7 @@ Frame without_dark_cap(Gpu& gpu, const Scene& scene, const Plan& plan) {
 
 Frame with_swapped_steps(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     StencilRecipe recipe = clamp_recipe(scene);
-    // What is turned is counted with exchanged steps.
+    // What is flipped is counted with exchanged steps.
     recipe.extruder = tampered([](const Scene&, ShadowVolume& volume) {
         std::swap(volume.sides, volume.flipped_sides);
         for (auto* caps : {&volume.light_cap, &volume.dark_cap}) {

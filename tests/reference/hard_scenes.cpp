@@ -68,7 +68,7 @@ Scene boxes(const glm::dvec3& position, bool double_sided = false) {
     return scene;
 }
 
-/// The scene under a directional light; `to_light` need not be of unit length.
+/// The scene under a directional light; `to_light` need not be normalised.
 Scene under_sun(Scene scene, const glm::dvec3& to_light) {
     scene.lights[0].kind = Light::Kind::directional;
     scene.lights[0].direction = -to_light;

@@ -18,7 +18,7 @@ enum class Fault {
     no_self_shadow,    ///< both self-shadowing terms are 1
     srgb_normal_map,   ///< the normal map is decoded as if it held colours
     inverted_green,    ///< the normal map's y points down
-    no_renormalise,    ///< neither interpolated normals nor sampled ones are made of unit length
+    no_renormalise,    ///< neither interpolated normals nor sampled ones are normalised
     no_gloss,          ///< the decal's alpha is left out
     linear_decal,      ///< the decal's bytes are taken for linear light
     turned_reflection, ///< the eye ray's reflection is looked up in the opposite direction

@@ -6,7 +6,8 @@ import { randomNumbers, seed } from './random.mjs';
 import { named } from './scripts.mjs';
 
 const { printed, grouped, asCount } =
-  named(['numbers.js'], ['printed', 'grouped', 'asCount']);
+  named(['numbers.js', 'families/families.js', 'families/stencil/counters.js'],
+        ['printed', 'grouped', 'asCount']);
 
 /** awk reads a double and gives it to printf. 17 digits name every double. */
 function byPrintf(values) {

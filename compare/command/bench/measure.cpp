@@ -8,6 +8,7 @@
 #include "compare/command/scene_result.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"
 #include "compare/words.h"

@@ -15,11 +15,7 @@ struct JudgedPoint {
     std::string why{};                 ///< then
 };
 
-template <class Archive>
-void serialize(Archive& archive, JudgedPoint& judged) {
-    auto& [point, why] = judged;
-    archive(point, why);
-}
+SHADOWPROOF_SEND_ALL(JudgedPoint, point, why)
 
 /// One sample of a point.
 struct BenchSample {
@@ -27,11 +23,7 @@ struct BenchSample {
     std::vector<BenchStage> stages{}; ///< of one further frame
 };
 
-template <class Archive>
-void serialize(Archive& archive, BenchSample& sample) {
-    auto& [milliseconds, stages] = sample;
-    archive(milliseconds, stages);
-}
+SHADOWPROOF_SEND_ALL(BenchSample, milliseconds, stages)
 
 /// A part of a run, such as what a scene adds to it.
 struct MeasuredPart {
@@ -39,10 +31,6 @@ struct MeasuredPart {
     bool complete = true; ///< all that was asked for was measured
 };
 
-template <class Archive>
-void serialize(Archive& archive, MeasuredPart& part) {
-    auto& [run, complete] = part;
-    archive(run, complete);
-}
+SHADOWPROOF_SEND_ALL(MeasuredPart, run, complete)
 
 } // namespace shadowproof

@@ -1,4 +1,4 @@
-// What a benchmark is asked for.
+// The options of `bench`.
 #pragma once
 
 #include "compare/bench/bench_run.h"

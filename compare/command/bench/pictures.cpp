@@ -3,7 +3,7 @@
 #include "compare/command/point_pictures.h"
 #include "compare/output/manifest.h"
 #include "compare/report/report_page.h"
-#include "scenes/load/file_bytes.h"
+#include "scenes/load/common/file_bytes.h"
 
 #include <filesystem>
 #include <set>

@@ -5,6 +5,7 @@
 #include "compare/command/bench/sweep.h"
 #include "compare/command/standard_output.h"
 #include "compare/command/stopwatch.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"
 #include "compare/words.h"
@@ -277,11 +278,7 @@ struct MeasuredSize {
     std::vector<BenchLeftOut> left_out{};
 };
 
-template <class Archive>
-void serialize(Archive& archive, MeasuredSize& size) {
-    auto& [growth, stopped, crashed, left_out] = size;
-    archive(growth, stopped, crashed, left_out);
-}
+SHADOWPROOF_SEND_ALL(MeasuredSize, growth, stopped, crashed, left_out)
 
 /// Measures a size as a piece. `scenes`: empty where they are still to be made.
 void measure_as_piece(const BenchWork& work, const Axis& axis, std::vector<Runner>& runners,

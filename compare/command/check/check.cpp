@@ -143,11 +143,7 @@ struct Judged {
     std::vector<std::string> said{}; ///< a line per diagnosis
 };
 
-template <class Archive>
-void serialize(Archive& archive, Judged& judged) {
-    auto& [cell, said] = judged;
-    archive(cell, said);
-}
+SHADOWPROOF_SEND_ALL(Judged, cell, said)
 
 /// No wrong pixel of a picture is excused.
 void judge_picture(const CheckOptions& options, const TracedScene& traced, std::size_t i,

@@ -1,5 +1,5 @@
-// Results as bytes, for the way from one process to another of the same program. A structure goes
-// where it has `template <class Archive> void serialize(Archive&, T&)`.
+// Results as bytes, for the way from one process to another of the same program. A structure is
+// sent if it has `template <class Archive> void serialize(Archive&, T&)`.
 #pragma once
 
 #include <cereal/archives/binary.hpp>
@@ -10,6 +10,15 @@
 #include <cereal/types/vector.hpp>
 #include <sstream>
 #include <string>
+
+/// Defines serialize for a structure of which all members are sent. They are named in their order:
+/// a new one does not compile until it is named as well.
+#define SHADOWPROOF_SEND_ALL(Structure, ...)                                                       \
+    template <class Archive>                                                                       \
+    void serialize(Archive& archive, Structure& structure) {                                       \
+        auto& [__VA_ARGS__] = structure;                                                           \
+        archive(__VA_ARGS__);                                                                      \
+    }
 
 namespace shadowproof {
 

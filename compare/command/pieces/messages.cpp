@@ -13,11 +13,7 @@
 
 namespace shadowproof {
 
-template <class Archive>
-void serialize(Archive& archive, Message& message) {
-    auto& [kind, bytes, name, place, again, least_seconds] = message;
-    archive(kind, bytes, name, place, again, least_seconds);
-}
+SHADOWPROOF_SEND_ALL(Message, kind, bytes, name, place, again, least_seconds)
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include "compare/command/pieces/archive.h"
 #include "compare/report/report.h"
 
-// Each structure is unpacked into all its members, so that a new member does not compile until it
-// is sent, too. Members named in capitals are not sent: pictures, and large data that is not needed
-// any more.
+// Of some structures not all members are sent. They are unpacked all the same, so that a new member
+// does not compile until it is decided on. Those named in capitals are not sent: pictures, and
+// large data that is not needed any more.
 
 namespace glm {
 
@@ -20,38 +20,13 @@ void serialize(Archive& archive, dvec3& v) {
 
 namespace shadowproof {
 
-template <class Archive>
-void serialize(Archive& archive, DriverInfo& info) {
-    auto& [version, renderer, subpixel_bits, depth_bits, stencil_bits] = info;
-    archive(version, renderer, subpixel_bits, depth_bits, stencil_bits);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Light& light) {
-    auto& [name, choice, kind, position, direction, inner_cone, outer_cone, color, intensity] =
-        light;
-    archive(name, choice, kind, position, direction, inner_cone, outer_cone, color, intensity);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Camera& camera) {
-    auto& [eye, right, up, forward, tan_half_height, near, far, width, height] = camera;
-    archive(eye, right, up, forward, tan_half_height, near, far, width, height);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Mesh& mesh) {
-    auto& [name, first_triangle, triangle_count, material, casts, receives] = mesh;
-    archive(name, first_triangle, triangle_count, material, casts, receives);
-}
-
-template <class Archive>
-void serialize(Archive& archive, TraceStatistics& statistics) {
-    auto& [milliseconds, build_milliseconds, rays, exact_decisions, lit, shadowed, background,
-           degenerate] = statistics;
-    archive(milliseconds, build_milliseconds, rays, exact_decisions, lit, shadowed, background,
-            degenerate);
-}
+SHADOWPROOF_SEND_ALL(DriverInfo, version, renderer, subpixel_bits, depth_bits, stencil_bits)
+SHADOWPROOF_SEND_ALL(Light, name, choice, kind, position, direction, inner_cone, outer_cone, color,
+                     intensity)
+SHADOWPROOF_SEND_ALL(Camera, eye, right, up, forward, tan_half_height, near, far, width, height)
+SHADOWPROOF_SEND_ALL(Mesh, name, first_triangle, triangle_count, material, casts, receives)
+SHADOWPROOF_SEND_ALL(TraceStatistics, milliseconds, build_milliseconds, rays, exact_decisions, lit,
+                     shadowed, background, degenerate)
 
 template <class Archive>
 void serialize(Archive& archive, GroundTruth& truth) {
@@ -59,29 +34,10 @@ void serialize(Archive& archive, GroundTruth& truth) {
     archive(statistics);
 }
 
-template <class Archive>
-void serialize(Archive& archive, FirstDifference& first) {
-    auto& [x, y, cause] = first;
-    archive(x, y, cause);
-}
-
-template <class Archive>
-void serialize(Archive& archive, EvidenceCheck& check) {
-    auto& [equal, in_band, unexplained, first_x, first_y] = check;
-    archive(equal, in_band, unexplained, first_x, first_y);
-}
-
-template <class Archive>
-void serialize(Archive& archive, ColorModel& model) {
-    auto& [arithmetic, axes, normalisation, bump_form, reflects] = model;
-    archive(arithmetic, axes, normalisation, bump_form, reflects);
-}
-
-template <class Archive>
-void serialize(Archive& archive, BoundWidth& bound_width) {
-    auto& [median, percentile999, widest] = bound_width;
-    archive(median, percentile999, widest);
-}
+SHADOWPROOF_SEND_ALL(FirstDifference, x, y, cause)
+SHADOWPROOF_SEND_ALL(EvidenceCheck, equal, in_band, unexplained, first_x, first_y)
+SHADOWPROOF_SEND_ALL(ColorModel, arithmetic, axes, normalisation, bump_form, reflects)
+SHADOWPROOF_SEND_ALL(BoundWidth, median, percentile999, widest)
 
 template <class Archive>
 void serialize(Archive& archive, ColorCheck& check) {
@@ -92,30 +48,18 @@ void serialize(Archive& archive, ColorCheck& check) {
             moved, interpolated, bound_width, beyond_by, first_unpredicted_x, first_unpredicted_y);
 }
 
-template <class Archive>
-void serialize(Archive& archive, EvidenceSummary& summary) {
-    auto& [unexplained, results, words, pictures] = summary;
-    archive(unexplained, results, words, pictures);
-}
+SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words, pictures)
+SHADOWPROOF_SEND_ALL(ShareFigures, partly_lit, wrongness)
 
 template <class Archive>
 void serialize(Archive& archive, Comparison& comparison) {
     auto& [CAUSE, ALSO, several, EVIDENCE_MISS, causes, differing, first, evidence_name, evidence,
-           summary, colors] = comparison;
-    archive(several, causes, differing, first, evidence_name, evidence, summary, colors);
+           summary, colors, shares] = comparison;
+    archive(several, causes, differing, first, evidence_name, evidence, summary, colors, shares);
 }
 
-template <class Archive>
-void serialize(Archive& archive, PixelChange& change) {
-    auto& [x, y, cause, was] = change;
-    archive(x, y, cause, was);
-}
-
-template <class Archive>
-void serialize(Archive& archive, Since& since) {
-    auto& [appeared, gone, changed, causes, first_new, first_gone, first_changed] = since;
-    archive(appeared, gone, changed, causes, first_new, first_gone, first_changed);
-}
+SHADOWPROOF_SEND_ALL(PixelChange, x, y, cause, was)
+SHADOWPROOF_SEND_ALL(Since, appeared, gone, changed, causes, first_new, first_gone, first_changed)
 
 template <class Archive>
 void serialize(Archive& archive, Cell& cell) {

@@ -1,4 +1,4 @@
-// What stress is asked for.
+// The options of `stress`.
 #pragma once
 
 #include "compare/command/options.h"

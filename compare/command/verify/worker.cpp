@@ -8,6 +8,7 @@
 #include "compare/command/standard_output.h"
 #include "compare/command/start_gpu.h"
 #include "compare/command/stopwatch.h"
+#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"
@@ -45,11 +46,7 @@ struct DoneCell {
     double report_milliseconds = 0; ///< spent on its ledgers and pictures
 };
 
-template <class Archive>
-void serialize(Archive& archive, DoneCell& done) {
-    auto& [cell, report_milliseconds] = done;
-    archive(cell, report_milliseconds);
-}
+SHADOWPROOF_SEND_ALL(DoneCell, cell, report_milliseconds)
 
 /// A scene's results, one for each light under which it was tried.
 struct DoneScene {
@@ -57,11 +54,7 @@ struct DoneScene {
     double report_milliseconds = 0;
 };
 
-template <class Archive>
-void serialize(Archive& archive, DoneScene& done) {
-    auto& [results, report_milliseconds] = done;
-    archive(results, report_milliseconds);
-}
+SHADOWPROOF_SEND_ALL(DoneScene, results, report_milliseconds)
 
 /// A scene under one of its lights, traced: what its techniques are judged against.
 struct Trial {

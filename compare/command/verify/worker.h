@@ -48,11 +48,7 @@ struct VerifiedScenes {
     double report_milliseconds = 0; ///< as in Report
 };
 
-template <class Archive>
-void serialize(Archive& archive, VerifiedScenes& verified) {
-    auto& [gl, embree, scenes, report_milliseconds] = verified;
-    archive(gl, embree, scenes, report_milliseconds);
-}
+SHADOWPROOF_SEND_ALL(VerifiedScenes, gl, embree, scenes, report_milliseconds)
 
 /// Tries all scenes: each is a piece, and so is each cell. Throws where the run cannot go on.
 VerifiedScenes try_scenes(const WorkerSetup& setup);

@@ -126,7 +126,8 @@ VectorRange in_bytes(const VectorRange& vector, const Ways& ways) {
     return bytes;
 }
 
-/// Four general combiner stages and the final one (raster/glsl/combiners.glsl), after Kilgard 2001.
+/// Four general combiner stages and the final one (raster/glsl/lighting/combiners.glsl), after
+/// Kilgard 2001.
 Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
     const auto q = [&](const Interval& a) { return in_register(a, ways); };
     const auto byte = [&](const Interval& a) {

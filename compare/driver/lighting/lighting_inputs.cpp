@@ -174,7 +174,7 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     const Material& material = material_of(scene, point.triangle);
     const glm::dmat3 axes = lighting_axes(scene, tables.model);
     const TangentFrame world = frame_range(point);
-    const TangentFrame frame = turned(axes, world);
+    const TangentFrame frame = rotated(axes, world);
     const VectorRange light = normalised(tables, {around(axes * at.to_light), at.to_light_off});
     const VectorRange to_eye = normalised(tables, {around(-(axes * at.from_eye)), at.from_eye_off});
     LightingInputs inputs;

@@ -39,10 +39,10 @@ TangentFrame centre_frame(const Shading& shading) {
     return frame;
 }
 
-// T comes of t - N (N . t): off by what t is off and, twice, by N's share of t. Roundings: 8 v for
-// making each of unit length and, of t, for putting it at right angles, of its length before. Where
-// nothing is left of a vector the definition says what holds instead, and where there are no bumps
-// there is no T.
+// T is t - N (N . t), normalised. Before it is normalised it is off by the error of t, by twice the
+// error of N times the length of t, as N stands there twice, and by 8 v of that length for
+// rounding. Normalising adds 8 v to N and to T. A vector that vanishes keeps the direction that the
+// definition gives it instead, and a surface without bumps has no T.
 TangentFrame frame_range(const InputPoint& point) {
     const Shading& shading = point.shading;
     const Interpolated& at = point.interpolated;
@@ -66,7 +66,7 @@ TangentFrame frame_range(const InputPoint& point) {
     return frame;
 }
 
-TangentFrame turned(const glm::dmat3& axes, TangentFrame frame) {
+TangentFrame rotated(const glm::dmat3& axes, TangentFrame frame) {
     frame.tangent = axes * frame.tangent;
     frame.bitangent = axes * frame.bitangent;
     frame.normal = axes * frame.normal;

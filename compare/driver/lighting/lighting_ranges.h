@@ -27,7 +27,7 @@ TangentFrame centre_frame(const Shading& shading);
 /// The frame with the errors of floats and of interpolation.
 TangentFrame frame_range(const InputPoint& point);
 /// The frame rotated into the axes in which a technique lights.
-TangentFrame turned(const glm::dmat3& axes, TangentFrame frame);
+TangentFrame rotated(const glm::dmat3& axes, TangentFrame frame);
 glm::dmat3 lighting_axes(const Scene& scene, const ColorModel& model);
 
 /// Transforms a vector into tangent space.

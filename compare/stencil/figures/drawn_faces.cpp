@@ -4,6 +4,7 @@
 #include "scenes/mesh/split_far_ends.h"
 #include "scenes/mesh/topology.h"
 #include "scenes/mesh/touching_light.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +58,7 @@ bool may_round_to_either_side(const Scene& casters, std::uint32_t triangle,
     // Whichever corner is the first, its edges are no longer than the sum of these.
     const double edges = size(ab) + size(ac);
     const double terms = edges * edges * (size(al) + light.w * edges);
-    return std::abs(glm::dot(glm::cross(ab, ac), al)) <= 6 * 8 * 0x1p-53 * terms;
+    return std::abs(glm::dot(glm::cross(ab, ac), al)) <= 6 * 8 * double_roundoff * terms;
 }
 
 Facing facing_of(const Scene& casters, std::uint32_t triangle, bool by_shaders) {

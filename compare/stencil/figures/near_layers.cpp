@@ -94,10 +94,10 @@ bool is_flat_from_light(const Scene& casters, std::uint32_t triangle) {
         const glm::dvec3 a = corner(casters, triangle, 0);
         const glm::dvec3 normal =
             glm::cross(corner(casters, triangle, 1) - a, corner(casters, triangle, 2) - a);
-        return std::abs(glm::dot(normal, glm::dvec3(light))) <= 3 * 5 * 0x1p-53 * terms;
+        return std::abs(glm::dot(normal, glm::dvec3(light))) <= 3 * 5 * double_roundoff * terms;
     }
     const double volume = glm::dot(from_light[0], glm::cross(from_light[1], from_light[2]));
-    return std::abs(volume) <= 3 * 5 * 0x1p-53 * terms;
+    return std::abs(volume) <= 3 * 5 * double_roundoff * terms;
 }
 
 bool is_in_near_plane(const Scene& casters) {

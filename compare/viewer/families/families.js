@@ -1,18 +1,40 @@
 // What the viewer shows of a claim's evidence, by family. A family's section is a file of its own;
 // a family without one shows its claim and causes alone.
 
-/**
- * Sections by the name of the family:
- *   blocks(pixels, differing)  the lengths of its blocks in cell.js, by name; null: any
- *   pictures                   names of its pictures, after the cause map
- *   drawn(opened)              those that are drawn from blocks: [name, canvas or null]
- *   differing(page, pixel)     the inspector's elements for a pixel that differs, below its cause
- *   agreeing(page, pixel)      the same for one that does not
- */
-const familySections = {
-  plain: { blocks: () => ({}), pictures: [], drawn: () => [], differing: () => [],
-           agreeing: () => [] },
+/** What a section has that says nothing else. */
+const plainSection = {
+  /** The lengths of its blocks in cell.js, by name; null: any. */
+  blocks: (pixels, differing) => ({}),
+  /** Titles of its pictures by their names, shown after the cause map. */
+  pictures: {},
+  /** Those pictures that are drawn from blocks: [name, canvas or null]. */
+  drawn: (opened) => [],
+  /** What one of its pictures says at a pixel, as a word that fits into it. */
+  word: (opened, name, pixel) => '',
+  /** The colour that one of its pictures has at a pixel: [red, green, blue]. */
+  color: (opened, name, pixel) => [40, 40, 44],
+  /** Tables below the pictures. */
+  legends: (opened) => [],
+  /** What of the evidence is not as predicted: clauses for the cell's reason, and alarms. */
+  faults: (cell) => [],
+  alarms: (cell) => [],
+  /** What else explains the cell, as clauses. */
+  explained: (cell) => [],
+  /** How the cell was made: [name, value]; and lists, [title, items]. */
+  facts: (cell) => [],
+  remarks: (cell) => [],
+  /** The inspector's elements for a pixel that differs, below its cause, and for another one. */
+  differing: (page, pixel) => [],
+  agreeing: (page, pixel) => [],
+  /** Called when these are in the page, and when its width changes. */
+  shown: (page) => {},
 };
 
-/** Older reports, without families, hold counters alone. */
-const familyOf = (cell) => familySections[cell.family ?? 'stencil'] ?? familySections.plain;
+const familySections = new Map();
+
+/** Adds the section of the family of that name. */
+function addFamily(name, section) {
+  familySections.set(name, { ...plainSection, ...section });
+}
+
+const familyOf = (cell) => familySections.get(cell.family) ?? plainSection;

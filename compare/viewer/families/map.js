@@ -54,13 +54,12 @@ function filterWords({ filter, average, lit }) {
     : `${block}: ${lit} of ${filter * filter} comparisons find light.`);
 }
 
-familySections.map = {
+addFamily('map', {
   blocks: (pixels, differing) => ({
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
     map_stored: differing, map_own: differing, map_shown: differing, map_lit: differing,
   }),
-  pictures: ['texels'],
-  drawn: () => [],
+  pictures: { texels: 'Texels asked' },
   differing({ opened }, pixel) {
     const record = mapRecord(opened, rankOf(opened.differing, pixel));
     if (!record) return [element('p', { class: 'quiet' }, 'The map is not asked at this pixel.')];
@@ -80,5 +79,4 @@ familySections.map = {
         ['Own point', short(record.own)],
         ['Texel shows', record.shown === noTriangle ? 'nothing' : `triangle ${record.shown}`]])];
   },
-  agreeing: () => [],
-};
+});

@@ -57,10 +57,8 @@ function tracedDrawing(row, unit) {
                       'aria-label': 'The shadow ray from its start to the light' }, parts.join(''));
 }
 
-familySections.traced = {
+addFamily('traced', {
   blocks: (pixels, differing) => ({ ray: 9 * differing, met: 4 * differing, at: 3 * differing }),
-  pictures: [],
-  drawn: () => [],
   differing({ opened }, pixel) {
     const row = tracedRow(opened, pixel);
     const unit = opened.cellFile.ray_unit;
@@ -83,4 +81,4 @@ familySections.traced = {
   },
   agreeing: () => [element('p', { class: 'quiet' },
                            'The rays of pixels that agree are printed by the command.')],
-};
+});

@@ -2,7 +2,7 @@
 // large integers and takes any index; after these checks its model is what the file says.
 #pragma once
 
-#include "scenes/load/place.h"
+#include "scenes/load/common/place.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>

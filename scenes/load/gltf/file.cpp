@@ -1,6 +1,6 @@
 #include "scenes/load/gltf/file.h"
 
-#include "scenes/load/file_bytes.h"
+#include "scenes/load/common/file_bytes.h"
 #include "scenes/load/gltf/check.h"
 #include "scenes/load/gltf/glb.h"
 #include "scenes/load/gltf/memory.h"

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "scenes/limits.h"
-#include "scenes/load/place.h"
+#include "scenes/load/common/place.h"
 #include "scenes/memory_budget.h"
 
 #include <tiny_gltf.h>

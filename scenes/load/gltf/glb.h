@@ -1,7 +1,7 @@
 // GLB: a glTF asset's JSON and binary data in one file (glTF 2.0, section 4.4).
 #pragma once
 
-#include "scenes/load/place.h"
+#include "scenes/load/common/place.h"
 
 #include <optional>
 #include <span>

@@ -2,7 +2,7 @@
 // stay inside the asset's folder.
 #pragma once
 
-#include "scenes/load/scene_request.h"
+#include "scenes/load/common/scene_request.h"
 #include "scenes/scene.h"
 
 #include <filesystem>

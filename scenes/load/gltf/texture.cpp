@@ -1,7 +1,7 @@
 #include "scenes/load/gltf/texture.h"
 
-#include "scenes/load/file_bytes.h"
-#include "scenes/load/picture.h"
+#include "scenes/load/common/file_bytes.h"
+#include "scenes/load/picture/picture.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/load/gltf/file.h"
-#include "scenes/load/texels.h"
+#include "scenes/load/picture/texels.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
 #include "scenes/load/gltf/view.h"
 
 #include "scenes/error.h"
-#include "scenes/load/default_view.h"
+#include "scenes/load/common/default_view.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include "scenes/error.h"
 #include "scenes/limits.h"
-#include "scenes/load/default_view.h"
-#include "scenes/load/file_bytes.h"
+#include "scenes/load/common/default_view.h"
+#include "scenes/load/common/file_bytes.h"
 #include "scenes/load/md2/md2_file.h"
-#include "scenes/load/texels.h"
+#include "scenes/load/picture/texels.h"
 #include "scenes/mesh/smooth_normals.h"
 #include "scenes/surface/tangents.h"
 

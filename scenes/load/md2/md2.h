@@ -1,7 +1,7 @@
 // Quake II models (.md2) to Scene: key frames interpolated at a given time, in glTF's axes.
 #pragma once
 
-#include "scenes/load/scene_request.h"
+#include "scenes/load/common/scene_request.h"
 #include "scenes/scene.h"
 
 #include <filesystem>

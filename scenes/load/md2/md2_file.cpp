@@ -2,7 +2,7 @@
 
 #include "scenes/error.h"
 #include "scenes/limits.h"
-#include "scenes/load/file_bytes.h"
+#include "scenes/load/common/file_bytes.h"
 
 #include <fmt/format.h>
 

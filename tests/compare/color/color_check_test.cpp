@@ -1,5 +1,5 @@
 // Colours are judged by intervals that are derived, pixel by pixel: what a technique computes is
-// predicted, what it rounds is within its bound, and what nobody predicts is told.
+// predicted, what it rounds is within its bound, and what is not predicted is told.
 #include "compare/verdict.h"
 #include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
@@ -133,7 +133,7 @@ TEST(Colors, a_pixel_of_the_terminator_owes_most_of_its_difference_to_the_dimmed
               static_cast<std::ptrdiff_t>(ColorTerm::self_shadow));
 }
 
-/// Mixing normals of unit length leaves them shorter where they point apart: by as much as this
+/// Mixing unit normals leaves them shorter where they point apart: by as much as this
 /// relief is steep. Its bound held that once, as it was the hull with the technique's own bumps.
 TEST(Colors, of_a_normal_that_mixing_leaves_too_short_are_shading) {
     const ColorCheck colors = colors_of("height_field", "bump_one_pass");

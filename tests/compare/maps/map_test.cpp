@@ -226,6 +226,12 @@ protected:
     }
 };
 
+/// How many of its comparisons a pixel that is partly lit says to have found light.
+std::size_t comparisons_of(const Frame& frame, std::size_t pixel) {
+    return static_cast<std::size_t>(
+        std::lround(frame.share.pixels[pixel] * frame.mapped->model.asked()));
+}
+
 TEST_F(FilteredMap, of_one_texel_is_the_map_without_a_filter) {
     const Frame one = filtered(1);
     EXPECT_EQ(one.claim.pixels, drawn(gpu, spot, "spot_map", coarse).claim.pixels);
@@ -239,7 +245,7 @@ TEST_F(FilteredMap, claims_shares_of_light_that_are_those_of_its_texels_comparis
         std::vector<int> pixels(static_cast<std::size_t>(filter * filter), 0);
         for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
             if (frame.claim.pixels[i] == Visibility::partly_lit)
-                ++pixels.at(frame.mapped->lit_comparisons.pixels[i]);
+                ++pixels.at(comparisons_of(frame, i));
         EXPECT_EQ(pixels[0], 0);
         // The penumbra is too small for each of 63 shares.
         for (std::size_t share = 1; share < pixels.size() && filter <= 4; ++share)
@@ -255,11 +261,11 @@ TEST_F(FilteredMap, with_one_comparison_more_or_less_is_unexplained) {
     coarse.value = MapValue::distance;
     coarse.format = MapFormat::d32f;
     Frame frame = filtered(4);
-    Image<std::uint8_t>& lit = frame.mapped->lit_comparisons;
     std::uint64_t changed = 0;
-    for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+    for (std::size_t i = 0; i < frame.share.pixels.size(); ++i) {
         if (frame.claim.pixels[i] != Visibility::partly_lit) continue;
-        lit.pixels[i] = static_cast<std::uint8_t>(lit.pixels[i] > 1 ? lit.pixels[i] - 1 : 2);
+        const std::size_t lit = comparisons_of(frame, i);
+        frame.share.pixels[i] = static_cast<double>(lit > 1 ? lit - 1 : 2) / 16;
         ++changed;
     }
     const Comparison comparison = compared(spot, frame);

@@ -1,4 +1,4 @@
-// Slivers that snapping turns over: what their light caps do to a counter is explained, and no
+// Slivers that snapping flips: what their light caps do to a counter is explained, and no
 // more.
 #include "scenes/load/catalog.h"
 #include "scenes/stress/parameter.h"

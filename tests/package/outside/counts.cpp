@@ -5,7 +5,7 @@
 #include "raster/render.h"
 #include "reference/trace/trace.h"
 #include "scenes/load/catalog.h"
-#include "scenes/load/encode_picture.h"
+#include "scenes/load/picture/encode_picture.h"
 
 #include <algorithm>
 #include <cstdio>

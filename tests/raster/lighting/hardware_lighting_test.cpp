@@ -150,7 +150,7 @@ TEST_F(HardwareLighting, in_bytes_is_bytes_and_claims_the_visibility_that_zfail_
     }
 }
 
-/// With vectors that are exact and slopes that are, m of unit length: what is left of the three
+/// With vectors that are exact and slopes that are, m normalised: what is left of the three
 /// passes' error are the bytes. Of each of four passes at most a step is lost, and none is made
 /// larger by those behind it, where nothing is clamped.
 TEST_F(HardwareLighting, in_three_passes_loses_no_more_than_the_bytes) {

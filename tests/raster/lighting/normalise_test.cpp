@@ -1,4 +1,4 @@
-// How the shaders make vectors of unit length (normalise.glsl), measured on the driver.
+// How the shaders normalise vectors (normalise.glsl), measured on the driver.
 #include "raster/gl/context.h"
 #include "raster/gl/shader.h"
 #include "raster/lighting/lighting.h"

@@ -90,7 +90,7 @@ TEST(VolumeStore, keeps_one_scene_beside_the_casters) {
     const auto used = traced.volumes.counted({.extrusion = 2});
     EXPECT_TRUE(first.expired());
     traced.volumes.counted({.extrusion = 3});
-    EXPECT_EQ(used->depths->far, traced.depths.far); // still there for who uses them
+    EXPECT_EQ(used->depths->far, traced.depths.far); // still there for those that use them
     EXPECT_FALSE(own.expired());
 }
 

@@ -127,12 +127,12 @@ TEST(topology, two_sides_of_one_sheet_enclose_nothing_and_are_not_inverted) {
 }
 
 TEST(topology, far_from_the_origin_an_inverted_cube_is_still_told_from_a_cube) {
-    for (const bool turned : {false, true}) {
+    for (const bool flipped : {false, true}) {
         Scene scene = cube();
         for (glm::vec3& position : scene.positions) position += glm::vec3(8e6F, -8e6F, 8e6F);
-        if (turned)
+        if (flipped)
             for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.x, triangle.y);
-        EXPECT_EQ(inspect_casters(scene).at(0).inverted, turned);
+        EXPECT_EQ(inspect_casters(scene).at(0).inverted, flipped);
     }
 }
 

@@ -36,7 +36,7 @@ Scene waves(Bump kind, double scale) {
     return scene;
 }
 
-/// The small normals at the texels as the asset has them.
+/// The perturbed normals at the texels as the asset has them.
 Image<glm::dvec3> given_normals(const Scene& scene) {
     const Material& material = scene.materials.front();
     const TextureImage& map = scene.textures.front();

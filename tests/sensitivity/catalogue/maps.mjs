@@ -1,16 +1,16 @@
 // Shadow maps: how they are drawn, stored, looked up and compared.
 const pass = 'raster/maps/map_pass.cpp';
 const shadows = 'raster/maps/map_shadows.cpp';
-const test = 'raster/glsl/map_test.glsl';
-const cube = 'raster/glsl/map_light_cube.frag';
-const spot = 'raster/glsl/map_light_spot.frag';
-const filtered = 'raster/glsl/map_light_spot_filtered.frag';
+const test = 'raster/glsl/maps/map_test.glsl';
+const cube = 'raster/glsl/maps/map_light_cube.frag';
+const spot = 'raster/glsl/maps/map_light_spot.frag';
+const filtered = 'raster/glsl/maps/map_light_spot_filtered.frag';
 const camera = (change) => ({ file: pass, right: 'seen_from_light.camera = map_camera(chosen_light(scene), model, face);', wrong: `seen_from_light.camera = map_camera(chosen_light(scene), model, face); Camera& c = seen_from_light.camera; ${change};` });
 const asked = (wrong) => ({ file: cube, right: 'texture(map, surface.from_light).r', wrong });
 const placed = (wrong) => ({ file: spot, right: 'vec3(0.5 * (place.xy + place.z), place.z)', wrong });
 const compared = (wrong) => ({ file: test, right: 'stored * planes.y + bias < length(surface.from_light)', wrong });
 const nearer = (wrong) => ({ file: test, right: 'float nearer = depth - bias;', wrong });
-const stored = (wrong) => ({ file: 'raster/glsl/map_distance.frag', right: 'length(surface.from_light) / far', wrong });
+const stored = (wrong) => ({ file: 'raster/glsl/maps/map_distance.frag', right: 'length(surface.from_light) / far', wrong });
 export const faults = [
   // The map.
   { name: 'map_not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest_depth);', wrong: '' },
@@ -43,9 +43,9 @@ export const faults = [
   { name: 'map_distances_along_an_axis', ...stored('max(max(abs(surface.from_light.x), abs(surface.from_light.y)), abs(surface.from_light.z)) / far') },
   { name: 'map_distances_a_thousandth_off', ...stored('length(surface.from_light) * 1.001 / far') },
   { name: 'map_distances_1e-5_off', ...stored('length(surface.from_light) * 1.00001 / far') },
-  { name: 'map_one_layer_missing', file: 'raster/glsl/map_cube.geom', right: 'face < 6', wrong: 'face < 5' },
-  { name: 'map_layers_exchanged', file: 'raster/glsl/map_cube.geom', right: 'gl_Layer = face;', wrong: 'gl_Layer = face ^ 1;' },
-  { name: 'map_vertices_of_one_corner', file: 'raster/glsl/map_cube.geom', right: 'clip_from_light[face] * vec4(corner[k].from_light, 1)', wrong: 'clip_from_light[face] * vec4(corner[k].from_light, 1.001)', why: 'It moves nothing but the near plane, by a thousandth.' },
+  { name: 'map_one_layer_missing', file: 'raster/glsl/maps/map_cube.geom', right: 'face < 6', wrong: 'face < 5' },
+  { name: 'map_layers_exchanged', file: 'raster/glsl/maps/map_cube.geom', right: 'gl_Layer = face;', wrong: 'gl_Layer = face ^ 1;' },
+  { name: 'map_vertices_of_one_corner', file: 'raster/glsl/maps/map_cube.geom', right: 'clip_from_light[face] * vec4(corner[k].from_light, 1)', wrong: 'clip_from_light[face] * vec4(corner[k].from_light, 1.001)', why: 'It moves nothing but the near plane, by a thousandth.' },
   // The question.
   { name: 'map_asked_the_other_way', ...asked('texture(map, -surface.from_light).r') },
   { name: 'map_asked_with_z_mirrored', ...asked('texture(map, surface.from_light * vec3(1, 1, -1)).r') },

@@ -216,8 +216,8 @@ TEST(ErrorBudget, holds_the_truth_under_every_setting) {
     }
 }
 
-/// The budget of a small normal that is kept in bytes: its own texels mixed and divided by their
-/// length are in it, texels of 6 bits are not.
+/// The budget of a perturbed normal that is kept in bytes: its own texels mixed and divided by
+/// their length are in it, texels of 6 bits are not.
 TEST(ErrorBudget, of_bumps_is_half_a_step_of_their_texels) {
     const Pixel pixel("height_field");
     ColorModel model;

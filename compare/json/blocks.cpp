@@ -1,0 +1,106 @@
+#include "compare/json/blocks.h"
+
+#include <fmt/format.h>
+#include <libdeflate.h>
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <new>
+
+namespace shadowproof {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "blocks are written as they lie");
+
+/// For pictures of few values and repetitive lists, level 6 was measured to be 5 % smaller and to
+/// take twice as long.
+constexpr int compression_level = 1;
+
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
+};
+struct FreeDecompressor {
+    void operator()(libdeflate_decompressor* d) const { libdeflate_free_decompressor(d); }
+};
+
+/// RFC 4648, section 4.
+std::string to_base64(std::span<const std::uint8_t> bytes) {
+    constexpr std::string_view alphabet =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k) bits = bits << 8U | (k < left ? bytes[i + k] : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += k <= left ? alphabet[bits >> (18U - 6U * k) & 63U] : '=';
+    }
+    return text;
+}
+
+/// The six bits of a base64 character; nothing for any other character.
+std::optional<std::uint32_t> sextet(char c) {
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+') return 62;
+    if (c == '/') return 63;
+    return std::nullopt;
+}
+
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
+    if (text.size() % 4 != 0) return std::nullopt;
+    std::size_t padding = 0;
+    while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=')
+        ++padding;
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(text.size() / 4 * 3);
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : text.substr(0, text.size() - padding)) {
+        const std::optional<std::uint32_t> six = sextet(c);
+        if (!six) return std::nullopt;
+        bits = bits << 6U | *six;
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::uint8_t>(bits >> static_cast<unsigned>(count)));
+    }
+    return bytes;
+}
+
+} // namespace
+
+std::string packed(std::span<const std::byte> bytes) {
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(compression_level));
+    if (!compressor) throw std::bad_alloc();
+    std::vector<std::uint8_t> stream(
+        libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+    stream.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                           stream.data(), stream.size()));
+    return to_base64(stream);
+}
+
+std::optional<std::vector<std::uint8_t>> unpacked(std::string_view text, std::size_t size) {
+    const std::optional<std::vector<std::uint8_t>> stream = from_base64(text);
+    if (!stream) return std::nullopt;
+    const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(
+        libdeflate_alloc_decompressor());
+    if (!decompressor) throw std::bad_alloc();
+    std::vector<std::uint8_t> bytes(size);
+    // Without an output for the actual size, any size other than `size` is an error.
+    const libdeflate_result result = libdeflate_zlib_decompress(
+        decompressor.get(), stream->data(), stream->size(), bytes.data(), bytes.size(), nullptr);
+    if (result != LIBDEFLATE_SUCCESS) return std::nullopt;
+    return bytes;
+}
+
+std::string block(std::string_view type, std::size_t length, std::span<const std::byte> bytes) {
+    return fmt::format(R"({{"type":"{}","length":{},"data":"{}"}})", type, length, packed(bytes));
+}
+
+} // namespace shadowproof

@@ -1,0 +1,12 @@
+// The memory that a shadow map takes, beside that of compare/memory.h.
+#pragma once
+
+#include "scenes/memory_budget.h"
+#include "scenes/shadow_map.h"
+
+namespace shadowproof {
+
+/// Throws Error naming --map-size where a map that was asked for cannot fit.
+void require_map(const MemoryBudget& budget, const MapSettings& settings);
+
+} // namespace shadowproof

@@ -1,0 +1,27 @@
+#include "compare/picture/picture_results.h"
+
+#include "compare/json/json_rules.h"
+
+namespace shadowproof {
+
+using namespace json_rules;
+
+namespace {
+
+void hypothesis(const JsonPlace& place) {
+    object(place, {{"hypothesis", some_text},
+                   {"explained", count},
+                   {"contradicted", count},
+                   {"words", text}});
+}
+
+} // namespace
+
+void check_picture_results(const JsonPlace& cell) {
+    object(cell, {{"falsely_lit", count},
+                  {"falsely_shadowed", count},
+                  {"undecidable", count},
+                  {"diagnosis", list_of<hypothesis>, Need::optional}});
+}
+
+} // namespace shadowproof

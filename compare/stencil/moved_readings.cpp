@@ -1,0 +1,46 @@
+#include "compare/stencil/pixel_readings.h"
+#include "reference/predict/tally.h"
+
+#include <algorithm>
+#include <array>
+
+namespace shadowproof {
+
+void sort_out(std::vector<Reading>& readings) {
+    const auto key = [](const Reading& r) {
+        return std::array<std::int64_t, 5>{r.count, r.ideal, r.in_cone, r.by_rounding, r.off_ray};
+    };
+    std::sort(readings.begin(), readings.end(),
+              [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
+    readings.erase(
+        std::unique(readings.begin(), readings.end(),
+                    [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
+        readings.end());
+}
+
+void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
+               std::vector<Reading>& readings) {
+    const std::size_t unmoved = readings.size();
+    for (std::int64_t by = least; by <= most; ++by)
+        for (std::size_t i = 0; by != 0 && i < unmoved; ++i) {
+            Reading moved = readings[i];
+            moved.count = stepped(moved.count, by, counting);
+            moved.ideal += by;
+            moved.off_ray += by;
+            moved.by_rounding = true;
+            readings.push_back(moved);
+        }
+}
+
+void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings) {
+    sort_out(readings);
+    const std::int64_t most = pixel.volumes().counted.edge_on_sides(pixel.around().corners);
+    add_moved(pixel.counting(), -most, most, readings);
+}
+
+void add_flipped_caps(const PixelFaces& pixel, std::vector<Reading>& readings) {
+    sort_out(readings);
+    add_moved(pixel.counting(), -pixel.flipped_caps(), 0, readings);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,218 @@
+#include "compare/stencil/pixel_faces.h"
+
+#include "compare/driver/coarse_outlines.h"
+#include "compare/driver/error_bounds.h"
+#include "reference/predict/tally.h"
+#include "reference/trace/faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace shadowproof {
+
+PixelFaces::PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
+                       double far, std::uint32_t shown, const Neighbourhood& around,
+                       std::span<const RayTruth> truth)
+    : tracer_(tracer), volumes_(volumes), scene_(tracer.scene()), frame_(frame), far_(far),
+      shown_(shown), around_(around),
+      depths_(tracer.scene(), {volumes.casters, volumes.far_ends}, frame, far, around) {
+    shown_range_ = shown == no_triangle ? depths_.background() : depths_.surface(shown);
+    may_cover_ =
+        shown == no_triangle || may_cover(scene_, shown, around.rays.front(), spread(around));
+    std::vector<std::uint32_t> in_front;
+    for (const RayTruth& t : truth)
+        if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))
+            in_front.push_back(t.triangle);
+    // What is hidden behind the first one closes a gap as well.
+    may_gape_ = shadowproof::may_gape(scene_, in_front, around.rays) &&
+                shadowproof::may_gape(scene_, all_in_front(), around.rays);
+    may_be_seen_ = may_gape_ ||
+                   (!in_front.empty() && are_displaced(in_front) && are_displaced(all_in_front()));
+    starts_ = possible_starts();
+}
+
+bool PixelFaces::take(const glm::dvec3& direction, const RayTruth& truth, Sample& sample) const {
+    bool moved = false;
+    const std::optional<double> depth = shown_depth(truth, direction, moved);
+    if (!depth) return false;
+    sample.direction = direction;
+    sample.depth = *depth;
+    sample.in_cone = truth.in_cone;
+    sample.ideal = ideal_depth(sample, sample.crossings);
+    // The light reaches the point, exactly: no light-facing triangle lies between both. Where the
+    // crossings' doubles have one there, it is as near the surface as doubles can tell. A triangle
+    // that fills a hole may lie there all the same.
+    const bool has_holes_filled = volumes_.casters.triangles.size() > scene_.triangles.size();
+    const bool misordered = !has_holes_filled && truth.triangle == shown_ &&
+                            truth.visibility == Visibility::lit && sample.ideal != 0;
+    sample.moved = moved || misordered;
+    volumes_.counted.crossings(direction, sample.crossings);
+    return true;
+}
+
+bool PixelFaces::certainly_in_front(std::uint32_t triangle) const {
+    return depths_.surface(triangle).upper < shown_range_.lower;
+}
+
+/// Whether the clipper's errors may displace each of them off the pixel.
+bool PixelFaces::are_displaced(const std::vector<std::uint32_t>& triangles) const {
+    const CoveredPixel pixel = depths_.covered_pixel();
+    return std::ranges::all_of(triangles, [&](std::uint32_t triangle) {
+        return may_be_displaced(scene_, triangle, pixel);
+    });
+}
+
+/// All triangles that are drawn on some ray and are certainly in front of what is shown.
+std::vector<std::uint32_t> PixelFaces::all_in_front() const {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t triangle = 0; triangle < scene_.triangles.size(); ++triangle)
+        if (triangle != shown_ && sides_of(tracer_, triangle).visible &&
+            std::ranges::any_of(
+                around_.rays,
+                [&](const glm::dvec3& ray) { return may_cover(scene_, triangle, ray, 0); }) &&
+            certainly_in_front(triangle))
+            found.push_back(triangle);
+    return found;
+}
+
+/// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen
+/// there: it is what the sample sees, or it may cover the pixel and what the sample sees may come
+/// out behind it or leave a gap.
+std::optional<double> PixelFaces::shown_depth(const RayTruth& truth, const glm::dvec3& direction,
+                                              bool& moved) const {
+    if (truth.triangle == shown_) return shown_ == no_triangle ? shown_range_.nominal : truth.depth;
+    if (!may_cover_) return std::nullopt;
+    const double depth =
+        shown_ == no_triangle ? shown_range_.nominal : plane_depth(scene_, shown_, direction);
+    if (truth.triangle == no_triangle) return depth;
+    // Without area it has no plane; its line passes the pixel where the sample's surface is.
+    if (shown_ != no_triangle && std::isnan(depth_on_triangle(scene_, shown_, direction))) {
+        moved = true;
+        return truth.depth;
+    }
+    if (!may_be_seen_ && certainly_in_front(truth.triangle)) return std::nullopt;
+    moved = truth.depth < depth;
+    return depth;
+}
+
+std::int64_t PixelFaces::flat_volumes_around(const Sample& sample) const {
+    return std::ranges::count_if(volumes_.flat,
+                                 [&](const FlatVolume& flat) { return may_lie_in(flat, sample); });
+}
+
+/// Whether the shown surface may come out among the faces of a flat volume: as near its plane as
+/// the volume's thickness, the error of depths and the lateral error allow.
+bool PixelFaces::may_lie_in(const FlatVolume& flat, const Sample& sample) const {
+    if (!flat.faces_light || !std::isfinite(sample.depth)) return false;
+    const glm::dvec3 point = scene_.camera.eye + sample.depth * sample.direction;
+    const double error = depth_error(scene_, frame_.depth_model, point);
+    double sideways = 0;
+    for (const glm::dvec3& corner : around_.corners)
+        sideways = std::max(sideways, std::abs(glm::dot(flat.normal, corner - sample.direction)) *
+                                          sample.depth);
+    return std::abs(glm::dot(flat.normal, point - flat.corner)) <=
+           flat.thickness + sideways + error * std::abs(glm::dot(flat.normal, sample.direction));
+}
+
+/// A light cap covers what its own surface covers, at the same depth bit for bit: it is in front of
+/// the visible surface only where that surface is culled, or past the far plane.
+bool PixelFaces::is_never_in_front(const Crossing& crossing) const {
+    if (crossing.part != Crossing::Part::light_cap) return false;
+    if (crossing.triangle == shown_) return true;
+    if (crossing.depth >= depths_.clip_depth(far_, -1)) return false;
+    if (frame_.depth_model.clamp && crossing.depth <= depths_.clip_depth(scene_.camera.near, 1))
+        return false; // which is not drawn as a surface either
+    // A triangle that fills a hole is not drawn as a surface.
+    return crossing.triangle < scene_.triangles.size() &&
+           sides_of(tracer_, crossing.triangle).visible;
+}
+
+/// Shadow depth of the sample's shown surface in the casters' own volumes. `crossings`: memory for
+/// those along its ray.
+std::int64_t PixelFaces::ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const {
+    RegionLedger& ledger = volumes_.ideal != nullptr ? *volumes_.ideal : volumes_.counted;
+    ledger.crossings(sample.direction, crossings);
+    std::int64_t s = volumes_.ideal_at_eye;
+    for (const Crossing& crossing : crossings)
+        if (crossing.depth < sample.depth && !is_never_in_front(crossing)) s += crossing.change;
+    return s;
+}
+
+std::int32_t PixelFaces::depth_at_near(const std::vector<Crossing>& crossings, int move) const {
+    const double near = depths_.clip_depth(scene_.camera.near, move);
+    std::int32_t s = volumes_.counted_at_eye;
+    for (const Crossing& crossing : crossings)
+        if (crossing.depth < near) s += crossing.change;
+    return s;
+}
+
+std::int32_t PixelFaces::depth_at_near(const Sample& sample) const {
+    return depth_at_near(sample.crossings, 0);
+}
+
+/// The near plane's own count is drawn, too, and may be that of any point of the neighbourhood.
+std::vector<std::int32_t> PixelFaces::possible_starts() const {
+    if (counting().start != Counting::Start::near_plane)
+        return {start_of(counting(), volumes_.counted_at_eye, 0)};
+    std::vector<std::int32_t> all;
+    std::vector<Crossing> crossings;
+    for (const glm::dvec3& direction : around_.rays) {
+        volumes_.counted.crossings(direction, crossings);
+        for (const int move : {0, -1, 1}) {
+            const std::int32_t start = depth_at_near(crossings, move);
+            if (std::find(all.begin(), all.end(), start) == all.end()) all.push_back(start);
+        }
+    }
+    return all;
+}
+
+std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample, int move) const {
+    const double near = depths_.clip_depth(scene_.camera.near, move);
+    const double far = std::isfinite(depths_.clip_far()) ? depths_.clip_depth(far_, move)
+                                                         : std::numeric_limits<double>::infinity();
+    std::vector<CandidateFace> found;
+    for (const Crossing& crossing : sample.crossings) {
+        const Counting::Caster caster = counting().caster(crossing.triangle);
+        const bool pass = caster.test == Counting::Test::depth_pass;
+        if (crossing.part == Crossing::Part::light_cap && !caster.light_cap) continue;
+        if (crossing.part == Crossing::Part::dark_cap && !caster.dark_cap) continue;
+        if (!frame_.depth_model.clamp && crossing.depth < near) continue;
+        if (!pass && crossing.depth >= far) continue;
+        const bool behind = is_never_in_front(crossing);
+        const DepthRange range = depths_.face(crossing, sample.direction);
+        // What is seen through a gap between surfaces is seen through the same gap between their
+        // caps.
+        if (behind && crossing.triangle != shown_ && range.upper < shown_range_.lower) continue;
+        const bool maybe_front = !behind && range.lower <= shown_range_.upper;
+        const bool maybe_behind = behind || range.upper >= shown_range_.lower;
+        if (!(pass ? maybe_front : maybe_behind)) continue;
+        const bool in_front = !behind && crossing.depth < sample.depth;
+        found.push_back({crossing, in_front == pass, !(maybe_front && maybe_behind)});
+    }
+    return found;
+}
+
+std::int64_t PixelFaces::dark_caps(const Sample& sample) const {
+    if (tally_of_dark_caps(counting(), frame_.depth_model) != Tally::counted) return 0;
+    return dark_caps_at_infinity(counting(), volumes_.counted_at_eye, sample.crossings);
+}
+
+std::int64_t PixelFaces::flipped_caps() const {
+    const CoveredPixel pixel = depths_.covered_pixel();
+    std::int64_t flipped = 0;
+    for (const std::uint32_t triangle : volumes_.counted.light_caps()) {
+        if (triangle >= scene_.triangles.size() || triangle == shown_ ||
+            !counting().caster(triangle).light_cap ||
+            scene_.materials[scene_.meshes[mesh_of(scene_, triangle)].material].double_sided)
+            continue;
+        if (may_be_flipped(scene_, triangle, pixel) &&
+            depths_.surface(triangle).lower <= shown_range_.upper)
+            ++flipped;
+    }
+    return flipped;
+}
+
+} // namespace shadowproof

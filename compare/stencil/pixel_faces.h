@@ -1,0 +1,109 @@
+// The surface that one pixel shows, and the faces of shadow volumes that may be counted there, as a
+// rasterizer may draw them: sample by sample. A sample is a ray of the pixel's neighbourhood; it
+// decides which faces cover the pixel. Their depths there are those of their planes, which the
+// lateral error changes too: by much, if a face is steep.
+#pragma once
+
+#include "compare/driver/neighbourhood.h"
+#include "compare/stencil/face_depths.h"
+#include "reference/predict/prediction.h"
+#include "reference/trace/trace.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+/// Where a pixel's counters come from.
+struct PixelVolumes {
+    RegionLedger& counted; ///< the volumes that the technique counts, around the pixel
+    const Scene& casters;  ///< of those volumes
+    const std::vector<glm::vec3>* far_ends = nullptr; ///< their far ends, null at infinity
+    RegionLedger* ideal = nullptr;      ///< those of the casters, where they are not the same
+    std::span<const FlatVolume> flat{}; ///< see Volumes::flat
+    std::int32_t counted_at_eye = 0;    ///< shadow depths of the eye
+    std::int32_t ideal_at_eye = 0;
+};
+
+/// What the pixel shows if it is covered as one ray is.
+struct Sample {
+    glm::dvec3 direction{0, 0, 0};
+    double depth = 0;       ///< view depth of the shown surface
+    bool in_cone = true;    ///< as Reading::in_cone
+    bool moved = false;     ///< only depths that are rounded show it, or order its faces so
+    std::int64_t ideal = 0; ///< its shadow depth in the casters' own volumes
+    std::vector<Crossing> crossings{}; ///< of the counted volumes along the ray
+};
+
+/// A face that may be counted at a sample.
+struct CandidateFace {
+    Crossing crossing;
+    bool nominally = false; ///< it is counted if no depth is rounded
+    bool certain = false;   ///< whatever the depths are rounded to
+};
+
+class PixelFaces {
+public:
+    /// Keeps references to all. `shown`: the triangle read back, or no_triangle. `truth`: what
+    /// trace_rays finds along the neighbourhood's rays.
+    PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame, double far,
+               std::uint32_t shown, const Neighbourhood& around, std::span<const RayTruth> truth);
+
+    /// Whether the shown surface may be seen where the pixel is covered as the ray is. If so, fills
+    /// `sample`.
+    bool take(const glm::dvec3& direction, const RayTruth& truth, Sample& sample) const;
+
+    /// The sample's faces that are drawn, neither clipped nor on the wrong side of the surface for
+    /// certain. `move`: of the clipping planes, see FaceDepths::clip_depth.
+    std::vector<CandidateFace> candidates(const Sample& sample, int move) const;
+    /// What the dark caps at infinity add to the count.
+    std::int64_t dark_caps(const Sample& sample) const;
+    /// Shadow depth where the sample's ray meets the near plane.
+    std::int32_t depth_at_near(const Sample& sample) const;
+    /// All that the counter may hold before the first face.
+    const std::vector<std::int32_t>& starts() const { return starts_; }
+
+    /// How many flat volumes the shown surface may come out among the faces of, at the sample.
+    std::int64_t flat_volumes_around(const Sample& sample) const;
+    /// Whether what is in front of the shown surface may let it be seen through a gap.
+    bool may_gape() const { return may_gape_; }
+    /// How many light caps that are counted may be flipped, in front of what is shown.
+    std::int64_t flipped_caps() const;
+
+    const PixelVolumes& volumes() const { return volumes_; }
+    const Counting& counting() const { return frame_.counted->counting; }
+    const Neighbourhood& around() const { return around_; }
+    std::uint32_t shown() const { return shown_; }
+
+private:
+    const Tracer& tracer_;
+    const PixelVolumes& volumes_;
+    const Scene& scene_;
+    const Frame& frame_;
+    double far_;
+    std::uint32_t shown_;
+    const Neighbourhood& around_;
+    FaceDepths depths_;
+    DepthRange shown_range_;   ///< over the neighbourhood; nominal for the background alone
+    bool may_cover_ = false;   ///< what is shown may cover the pixel's centre
+    bool may_gape_ = false;    ///< what is in front of it may let it be seen through a gap
+    bool may_be_seen_ = false; ///< that, or all of it may be drawn elsewhere
+    std::vector<std::int32_t> starts_;
+
+    bool certainly_in_front(std::uint32_t triangle) const;
+    bool are_displaced(const std::vector<std::uint32_t>& triangles) const;
+    std::vector<std::uint32_t> all_in_front() const;
+    std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
+                                      bool& moved) const;
+    bool may_lie_in(const FlatVolume& flat, const Sample& sample) const;
+    bool is_never_in_front(const Crossing& crossing) const;
+    std::int64_t ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const;
+    std::int32_t depth_at_near(const std::vector<Crossing>& crossings, int move) const;
+    std::vector<std::int32_t> possible_starts() const;
+};
+
+} // namespace shadowproof

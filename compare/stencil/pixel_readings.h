@@ -1,0 +1,41 @@
+// What the counter may read at a pixel, by what a correct rasterizer may draw there. Each function
+// appends the readings of one way in which pixels come out other than along their centre's ray.
+#pragma once
+
+#include "compare/stencil/pixel_faces.h"
+#include "compare/stencil/reading.h"
+
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+/// The pixel is covered as the sample's ray is, and depths are rounded.
+void add_sample(const PixelFaces& pixel, const Sample& sample, std::vector<Reading>& readings);
+
+/// The counter stops at its limits, and each face is as in one of the samples, not all in the same
+/// one: a step down that no single ray meets together with the following step up changes where the
+/// counter stops. The sum of the faces is that of some sample, as the volumes stay closed.
+void add_mixed_samples(const PixelFaces& pixel, std::span<const RayTruth> truth,
+                       std::vector<Reading>& readings);
+
+/// The shown surface is seen through a gap, on no sample's ray. The gap lies between surfaces that
+/// move apart, so each face may be as in any of the samples, and the caps of those surfaces are not
+/// drawn.
+void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
+                std::vector<Reading>& readings);
+
+/// Each reading that is there, with sides that are seen edge-on: no sample's ray meets these, but
+/// snapping may make slivers of them that face either way.
+void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings);
+
+/// Each reading that is there, with light caps that snapping may flip. Their surfaces are then
+/// culled, so that such a cap, which is left instead of entered, may come out in front of what is
+/// shown; its neighbours' caps reach over it, behind what is shown.
+void add_flipped_caps(const PixelFaces& pixel, std::vector<Reading>& readings);
+
+/// Each reading that is there, with from `least` to `most` more faces in front of the surface.
+void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
+               std::vector<Reading>& readings);
+
+} // namespace shadowproof

@@ -1,0 +1,15 @@
+// Pictures as the bytes of a file.
+#pragma once
+
+#include "scenes/load/picture/picture_layout.h"
+
+#include <string>
+
+namespace shadowproof {
+
+/// `pixels`: all, without gaps, as `layout` says. The same bytes at any time of day. Throws Error
+/// naming `file`, to which they will be written.
+std::string encode_picture(const PictureLayout& layout, const void* pixels,
+                           const std::string& file);
+
+} // namespace shadowproof

@@ -1,0 +1,53 @@
+#include "compare/json/blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace shadowproof {
+namespace {
+
+std::vector<std::uint8_t> some_bytes(std::size_t size) {
+    constexpr std::uint32_t seed = 20261121;
+    std::mt19937 random(seed);
+    std::vector<std::uint8_t> bytes(size);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() & 0x3U);
+    return bytes;
+}
+
+TEST(Blocks, what_is_packed_is_unpacked_at_every_length) {
+    for (std::size_t size = 0; size < 300; ++size) {
+        const std::vector<std::uint8_t> bytes = some_bytes(size);
+        EXPECT_EQ(unpacked(packed(std::as_bytes(std::span(bytes))), size), bytes) << size;
+    }
+}
+
+TEST(Blocks, another_number_of_bytes_is_not_unpacked) {
+    const std::vector<std::uint8_t> bytes = some_bytes(100);
+    const std::string text = packed(std::as_bytes(std::span(bytes)));
+    EXPECT_TRUE(unpacked(text, 100));
+    EXPECT_FALSE(unpacked(text, 99));
+    EXPECT_FALSE(unpacked(text, 101));
+}
+
+TEST(Blocks, no_single_changed_character_is_taken_for_the_same_bytes) {
+    const std::vector<std::uint8_t> bytes = some_bytes(60);
+    const std::string text = packed(std::as_bytes(std::span(bytes)));
+    // The last character before the padding may hold bits that mean nothing.
+    for (std::size_t i = 0; i + 4 < text.size(); ++i) {
+        std::string damaged = text;
+        damaged[i] = damaged[i] == 'A' ? 'B' : 'A';
+        EXPECT_NE(unpacked(damaged, bytes.size()), bytes) << "character " << i;
+    }
+    EXPECT_FALSE(unpacked(text.substr(0, text.size() - 4), bytes.size()));
+    EXPECT_FALSE(unpacked("@" + text.substr(1), bytes.size()));
+}
+
+TEST(Blocks, a_block_names_its_type_and_length) {
+    EXPECT_EQ(block(std::vector<std::uint32_t>{1, 2, 3}).rfind(R"({"type":"u32","length":3,)", 0),
+              0U);
+    EXPECT_EQ(block(std::vector<std::int8_t>{}).rfind(R"({"type":"i8","length":0,)", 0), 0U);
+}
+
+} // namespace
+} // namespace shadowproof
