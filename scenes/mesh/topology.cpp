@@ -1,10 +1,7 @@
 #include "scenes/mesh/topology.h"
 
-<<<<<<< HEAD
 #include "scenes/first_of_same.h"
-=======
 #include "scenes/roundoff.h"
->>>>>>> h13
 
 #include <fmt/format.h>
 
