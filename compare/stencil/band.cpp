@@ -49,7 +49,7 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
                 add_mixed_samples(pixel, truth, band.readings);
             add_in_gap(pixel, truth, band.readings);
             add_edge_on_sides(pixel, band.readings);
-            add_flipped_caps(pixel, band.readings);
+            add_slivers(pixel, band.readings);
         }
     }
     sort_out(band.readings);

@@ -38,9 +38,10 @@ void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings) 
     add_moved(pixel.counting(), -most, most, readings);
 }
 
-void add_flipped_caps(const PixelFaces& pixel, std::vector<Reading>& readings) {
+void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
-    add_moved(pixel.counting(), -pixel.flipped_caps(), 0, readings);
+    const StepRange steps = pixel.steps_of_slivers();
+    add_moved(pixel.counting(), steps.least, steps.most, readings);
 }
 
 } // namespace shadowproof

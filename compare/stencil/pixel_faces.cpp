@@ -65,6 +65,13 @@ bool PixelFaces::are_displaced(const std::vector<std::uint32_t>& triangles) cons
     });
 }
 
+/// A light cap is drawn as its triangle is, from the same corners. Fillings of holes are small.
+bool PixelFaces::is_displaced_cap(const Crossing& crossing) const {
+    return crossing.part == Crossing::Part::light_cap &&
+           crossing.triangle < scene_.triangles.size() &&
+           may_be_displaced(scene_, crossing.triangle, depths_.covered_pixel());
+}
+
 /// All triangles that are drawn on some ray and are certainly in front of what is shown.
 std::vector<std::uint32_t> PixelFaces::all_in_front() const {
     std::vector<std::uint32_t> found;
@@ -190,7 +197,8 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample, int move
         const bool maybe_behind = behind || range.upper >= shown_range_.lower;
         if (!(pass ? maybe_front : maybe_behind)) continue;
         const bool in_front = !behind && crossing.depth < sample.depth;
-        found.push_back({crossing, in_front == pass, !(maybe_front && maybe_behind)});
+        const bool certain = !(maybe_front && maybe_behind) && !is_displaced_cap(crossing);
+        found.push_back({crossing, in_front == pass, certain});
     }
     return found;
 }
@@ -200,19 +208,30 @@ std::int64_t PixelFaces::dark_caps(const Sample& sample) const {
     return dark_caps_at_infinity(counting(), volumes_.counted_at_eye, sample.crossings);
 }
 
-std::int64_t PixelFaces::flipped_caps() const {
+// A closed volume's faces sum to 0 at every pixel, wherever its corners are snapped to. Where a cap
+// is a sliver, it is entered (+1) and the others there are left (-1), or, flipped, the other way
+// round. Its surface is seen there, and hides the others, unless it is culled, as it is flipped, or
+// comes out behind what is shown, as depths of slivers may. What is counted then is the one or the
+// other, as they lie on the one or the other side of what is shown.
+StepRange PixelFaces::steps_of_slivers() const {
     const CoveredPixel pixel = depths_.covered_pixel();
-    std::int64_t flipped = 0;
+    StepRange steps;
     for (const std::uint32_t triangle : volumes_.counted.light_caps()) {
         if (triangle >= scene_.triangles.size() || triangle == shown_ ||
-            !counting().caster(triangle).light_cap ||
-            scene_.materials[scene_.meshes[mesh_of(scene_, triangle)].material].double_sided)
+            !may_be_flipped(scene_, triangle, pixel))
             continue;
-        if (may_be_flipped(scene_, triangle, pixel) &&
-            depths_.surface(triangle).lower <= shown_range_.upper)
-            ++flipped;
+        const Counting::Caster caster = counting().caster(triangle);
+        const DepthRange range = depths_.surface(triangle);
+        const bool maybe_behind = range.upper >= shown_range_.lower;
+        const bool maybe_culled =
+            range.lower <= shown_range_.upper &&
+            !scene_.materials[scene_.meshes[mesh_of(scene_, triangle)].material].double_sided;
+        if (!maybe_behind && !maybe_culled) continue;
+        const bool counts_others = caster.test == Counting::Test::depth_pass || !caster.light_cap;
+        if (maybe_behind || !counts_others) --steps.least;
+        if (maybe_behind || counts_others) ++steps.most;
     }
-    return flipped;
+    return steps;
 }
 
 } // namespace shadowproof

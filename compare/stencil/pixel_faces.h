@@ -43,7 +43,13 @@ struct Sample {
 struct CandidateFace {
     Crossing crossing;
     bool nominally = false; ///< it is counted if no depth is rounded
-    bool certain = false;   ///< whatever the depths are rounded to
+    bool certain = false;   ///< whatever depths are rounded to, and wherever it is displaced to
+};
+
+/// How many steps a count may be lower or higher.
+struct StepRange {
+    std::int64_t least = 0;
+    std::int64_t most = 0;
 };
 
 class PixelFaces {
@@ -71,8 +77,9 @@ public:
     std::int64_t flat_volumes_around(const Sample& sample) const;
     /// Whether what is in front of the shown surface may let it be seen through a gap.
     bool may_gape() const { return may_gape_; }
-    /// How many light caps that are counted may be flipped, in front of what is shown.
-    std::int64_t flipped_caps() const;
+    /// By how much light caps that are slivers in the picture may change the count, where their
+    /// surfaces are not seen.
+    StepRange steps_of_slivers() const;
 
     const PixelVolumes& volumes() const { return volumes_; }
     const Counting& counting() const { return frame_.counted->counting; }
@@ -96,6 +103,7 @@ private:
 
     bool certainly_in_front(std::uint32_t triangle) const;
     bool are_displaced(const std::vector<std::uint32_t>& triangles) const;
+    bool is_displaced_cap(const Crossing& crossing) const;
     std::vector<std::uint32_t> all_in_front() const;
     std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
                                       bool& moved) const;

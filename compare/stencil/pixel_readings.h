@@ -29,10 +29,9 @@ void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
 /// snapping may make slivers of them that face either way.
 void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings);
 
-/// Each reading that is there, with light caps that snapping may flip. Their surfaces are then
-/// culled, so that such a cap, which is left instead of entered, may come out in front of what is
-/// shown; its neighbours' caps reach over it, behind what is shown.
-void add_flipped_caps(const PixelFaces& pixel, std::vector<Reading>& readings);
+/// Each reading that is there, with light caps that are slivers, which snapping may flip, or whose
+/// surface may come out behind what is shown.
+void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings);
 
 /// Each reading that is there, with from `least` to `most` more faces in front of the surface.
 void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,

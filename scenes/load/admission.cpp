@@ -129,14 +129,21 @@ private:
         if (distances.empty()) return;
         const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
         std::nth_element(distances.begin(), middle, distances.end());
-        const double limit = largest_spread * *middle;
-        if (limit == 0) return;
+        const double furthest = largest_spread * *middle;
+        const double nearest = smallest_share * *middle;
+        if (furthest == 0) return;
         each_corner([&](const Mesh& mesh, std::uint32_t triangle, int k, const glm::dvec3& place) {
-            if (size_of(place - scene_.camera.eye) <= limit) return;
-            refuse(fmt::format("{} is at {}, more than {:.3g} times as far from the camera as "
-                               "half of all corners",
-                               name_of(mesh, triangle, k), words_of(place), largest_spread),
-                   "move it nearer");
+            const double distance = size_of(place - scene_.camera.eye);
+            if (distance > furthest)
+                refuse(fmt::format("{} is at {}, more than {:.3g} times as far from the camera as "
+                                   "half of all corners",
+                                   name_of(mesh, triangle, k), words_of(place), largest_spread),
+                       "move it nearer");
+            if (distance > 0 && distance < nearest)
+                refuse(fmt::format("{} is at {}, nearer to the camera than {:.3g} of the distance "
+                                   "of half of all corners",
+                                   name_of(mesh, triangle, k), words_of(place), smallest_share),
+                       "move it away, or leave out what is so far away");
         });
     }
 
@@ -168,13 +175,16 @@ private:
                                camera.far * scene_.unit,
                                std::numeric_limits<float>::max() * scene_.unit),
                    "move the far plane nearer, or leave it out");
-        // A view coordinate is at most sqrt(3) 2^63, and clip coordinates are that over this.
         const glm::dvec2 half = half_extent(camera);
-        if (!(std::min(half.x, half.y) >= 1 / largest_coordinate && std::isfinite(half.x) &&
-              std::isfinite(half.y)))
+        if (!(std::isfinite(half.x) && std::isfinite(half.y)))
             refuse(fmt::format("the camera's picture is {:.3g} by {:.3g} at depth 1", 2 * half.x,
                                2 * half.y),
                    "use another field of view");
+        if (!(std::min(half.x, half.y) >= smallest_half_extent))
+            refuse(fmt::format("the camera's picture is {:.3g} by {:.3g} at depth 1, and floats "
+                               "place nothing in one that is narrower than {:.3g}",
+                               2 * half.x, 2 * half.y, 2 * smallest_half_extent),
+                   "use a wider field of view");
     }
 
     /// Colours, and the heights and scales of bumps: floats hold products of four of them, and the

@@ -2,6 +2,7 @@
 // once, after loading, whatever the file's format.
 #pragma once
 
+#include "scenes/roundoff.h"
 #include "scenes/scene.h"
 
 namespace shadowproof {
@@ -19,9 +20,19 @@ inline constexpr double largest_coordinate = 0x1p62;
 /// the next.
 inline constexpr double largest_spread = 0x1p36;
 
+/// How near to the eye a corner may be, as a share of the distance of half of all corners, unless
+/// it is in the eye. In a scene of ordinary size floats hold the squares of such distances: those
+/// above 2^-126. Where they do not, what lighting makes of it vanishes.
+inline constexpr double smallest_share = 0x1p-62;
+
 /// The smallest component of the eye, a light's place or its direction, 0 apart. Doubles hold
 /// products of three such.
 inline constexpr double smallest_number = 0x1p-340;
+
+/// The smallest half of a picture's width or height at depth 1. A place's view coordinates are
+/// three products each, added in floats, and off by up to five roundings of its distance: in a
+/// picture that is narrower than that, floats place nothing.
+inline constexpr double smallest_half_extent = 5 * float_roundoff;
 
 /// Largest colour, intensity and scale of bumps.
 inline constexpr double largest_lighting_number = 0x1p30;

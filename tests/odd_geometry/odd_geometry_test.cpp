@@ -7,6 +7,7 @@
 #include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/odd_geometry/mutations.h"
+#include "tests/raster/small_scenes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -198,6 +199,26 @@ TEST(OddGeometry, a_floor_of_1e13_that_the_clipper_loses_is_explained) {
     try_techniques(TracedScene(odd_scene("huge_extent.gltf", 24)), gpu);
 }
 
+/// The counter that a technique reads at a pixel, instead of what it drew: whether that is caught.
+bool is_caught(const TracedScene& traced, Frame frame, const Pixel& at, std::uint32_t counter) {
+    frame.counted->counter.at(at.x, at.y) = counter;
+    return compared(traced, frame).evidence_miss.at(at.x, at.y) == 1;
+}
+
+/// A floor 2e10 wide under a box: the clipper draws it elsewhere, and so its light cap, while the
+/// dark cap at infinity stays. Pixel (9, 8) shows the box before it, and counts the dark cap alone.
+TEST(OddGeometry, a_light_cap_that_the_clipper_loses_is_counted_or_not) {
+    const TracedScene traced(odd_scene("vast_floor.gltf", 24));
+    Gpu gpu(GlPlatform::osmesa);
+    try_techniques(traced, gpu);
+    const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+    EXPECT_EQ(frame.counted->counter.at(9, 8), 1U);
+    EXPECT_FALSE(is_caught(traced, frame, {9, 8}, 0));
+    EXPECT_FALSE(is_caught(traced, frame, {9, 8}, 1));
+    EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 2));
+    EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 254));
+}
+
 /// Pixel (20, 13) lies beside the volume of a sliver, a ten-thousandth of a pixel wide there, and
 /// is drawn within it.
 TEST(OddGeometry, a_volume_that_is_a_ten_thousandth_of_a_pixel_wide_is_counted_or_not) {
@@ -205,16 +226,11 @@ TEST(OddGeometry, a_volume_that_is_a_ten_thousandth_of_a_pixel_wide_is_counted_o
     Gpu gpu(GlPlatform::osmesa);
     const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
     EXPECT_EQ(compared(traced, frame).evidence.unexplained, 0U);
-    const auto is_caught = [&](int x, int y, std::uint32_t counter) {
-        Frame faulty = frame;
-        faulty.counted->counter.at(x, y) = counter;
-        return compared(traced, faulty).evidence_miss.at(x, y) == 1;
-    };
-    EXPECT_FALSE(is_caught(20, 13, 1));
-    EXPECT_FALSE(is_caught(20, 13, 2));
-    EXPECT_TRUE(is_caught(20, 13, 0));
-    EXPECT_TRUE(is_caught(20, 13, 3));
-    EXPECT_TRUE(is_caught(19, 13, 2)) << "a pixel from the sliver";
+    EXPECT_FALSE(is_caught(traced, frame, {20, 13}, 1));
+    EXPECT_FALSE(is_caught(traced, frame, {20, 13}, 2));
+    EXPECT_TRUE(is_caught(traced, frame, {20, 13}, 0));
+    EXPECT_TRUE(is_caught(traced, frame, {20, 13}, 3));
+    EXPECT_TRUE(is_caught(traced, frame, {19, 13}, 2)) << "a pixel from the sliver";
 }
 
 } // namespace

@@ -26,7 +26,8 @@ TEST(Slivers, a_cap_that_is_turned_over_takes_one_from_the_counter) {
     const Comparison comparison = compared(traced, frame);
     EXPECT_EQ(comparison.evidence.unexplained, 0U);
     EXPECT_EQ(static_cast<Cause>(comparison.cause.at(46, 21)), Cause::precision);
-    for (const std::uint32_t counter : {1U, 254U, 2U}) {
+    // 1 would be right if the flipped cap came out behind the surface.
+    for (const std::uint32_t counter : {254U, 2U}) {
         Frame faulty = frame;
         faulty.counted->counter.at(46, 21) = counter;
         EXPECT_EQ(compared(traced, faulty).evidence.unexplained, 1U) << counter;

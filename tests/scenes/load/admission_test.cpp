@@ -60,6 +60,18 @@ TEST(Admission, a_corner_that_doubles_cannot_hold_beside_the_others_is_refused_b
     expect_says(message, "mesh \"sail\": vertex 2");
     expect_says(message, "6.87e+10 times as far from the camera");
     EXPECT_EQ(refusal_after([](Scene& s) { s.positions[2].y = 0x1p38F; }), "");
+    // As near to the eye as floats hold no squares of.
+    const auto near_eye = [](float distance) {
+        return refusal_after([&](Scene& s) {
+            s.camera.eye = {0, 0, 0};
+            for (glm::vec3& position : s.positions) position += glm::vec3(0, 0, -4);
+            s.positions[2] = {0, 0, -distance};
+        });
+    };
+    expect_says(near_eye(0x1p-61F), "mesh \"sail\": vertex 2");
+    expect_says(near_eye(0x1p-61F), "nearer to the camera than 2.17e-19");
+    EXPECT_EQ(near_eye(0x1p-59F), "");
+    EXPECT_EQ(near_eye(0), "");
     // All of them there: the scene is as large.
     EXPECT_EQ(refusal_after([](Scene& s) {
                   for (glm::vec3& position : s.positions) position *= 0x1p45F;
@@ -103,6 +115,14 @@ TEST(Admission, the_camera_and_every_light_are_admitted_like_vertices) {
     expect_says(refusal_after([](Scene& s) { s.camera.near = NAN; }), "near plane");
     expect_says(refusal_after([](Scene& s) { s.camera.far = 1e39; }), "far plane");
     expect_says(refusal_after([](Scene& s) { s.camera.tan_half_height = 1e-20; }), "field of view");
+    expect_says(refusal_after([](Scene& s) { s.camera.tan_half_height = 2.9e-7; }),
+                "floats place nothing");
+    EXPECT_EQ(refusal_after([](Scene& s) { s.camera.tan_half_height = 3e-7; }), "");
+    const auto narrow = [](Scene& s) {
+        s.camera.tan_half_height = 5e-7;
+        s.camera.width = s.camera.height / 2;
+    };
+    expect_says(refusal_after(narrow), "floats place nothing");
     const auto second = [](const Light& light) {
         return refusal_after([&](Scene& s) { s.lights.push_back(light); });
     };
