@@ -86,15 +86,19 @@ void require_picture(const MemoryBudget& budget, int width, int height, Workload
                     "try a smaller picture"});
 }
 
+std::uint64_t scene_bytes(const Scene& scene, Workload work) {
+    std::uint64_t bytes = 0;
+    for (const Part& part : parts_of(scene, work)) bytes += part.bytes;
+    return bytes;
+}
+
 void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work) {
     const std::array<Part, 3> parts = parts_of(scene, work);
     const Part& most = *std::max_element(
         parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
-    std::uint64_t bytes = 0;
-    for (const Part& part : parts) bytes += part.bytes;
     require_memory(
         budget, program_bytes,
-        {bytes, scene.file.string(), most.name + " and the rest of the work", most.remedy});
+        {scene_bytes(scene, work), scene.file.string(), most.name + " and the rest of the work", most.remedy});
 }
 
 } // namespace shadowproof

@@ -32,6 +32,9 @@ std::size_t pixel_bytes(Workload work, bool lit);
 /// Throws Error naming --size where a picture of that size cannot fit, whatever its scene.
 void require_picture(const MemoryBudget& budget, int width, int height, Workload work);
 
+/// Bytes for all work on a scene at the size of its camera, apart from reading it.
+std::uint64_t scene_bytes(const Scene& scene, Workload work);
+
 /// Throws Error naming the scene's file and what of it takes most, where the work on it at the size
 /// of its camera cannot fit.
 void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work);

@@ -19,6 +19,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <new>
 #include <optional>
@@ -127,6 +128,11 @@ int run_to_exit_code(const Work& work) noexcept {
         return work();
     } catch (const std::bad_alloc&) {
         complain(out_of_memory);
+    } catch (const std::filesystem::filesystem_error& error) {
+        complain(Error(error.path1().string(),
+                       fmt::format("cannot be looked at ({})", error.code().message()),
+                       "check its permissions, and the disk that it is on")
+                     .what());
     } catch (const std::exception& error) {
         complain(error.what());
     }

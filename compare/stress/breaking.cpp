@@ -48,11 +48,11 @@ std::optional<double> value_between(double holds, double fails, bool whole) {
     return value;
 }
 
-namespace {
-
 std::string refusal(Loss loss) {
     return loss == Loss::none ? "refused" : std::string(name_of(loss));
 }
+
+namespace {
 
 std::string main_cause(const StressCell& cell) {
     if (!cell.refused.empty()) return refusal(cell.loss);

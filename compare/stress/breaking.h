@@ -10,6 +10,9 @@
 
 namespace shadowproof {
 
+/// "refused", or a loss's name.
+std::string refusal(Loss loss);
+
 /// A value between one that holds and one that fails, of three digits, about as many times one as
 /// the other is; none where they are within a tenth of each other, or nothing is between them. Zero
 /// has nothing between itself and the nearest value that was tried.

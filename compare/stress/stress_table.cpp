@@ -1,5 +1,7 @@
 #include "compare/stress/stress_table.h"
 
+#include "compare/stress/breaking.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,10 +73,17 @@ std::vector<std::string> stress_table(const StressAlong& along) {
     if (!along.wrong_before.empty())
         lines.push_back(fmt::format("    {:<9}  {:<14}  {}", value_words(own_value(along)),
                                     "wrong as it is", listed(along.wrong_before)));
-    for (const StressPoint& point : along.points)
+    for (const StressPoint& point : along.points) {
+        const std::string value = value_words(point.value);
         if (!point.refused.empty())
-            lines.push_back(fmt::format("    {:<9}  {:<14}  {}", value_words(point.value),
-                                        "refused", point.refused));
+            lines.push_back(
+                fmt::format("    {:<9}  {:<14}  {}", value, refusal(point.loss), point.refused));
+        // Elsewhere it is a breaking point, whose cause says so.
+        for (const StressCell& cell : point.cells)
+            if (point.own && !cell.refused.empty())
+                lines.push_back(
+                    fmt::format("    {:<9}  {:<14}  {}", value, refusal(cell.loss), cell.refused));
+    }
     return lines;
 }
 

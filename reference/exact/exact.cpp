@@ -1,95 +1,90 @@
 #include "reference/exact/exact.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstdint>
 #include <utility>
 
 namespace shadowproof {
 
-namespace {
+static_assert(GMP_NUMB_BITS == 64, "a digit of Limbs is one of GMP's");
 
-struct Pair {
-    double high = 0; ///< the rounded result
-    double low = 0;  ///< its rounding error: high + low is exact
-};
-
-/// Knuth's TWO-SUM: no assumption on magnitudes.
-Pair two_sum(double a, double b) {
-    const double high = a + b;
-    const double b_part = high - a;
-    const double a_part = high - b_part;
-    return {high, (a - a_part) + (b - b_part)};
+Limbs::Limbs(double a) {
+    assert(a == 0 || std::isnormal(a));
+    if (a == 0) return;
+    const auto bits = std::bit_cast<std::uint64_t>(a);
+    // a is mantissa * 2^exponent, of 53 bits.
+    const mp_limb_t mantissa = (bits & 0xfffffffffffffU) | 0x10000000000000U;
+    const int exponent = static_cast<int>(bits >> 52U & 0x7ffU) - 1075;
+    const unsigned shift = static_cast<unsigned>(exponent) % 64U; // not negative
+    exponent_ = (exponent - static_cast<int>(shift)) / 64;
+    sign_ = a < 0 ? -1 : 1;
+    const mp_limb_t low = mantissa << shift;
+    const mp_limb_t high = shift == 0 ? 0 : mantissa >> (64U - shift);
+    if (low == 0) ++exponent_;
+    if (low != 0) limbs_[count_++] = low;
+    if (high != 0) limbs_[count_++] = high;
 }
 
-/// Dekker's FAST-TWO-SUM: |a| >= |b| or a is 0.
-Pair fast_two_sum(double a, double b) {
-    const double high = a + b;
-    return {high, b - (high - a)};
+void Limbs::drop_leading_zeros() {
+    while (count_ > 0 && limbs_[count_ - 1] == 0) --count_;
+    if (count_ == 0) sign_ = 0;
 }
 
-Pair two_product(double a, double b) {
-    const double high = a * b;
-    return {high, std::fma(a, b, -high)};
+Limbs operator*(const Limbs& a, const Limbs& b) {
+    Limbs product;
+    if (a.sign_ == 0 || b.sign_ == 0) return product;
+    const Limbs& longer = a.count_ >= b.count_ ? a : b;
+    const Limbs& shorter = &longer == &a ? b : a;
+    product.count_ = a.count_ + b.count_;
+    assert(product.count_ <= Limbs::capacity);
+    mpn_mul(product.limbs_.data(), longer.limbs_.data(), static_cast<mp_size_t>(longer.count_),
+            shorter.limbs_.data(), static_cast<mp_size_t>(shorter.count_));
+    product.exponent_ = a.exponent_ + b.exponent_;
+    product.sign_ = a.sign_ * b.sign_;
+    product.drop_leading_zeros();
+    return product;
 }
 
-} // namespace
-
-Expansion exact_difference(double a, double b, std::pmr::memory_resource* arena) {
-    const auto [high, low] = two_sum(a, -b);
-    Expansion result(arena);
-    result.push(low);
-    result.push(high);
-    return result;
-}
-
-/// FAST-EXPANSION-SUM with zero elimination: merge by magnitude, then one sweep of TWO-SUMs.
-Expansion Expansion::sum(const Expansion& other, double factor) const {
-    Expansion result(arena());
-    const std::size_t n = terms_.size();
-    const std::size_t m = other.terms_.size();
-    if (n + m == 0) return result;
-    result.terms_.reserve(n + m);
-    std::size_t i = 0;
-    std::size_t j = 0;
-    const auto next = [&] {
-        const bool mine = j == m || (i < n && std::abs(terms_[i]) <= std::abs(other.terms_[j]));
-        return mine ? terms_[i++] : factor * other.terms_[j++];
-    };
-    double running = next();
-    while (i < n || j < m) {
-        const auto [high, low] = two_sum(running, next());
-        result.push(low);
-        running = high;
+/// The sign of b may be another than its own.
+Limbs Limbs::sum(const Limbs& a, const Limbs& b, int sign_of_b) {
+    if (b.sign_ == 0) return a;
+    if (a.sign_ == 0) {
+        Limbs result = b;
+        result.sign_ = sign_of_b;
+        return result;
     }
-    result.push(running);
-    return result;
+    return a.exponent_ <= b.exponent_ ? sum_from(a, a.sign_, b, sign_of_b)
+                                      : sum_from(b, sign_of_b, a, a.sign_);
 }
 
-/// SCALE-EXPANSION with zero elimination.
-Expansion Expansion::scaled(double factor) const {
-    Expansion result(arena());
-    if (terms_.empty() || factor == 0) return result;
-    result.terms_.reserve(2 * terms_.size());
-    auto [running, first_low] = two_product(terms_[0], factor);
-    result.push(first_low);
-    for (std::size_t i = 1; i < terms_.size(); ++i) {
-        const auto [high, low] = two_product(terms_[i], factor);
-        const Pair sum = two_sum(running, low);
-        result.push(sum.low);
-        const Pair carried = fast_two_sum(high, sum.high);
-        result.push(carried.low);
-        running = carried.high;
-    }
-    result.push(running);
-    return result;
-}
+/// Neither is zero; `low` begins with the lower digit, or the same.
+Limbs Limbs::sum_from(const Limbs& low, int sign_of_low, const Limbs& high, int sign_of_high) {
+    const auto gap = static_cast<std::size_t>(high.exponent_ - low.exponent_);
+    Limbs aligned; // high, with zeros down to the first digit of low
+    aligned.count_ = gap + high.count_;
+    assert(std::max(aligned.count_, low.count_) < capacity);
+    std::fill_n(aligned.limbs_.begin(), gap, 0);
+    std::copy_n(high.limbs_.begin(), high.count_,
+                aligned.limbs_.begin() + static_cast<std::ptrdiff_t>(gap));
 
-Expansion operator*(const Expansion& a, const Expansion& b) {
-    const Expansion& shorter = a.terms_.size() < b.terms_.size() ? a : b;
-    const Expansion& longer = &shorter == &a ? b : a;
-    Expansion result(a.arena());
-    for (const double term : shorter.terms_) result = result + longer.scaled(term);
+    Limbs result;
+    result.exponent_ = low.exponent_;
+    const bool more_in_low = low.count_ != aligned.count_
+                                 ? low.count_ > aligned.count_
+                                 : mpn_cmp(low.limbs_.data(), aligned.limbs_.data(),
+                                           static_cast<mp_size_t>(low.count_)) > 0;
+    const Limbs& larger = more_in_low ? low : aligned;
+    const Limbs& smaller = more_in_low ? aligned : low;
+    result.sign_ = more_in_low ? sign_of_low : sign_of_high;
+    result.count_ = larger.count_;
+    const auto combine = sign_of_low == sign_of_high ? mpn_add : mpn_sub;
+    const mp_limb_t carry =
+        combine(result.limbs_.data(), larger.limbs_.data(), static_cast<mp_size_t>(larger.count_),
+                smaller.limbs_.data(), static_cast<mp_size_t>(smaller.count_));
+    if (carry != 0) result.limbs_[result.count_++] = carry;
+    result.drop_leading_zeros();
     return result;
 }
 

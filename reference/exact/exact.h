@@ -1,85 +1,97 @@
-// Exact arithmetic: floating-point expansions (Shewchuk 1997, Adaptive Precision Floating-Point
-// Arithmetic), and integers times powers of two (GMP) for inputs so large or small that expansions
-// would over- or underflow. Seen by predicates.cpp alone.
+// Exact arithmetic: integers of few digits on the stack, times powers of two, which nearly all
+// inputs allow; and integers of any length (GMP) for inputs so large or small that those would not
+// do. Seen by predicates.cpp alone.
 #pragma once
 
 #include <gmpxx.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory_resource>
-#include <vector>
 
 namespace shadowproof {
 
-/// A sum of doubles, exactly: strongly nonoverlapping, by increasing magnitude, without zeros.
-/// Round-to-nearest-even is required (no other mode is ever set in this program).
-class Expansion {
+/// An integer times a power of 2^64, exactly: few digits, kept in place, so that no memory is asked
+/// for, and aligned to each other, so that nothing is shifted by bits.
+class Limbs {
 public:
-    explicit Expansion(std::pmr::memory_resource* arena) : terms_(arena) {}
-    Expansion(double term, std::pmr::memory_resource* arena) : terms_(arena) { push(term); }
+    /// See limbs_smallest: what the predicates need.
+    static constexpr std::size_t capacity = 24;
 
-    int sign() const { return terms_.empty() ? 0 : (terms_.back() > 0 ? 1 : -1); }
+    Limbs() = default;
+    /// `a` must be zero or normal.
+    explicit Limbs(double a);
+    Limbs(const Limbs& other) { *this = other; }
+    Limbs& operator=(const Limbs& other) {
+        sign_ = other.sign_;
+        exponent_ = other.exponent_;
+        count_ = other.count_;
+        std::copy_n(other.limbs_.begin(), count_, limbs_.begin());
+        return *this;
+    }
+    ~Limbs() = default;
 
-    friend Expansion operator+(const Expansion& a, const Expansion& b) { return a.sum(b, 1); }
-    friend Expansion operator-(const Expansion& a, const Expansion& b) { return a.sum(b, -1); }
-    friend Expansion operator*(const Expansion& a, const Expansion& b);
-    friend Expansion exact_difference(double a, double b, std::pmr::memory_resource* arena);
+    int sign() const { return sign_; }
+
+    friend Limbs operator+(const Limbs& a, const Limbs& b) { return sum(a, b, b.sign_); }
+    friend Limbs operator-(const Limbs& a, const Limbs& b) { return sum(a, b, -b.sign_); }
+    friend Limbs operator*(const Limbs& a, const Limbs& b);
 
 private:
-    std::pmr::vector<double> terms_;
+    /// The digits of the absolute value, to base 2^64, lowest first; `count_` of them are set, the
+    /// highest of which is not 0.
+    std::array<mp_limb_t, capacity> limbs_;
+    std::size_t count_ = 0;
+    long exponent_ = 0; ///< of 2^64, for the lowest digit
+    int sign_ = 0;
 
-    std::pmr::memory_resource* arena() const { return terms_.get_allocator().resource(); }
-    void push(double term) {
-        if (term != 0) terms_.push_back(term);
-    }
-    Expansion sum(const Expansion& other, double factor) const; ///< factor +1 or -1
-    Expansion scaled(double factor) const;
+    static Limbs sum(const Limbs& a, const Limbs& b, int sign_of_b);
+    static Limbs sum_from(const Limbs& low, int sign_of_low, const Limbs& high, int sign_of_high);
+    void drop_leading_zeros();
 };
 
-Expansion exact_difference(double a, double b, std::pmr::memory_resource* arena);
+/// Non-zero inputs within these magnitudes fit in the predicates, which are of degree 6 in
+/// differences of inputs: 1e20 < 2^67, and 3 times 6 such factors, each a difference, are below
+/// 2^415, digit 6 at most. The last bit of 1e-20 is at least 2^-119, in digit -2.
+inline constexpr double limbs_smallest = 1e-20;
+inline constexpr double limbs_largest = 1e20;
 
-/// Non-zero inputs within these magnitudes neither over- nor underflow in the predicates: those are
-/// of degree 6 in differences of inputs. A difference of two doubles of at least 1e-20 is zero or
-/// at least 2^-53 * 1e-20 > 1e-36; six of them and the last error term: 1e-216 * 2^-53 > 1e-233,
-/// far from the smallest double; 1e20^6 is as far from the largest.
-inline constexpr double expansion_smallest = 1e-20;
-inline constexpr double expansion_largest = 1e20;
+/// A ray's direction is one of those factors: the last bit of 1e-90 is at least 2^-351, in digit
+/// -6. With five others the lowest digit is -16, and -16 to 6 are 23 digits; one more is for a
+/// carry.
+inline constexpr double limbs_smallest_direction = 1e-90;
 
-/// A ray's direction is one factor, with five differences: 1e-180 so far, and 1e-180 * 1e-90 *
-/// 2^-53 > 1e-287 is still a normal double.
-inline constexpr double expansion_smallest_direction = 1e-90;
-
-/// Expansions whose storage is released together with the arena. They are exact as long as no input
-/// was out of range; where one was, the result is meaningless.
-struct ExpansionArithmetic {
-    using Number = Expansion;
-    std::pmr::memory_resource* arena;
+/// Limbs, exact as long as no input was out of range; where one was, it counts as 0, and the result
+/// is meaningless.
+struct LimbsArithmetic {
+    using Number = Limbs;
     bool* left_range; ///< set where an input is out of range
 
-    Expansion number(double a) const {
-        note(a, expansion_smallest);
-        return {a, arena};
-    }
-    Expansion direction(double a) const {
-        note(a, expansion_smallest_direction);
-        return {a, arena};
-    }
-    Expansion difference(double a, double b) const {
-        note(a, expansion_smallest);
-        note(b, expansion_smallest);
-        return exact_difference(a, b, arena);
+    Limbs number(double a) const { return checked(a, limbs_smallest); }
+    Limbs direction(double a) const { return checked(a, limbs_smallest_direction); }
+    Limbs difference(double a, double b) const {
+        const double rounded = a - b;
+        // Most are doubles: both roundings of Knuth's TWO-SUM are then nothing.
+        const double part = rounded - a;
+        if ((a - (rounded - part)) - (b + part) == 0 && fits(a) && fits(b)) return Limbs(rounded);
+        return number(a) - number(b);
     }
 
 private:
-    void note(double a, double smallest) const {
+    static bool fits(double a, double smallest = limbs_smallest) {
         const double size = std::abs(a);
-        if (size != 0 && !(size >= smallest && size <= expansion_largest)) *left_range = true;
+        return size == 0 || (size >= smallest && size <= limbs_largest);
+    }
+    Limbs checked(double a, double smallest) const {
+        if (fits(a, smallest)) return Limbs(a);
+        *left_range = true;
+        return {};
     }
 };
 
 /// mantissa * 2^exponent: any finite double is one, and so are sums and products of any degree.
-/// Costs a few times what an expansion does, and no greatest common divisors as a rational would.
+/// It needs no greatest common divisors, as a rational would.
 struct Dyadic {
     mpz_class mantissa;
     long exponent = 0;

@@ -3,8 +3,7 @@
 #include "reference/exact/bounded.h"
 #include "reference/exact/exact.h"
 
-#include <array>
-#include <cstddef>
+#include <optional>
 
 namespace shadowproof {
 
@@ -97,30 +96,23 @@ Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) 
 std::optional<int> sign_of(const Bounded& number) {
     return number.sign();
 }
-int sign_of(const Expansion& number) {
+int sign_of(const Limbs& number) {
     return number.sign();
 }
 int sign_of(const Dyadic& number) {
     return number.sign();
 }
 
-/// Enough for an ordinary degree-6 sign; larger ones continue on the heap.
-constexpr std::size_t arena_bytes = std::size_t{1} << 16;
-
 /// `formula(arithmetic)` returns the number, or the product of numbers as a sign, that is wanted;
-/// it is written once and evaluated with as much precision as it needs. Expansions are for formulas
-/// of degree 6 with inputs within their range (exact.h).
+/// it is written once and evaluated with as much precision as it needs. Limbs are for formulas of
+/// degree 6 with inputs within their range (exact.h).
 template <class Formula>
-Decision decide(const Formula& formula, bool by_expansions = true) {
+Decision decide(const Formula& formula, bool by_limbs = true) {
     if (const std::optional<int> sign = formula(BoundedArithmetic{}))
         return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
     int sign = 0;
-    bool left_range = !by_expansions;
-    if (by_expansions) {
-        alignas(std::max_align_t) std::array<std::byte, arena_bytes> buffer;
-        std::pmr::monotonic_buffer_resource arena(buffer.data(), buffer.size());
-        sign = *formula(ExpansionArithmetic{&arena, &left_range});
-    }
+    bool left_range = !by_limbs;
+    if (by_limbs) sign = *formula(LimbsArithmetic{&left_range});
     if (left_range) sign = *formula(DyadicArithmetic{});
     return {sign, sign == 0 ? Exactness::degenerate : Exactness::exact};
 }

@@ -272,7 +272,10 @@ void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
         for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
         if (entry.count > 0) continue;
         const Cluster& cluster = state.hierarchy.clusters[entry.first];
-        for (std::uint32_t i = 0; i < cluster.count; ++i) gather_cap(cluster.triangles[i], corners);
+        for (std::uint32_t i = 0; i < cluster.count; ++i)
+            for (std::uint32_t triangle = cluster.triangles[i]; triangle != no_triangle;
+                 triangle = state.places.next[triangle])
+                gather_cap(triangle, corners);
     }
 }
 

@@ -101,6 +101,7 @@ glm::dvec3 enlargement(const Tracer& tracer, double share, const glm::dvec3& ori
 
 void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found) {
     const Hierarchy& hierarchy = tracer.state().hierarchy;
+    const Places& places = tracer.state().places;
     const Slabs slabs = slabs_of(rays, reach_of(hierarchy), share);
     // Two children an entry: one waits on each level.
     std::array<std::uint32_t, 2 * deepest_level> waiting{};
@@ -116,7 +117,9 @@ void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriang
         }
         const Cluster& cluster = hierarchy.clusters[entry.first];
         for (std::uint32_t i = 0; i < cluster.count && (lanes & rays.lanes) != 0; ++i)
-            found.visit(rays, cluster.triangles[i], lanes & rays.lanes);
+            for (std::uint32_t triangle = cluster.triangles[i]; triangle != no_triangle;
+                 triangle = places.next[triangle])
+                found.visit(rays, triangle, lanes & rays.lanes);
     }
 }
 

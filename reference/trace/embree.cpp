@@ -123,7 +123,7 @@ private:
         return entry;
     }
 
-    /// Coinciding triangles cannot be split: such a leaf becomes several clusters.
+    /// Triangles with one box cannot be split: such a leaf becomes several clusters.
     Entry leaf(std::span<const std::uint32_t> triangles) {
         if (triangles.size() <= cluster_capacity) return cluster(triangles);
         const std::size_t count = (triangles.size() + cluster_capacity - 1) / cluster_capacity;
@@ -148,20 +148,23 @@ private:
     }
 };
 
-std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene) {
-    std::vector<RTCBuildPrimitive> primitives(scene.triangles.size());
-    for (std::uint32_t i = 0; i < primitives.size(); ++i) {
+std::vector<RTCBuildPrimitive> primitives_of(const Scene& scene,
+                                             std::span<const std::uint32_t> triangles) {
+    std::vector<RTCBuildPrimitive> primitives;
+    primitives.reserve(triangles.size());
+    for (const std::uint32_t triangle : triangles) {
         Entry box = empty_entry();
-        include(box, scene, i);
-        primitives[i] = {box.lower[0], box.lower[1], box.lower[2], 0,
-                         box.upper[0], box.upper[1], box.upper[2], i};
+        include(box, scene, triangle);
+        primitives.push_back({box.lower[0], box.lower[1], box.lower[2], 0, box.upper[0],
+                              box.upper[1], box.upper[2], triangle});
     }
     return primitives;
 }
 
 } // namespace
 
-Hierarchy build_hierarchy(const Scene& scene, int threads) {
+Hierarchy build_hierarchy(const Scene& scene, std::span<const std::uint32_t> triangles,
+                          int threads) {
     const Device device(
         rtcNewDevice(fmt::format("threads={}{}", threads, embree_instruction_set()).c_str()));
     if (!device)
@@ -170,7 +173,7 @@ Hierarchy build_hierarchy(const Scene& scene, int threads) {
             fmt::format("no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr))),
             "check that the processor has SSE2");
     const Bvh bvh(rtcNewBVH(device.get()));
-    std::vector<RTCBuildPrimitive> primitives = primitives_of(scene);
+    std::vector<RTCBuildPrimitive> primitives = primitives_of(scene, triangles);
 
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.maxBranchingFactor = branching;
@@ -189,13 +192,13 @@ Hierarchy build_hierarchy(const Scene& scene, int threads) {
     if (root == nullptr)
         throw Error("Embree",
                     fmt::format("the hierarchy over {} triangles was not built (error {})",
-                                scene.triangles.size(),
+                                triangles.size(),
                                 static_cast<int>(rtcGetDeviceError(device.get()))),
                     "check that there is enough memory");
 
     Hierarchy hierarchy;
-    hierarchy.entries.reserve(scene.triangles.size() / 2 + 1);
-    hierarchy.clusters.reserve(scene.triangles.size() / 4 + 1);
+    hierarchy.entries.reserve(triangles.size() / 2 + 1);
+    hierarchy.clusters.reserve(triangles.size() / 4 + 1);
     hierarchy.entries.emplace_back();
     Flattener flattener(scene, hierarchy);
     const Entry top = flattener.flatten(*root, 0);

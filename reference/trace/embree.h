@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,9 @@ struct Hierarchy {
     std::vector<Cluster> clusters;
 };
 
-/// Needs at least one triangle, all coordinates finite. threads 0: one per core. Throws Error.
-Hierarchy build_hierarchy(const Scene& scene, int threads);
+/// Over some triangles of the scene: at least one, all coordinates finite. threads 0: one per core.
+/// Throws Error.
+Hierarchy build_hierarchy(const Scene& scene, std::span<const std::uint32_t> triangles,
+                          int threads);
 
 } // namespace shadowproof

@@ -180,12 +180,11 @@ Vector dot(const RayPacket& packet, int i, const std::array<PerTriangle<float>, 
 /// Comparisons with NaN are false, so whatever overflows is undecided.
 Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::size_t t) {
     const Vector magnitude = load(packet.magnitude, i);
-    const Vector edge_tolerance = hn::Mul(magnitude, hn::Set(floats, cluster.edge_tolerance[t]));
     const Vector inner =
         hn::Min(hn::Min(dot(packet, i, cluster.edge[0], t), dot(packet, i, cluster.edge[1], t)),
                 dot(packet, i, cluster.edge[2], t));
     Answer answer;
-    const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(edge_tolerance)));
+    const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(magnitude)));
     if (hn::AllFalse(floats, maybe_inside)) {
         answer.met = answer.undecided = maybe_inside;
         answer.lo = answer.hi = inner;
@@ -197,11 +196,11 @@ Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::s
     answer.hi = hn::Add(inverse, tolerance);
     const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
     const Mask skipped = hn::RebindMask(
-        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, cluster.triangle[t])));
+        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, cluster.plane[t])));
     const Mask out = hn::Or(hn::Lt(answer.hi, load(packet.lower_lo, i)),
                             hn::Gt(answer.lo, load(packet.upper_hi, i)));
     const Mask candidate = hn::And(hn::AndNot(out, maybe_inside), hn::AndNot(skipped, awake));
-    answer.met = hn::And(hn::And(candidate, hn::Ge(inner, edge_tolerance)),
+    answer.met = hn::And(hn::And(candidate, hn::Ge(inner, magnitude)),
                          hn::And(hn::Gt(answer.lo, load(packet.lower_hi, i)),
                                  hn::Lt(answer.hi, load(packet.upper_lo, i))));
     answer.undecided = hn::AndNot(answer.met, candidate);
@@ -234,7 +233,7 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
                     const int lane = __builtin_ctz(left);
                     const auto l = static_cast<std::size_t>(lane);
                     if constexpr (query == Query::count) {
-                        ++packet.crossed[l];
+                        packet.crossed[l] += cluster.copies[t];
                     } else {
                         packet.hit[l] = triangle;
                         finish_lane(packet, lane);
@@ -248,8 +247,8 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
     }
 }
 
-/// At each level one of two children stays on the stack; a leaf of coinciding triangles has up to 4
-/// clusters.
+/// At each level one of two children stays on the stack; a leaf of triangles with one box has up to
+/// 4 clusters.
 constexpr std::size_t stack_size = deepest_level + 4;
 
 template <Query query, bool parallel>
@@ -318,7 +317,7 @@ RayPacket empty_packet() {
     RayPacket packet;
     packet.farthest.fill(-1);
     packet.hit.fill(no_triangle);
-    packet.skip.fill(no_triangle);
+    packet.skip.fill(no_plane);
     return packet;
 }
 

@@ -13,6 +13,9 @@ namespace shadowproof {
 
 inline constexpr int packet_size = 16;
 
+/// A plane in which no triangle lies.
+inline constexpr std::uint32_t no_plane = 0xffffffffU;
+
 template <class T>
 using Lanes = std::array<T, packet_size>;
 
@@ -35,7 +38,7 @@ struct RayPacket {
     alignas(64) Lanes<float> lower_lo{}, lower_hi{};
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
     alignas(64) Lanes<float> farthest{};        ///< boxes beyond are skipped; -1: lane is done
-    alignas(64) Lanes<std::uint32_t> skip{};    ///< a triangle to ignore, or no_triangle
+    alignas(64) Lanes<std::uint32_t> skip{};    ///< a plane (Places) to ignore, or no_plane
     alignas(64) Lanes<std::uint32_t> hit{};     ///< nearest or any, or no_triangle
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
     float pad = 0;                              ///< by how much boxes are enlarged
@@ -45,7 +48,8 @@ struct RayPacket {
 /// A packet without rays.
 RayPacket empty_packet();
 
-/// Sets a lane's ray and activates it. `limits`: 1/s in units of the direction as given.
+/// Sets a lane's ray and activates it. `limits`: 1/s in units of the direction as given. `skip`: a
+/// plane whose triangles are ignored, or no_plane.
 struct Limits {
     float lower_lo = 0, lower_hi = 0;
     float upper_lo = std::numeric_limits<float>::infinity();

@@ -65,6 +65,11 @@ Number largest(const Vector& p) {
 Number largest(const Vector& p, const Vector& q, const Vector& r) {
     return hn::Max(hn::Max(largest(p), largest(q)), largest(r));
 }
+template <class Mask>
+Vector choose(Mask mask, const Vector& p, const Vector& otherwise) {
+    return {hn::IfThenElse(mask, p.x, otherwise.x), hn::IfThenElse(mask, p.y, otherwise.y),
+            hn::IfThenElse(mask, p.z, otherwise.z)};
+}
 Number sum_of(const Vector& p) {
     return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
 }
@@ -92,6 +97,16 @@ Number tolerance(Number size, Number component_error) {
         hn::Add(hn::Add(hn::Mul(number(7 * v), size), hn::Mul(number(3.1), component_error)),
                 number(0x1p-100));
     return hn::Mul(bound, number(1 + 0x1p-22));
+}
+
+/// Stores w . N divided by its tolerance, so that each edge has its own: next to a light on one
+/// edge the others still tell what is outside. Where `nothing_known`, 0, from which nothing
+/// follows. What underflows is by 2^-126 and more below the tolerance of 1.
+template <class Mask>
+void store_edge(const Vector& edge, Number component_error, Mask nothing_known,
+                std::array<PerTriangle<float>, 3>& to, std::size_t i) {
+    const Number share = hn::Div(number(1), tolerance(sum_of(edge), component_error));
+    store(times(edge, hn::IfThenElse(nothing_known, number(0), share)), to, i);
 }
 
 /// A tolerance; infinite, so that nothing is certain, where `nothing_known`.
@@ -165,7 +180,6 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
         // 14.5 l + 2.02 l 12.4 m + 4.1 m l = 58.4 m l, their difference by twice that and 8.2 m l:
         // 125 m l <= 63 l.
         const Number edge_error = hn::Mul(number(64 * u), l);
-        Number size = number(0);
         Vector along[3];
         const Vector a = mapped(0);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -173,10 +187,8 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
             along[k] = mapped_edge(k, from);
             const Vector edge{hn::Neg(along[k].y), along[k].x,
                               hn::Sub(hn::Mul(from.x, along[k].y), hn::Mul(from.y, along[k].x))};
-            store(edge, record.edge[k], i);
-            size = hn::Max(size, sum_of(edge));
+            store_edge(edge, edge_error, outlying, record.edge[k], i);
         }
-        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
 
         // n = (b - a) x (c - b). n_h, made of u and v alone, is at most 8.2 l^2; each product is
         // off by 2 2.02 14.5 + 4.1 = 62.7, so n_h by 2 62.7 + 8.2 = 134 l^2. Of the others, one
@@ -224,22 +236,31 @@ void make_records(const OriginView& view, const ClusterCorners& corners, Cluster
         const Number ll = hn::Mul(l, l);
         const auto outlying = hn::Gt(m, number(1));
 
-        // Differences are off by u, so each component of a x (b - a), two products and a
-        // difference, by 4 u (m l + m l).
-        const Vector edges[3] = {cross(a, ab), cross(b, bc), cross(c, ca)};
-        const Number edge_error = hn::Mul(number(8.1 * u), hn::Mul(m, l));
-        Number size = number(0);
+        // Of an edge from a to b, a x (b - a) = b x (b - a): the end that is nearer, at m, says
+        // more. Differences are off by u, so each component, two products and a difference, by
+        // 4 u (m l + m l).
+        const Vector ends[3] = {a, b, c};
+        const Vector edges[3] = {ab, bc, ca};
+        Number nearest_m = largest(a);
+        Vector nearest = a;
         for (std::size_t k = 0; k < 3; ++k) {
-            store(edges[k], record.edge[k], i);
-            size = hn::Max(size, sum_of(edges[k]));
+            const Vector& next = ends[(k + 1) % 3];
+            const Number next_m = largest(next);
+            const Number end_m = largest(ends[k]);
+            const auto is_nearer = hn::Lt(next_m, end_m);
+            const Number edge_error =
+                hn::Mul(number(8.1 * u), hn::Mul(hn::Min(next_m, end_m), largest(edges[k])));
+            store_edge(cross(choose(is_nearer, next, ends[k]), edges[k]), edge_error, outlying,
+                       record.edge[k], i);
+            nearest = choose(hn::Lt(next_m, nearest_m), next, nearest);
+            nearest_m = hn::Min(nearest_m, next_m);
         }
-        store(unless(outlying, tolerance(size, edge_error)), record.edge_tolerance, i);
 
         // As in view.cpp: the normal, (b - a) x (c - b), is off by 8 u l^2 per component, det by 48
-        // u m l^2.
+        // u m l^2, with m of the corner from which it is computed: the nearest.
         const Vector normal = cross(ab, bc);
-        const Number det = dot(a, normal);
-        const Number det_error = hn::Mul(number(50 * u), hn::Mul(m, ll));
+        const Number det = dot(nearest, normal);
+        const Number det_error = hn::Mul(number(50 * u), hn::Mul(nearest_m, ll));
         // normal / det: the normal's error over det, and its own size times det's relative error,
         // at most 4/3 det_error / det since det may be that much smaller; two roundings.
         const Number reciprocal = hn::Div(number(1), det);
@@ -290,18 +311,30 @@ bool RecordCache::takes_part(std::uint32_t triangle) const {
     return side < 0;
 }
 
+std::uint32_t RecordCache::copies(std::uint32_t triangle) const {
+    const Places& places = *view_->places;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = places.first[triangle]; i != no_triangle; i = places.next[i])
+        count += takes_part(i) ? 1 : 0;
+    return count;
+}
+
 void RecordCache::fill(Slot& slot, std::uint32_t cluster) const {
     slot.cluster = cluster;
     slot.record.count = 0;
     const Cluster& members = view_->hierarchy->clusters[cluster];
     ClusterCorners gathered;
     for (std::uint32_t i = 0; i < members.count; ++i) {
-        const std::uint32_t triangle = members.triangles[i];
-        if (!takes_part(triangle)) continue;
+        std::uint32_t triangle = members.triangles[i];
+        while (triangle != no_triangle && !takes_part(triangle))
+            triangle = view_->places->next[triangle];
+        if (triangle == no_triangle) continue;
         Corners t = corners(*view_->scene, triangle);
         if (view_->side[triangle] < 0) std::swap(t.b, t.c);
         const std::uint32_t place = slot.record.count++;
         slot.record.triangle[place] = triangle;
+        slot.record.copies[place] = copies(triangle);
+        slot.record.plane[place] = view_->places->plane[triangle];
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(axis);
             gathered.corner[0][k][place] = t.a[axis];

@@ -27,14 +27,17 @@ using PerTriangle = std::array<T, cluster_capacity>;
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
 /// Where rays are parallel, a = (u, v, 1) and w likewise: the same holds of the ray that runs up at
 /// (u, v), and w . inverse is the height h at which it meets the triangle's plane.
-/// In float, |w . edge - exact| <= |w| edge_tolerance and |w . inverse - exact| <=
-/// |w| inverse_tolerance, |w| the largest component. Derived in records.cpp.
+/// Each edge is divided by the error of its product: in float, |w . edge - exact| <= |w|, the
+/// largest component, and |w . inverse - exact| <= |w| inverse_tolerance. Derived in records.cpp.
 struct ClusterRecord {
     alignas(64) std::array<std::array<PerTriangle<float>, 3>, 3> edge{}; ///< by k, then axis
     std::array<PerTriangle<float>, 3> inverse{};                         ///< by axis
-    PerTriangle<float> edge_tolerance{};    ///< both infinite where coordinates are beyond 1
-    PerTriangle<float> inverse_tolerance{}; ///< infinite where doubles cannot tell det from 0
-    PerTriangle<std::uint32_t> triangle{};
+    /// Infinite where doubles cannot tell det from 0, or coordinates are beyond 1; edges are then
+    /// 0.
+    PerTriangle<float> inverse_tolerance{};
+    PerTriangle<std::uint32_t> triangle{}; ///< of those in one place the first that takes part
+    PerTriangle<std::uint32_t> copies{};   ///< how many take part in that place
+    PerTriangle<std::uint32_t> plane{};    ///< Places::plane
     std::uint32_t count = 0;
 };
 
@@ -45,6 +48,9 @@ public:
     RecordCache(const OriginView& view, Part part, const std::vector<std::uint8_t>& double_sided);
 
     const OriginView& view() const { return *view_; }
+    /// How many triangles take part in a triangle's place.
+    std::uint32_t copies(std::uint32_t triangle) const;
+    bool takes_part(std::uint32_t triangle) const;
     const ClusterRecord& of(std::uint32_t cluster) {
         Slot& slot = slots_[cluster % slots_.size()];
         if (slot.cluster != cluster) fill(slot, cluster);
@@ -62,7 +68,6 @@ private:
     std::vector<Slot> slots_;
 
     void fill(Slot& slot, std::uint32_t cluster) const;
-    bool takes_part(std::uint32_t triangle) const;
 };
 
 } // namespace shadowproof

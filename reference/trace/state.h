@@ -3,6 +3,7 @@
 
 #include "reference/exact/predicates.h"
 #include "reference/trace/embree.h"
+#include "reference/trace/places.h"
 #include "reference/trace/shells.h"
 #include "reference/trace/trace.h"
 #include "reference/trace/view.h"
@@ -17,7 +18,8 @@ struct Tracer::State {
     const Scene* scene = nullptr;
     int threads = 1;
     Predicates predicates;
-    Hierarchy hierarchy;
+    Places places;
+    Hierarchy hierarchy; ///< over the first triangle of each place
     OriginView from_eye;
     OriginView from_light;                  ///< its `side` is 0 for triangles that do not cast
     std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles

@@ -46,15 +46,16 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     State& state = *state_;
     state.scene = &scene;
     state.threads = thread_count(threads);
-    state.hierarchy = build_hierarchy(scene, state.threads);
+    state.places = find_places(scene, state.predicates, state.threads);
+    state.hierarchy = build_hierarchy(scene, state.places.firsts(), state.threads);
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);
     state.eye = scene.camera.eye;
     state.light = homogeneous(chosen_light(scene));
     state.cone = cone_of(chosen_light(scene));
     const auto from = [&](const glm::dvec4& origin, bool may_be_parallel) {
-        return view_from(origin, may_be_parallel, scene, state.hierarchy, state.predicates,
-                         state.threads);
+        return view_from(origin, may_be_parallel, scene, state.hierarchy, state.places,
+                         state.predicates, state.threads);
     };
     state.from_eye = from(glm::dvec4(state.eye, 1), false);
     state.from_light = from(state.light, true);

@@ -192,10 +192,12 @@ glm::dvec3 origin_of_parallel_rays(const Hierarchy& hierarchy) {
 } // namespace
 
 OriginView view_from(const glm::dvec4& from, bool may_be_parallel, const Scene& scene,
-                     const Hierarchy& hierarchy, const Predicates& predicates, int threads) {
+                     const Hierarchy& hierarchy, const Places& places, const Predicates& predicates,
+                     int threads) {
     OriginView view;
     view.scene = &scene;
     view.hierarchy = &hierarchy;
+    view.places = &places;
     const glm::dvec3 middle = origin_of_parallel_rays(hierarchy);
     const double around = reach_of_most(hierarchy, middle);
     const bool far = may_be_parallel && from.w != 0 && around > 0 &&

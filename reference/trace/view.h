@@ -7,6 +7,7 @@
 
 #include "reference/exact/predicates.h"
 #include "reference/trace/embree.h"
+#include "reference/trace/places.h"
 #include "reference/trace/shear.h"
 #include "scenes/scene.h"
 
@@ -23,6 +24,7 @@ inline Corners corners(const Scene& scene, std::uint32_t triangle) {
 struct OriginView {
     const Scene* scene = nullptr;
     const Hierarchy* hierarchy = nullptr;
+    const Places* places = nullptr;
     bool parallel = false;      ///< rays have one direction, not one origin, or nearly (shear.h)
     glm::dvec3 origin{0, 0, 0}; ///< where rays are parallel: the scene's centre
     Shear shear;                ///< where rays are parallel
@@ -43,6 +45,7 @@ struct OriginView {
 /// `may_be_parallel`: whether rays from a point far away may be taken for nearly parallel; only
 /// any-hit and counting queries can be.
 OriginView view_from(const glm::dvec4& from, bool may_be_parallel, const Scene& scene,
-                     const Hierarchy& hierarchy, const Predicates& predicates, int threads);
+                     const Hierarchy& hierarchy, const Places& places, const Predicates& predicates,
+                     int threads);
 
 } // namespace shadowproof

@@ -5,6 +5,7 @@
 #include "scenes/roundoff.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -101,26 +102,63 @@ public:
 private:
     Question& question_;
     Lanes<Seen>& seen_;
+    Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
     bool met_ = false; ///< the last tested triangle is met within [near, far]
 
     bool is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle, Signs& signs) {
-        const Tracer::State& state = *question_.state;
         const EyeRay ray = question_.ray(lane);
         const Corners t = question_.triangle(triangle);
-        const int orientation = state.from_eye.side[triangle];
-        const Predicates& predicates = state.predicates;
+        const int orientation = question_.state->from_eye.side[triangle];
+        const std::array<glm::dvec3, 3> corners{t.a, t.b, t.c};
+        std::array<bool, 3> through{}; // the lines of which edges
+        met_ = false;
         // The edges' planes of an oriented triangle add up to its normal, so that no ray away from
         // it has all three signs right.
-        met_ = signs.at_least_zero(predicates.edge(ray, t.a, t.b), orientation) &&
-               signs.at_least_zero(predicates.edge(ray, t.b, t.c), orientation) &&
-               signs.at_least_zero(predicates.edge(ray, t.c, t.a), orientation) &&
-               within_planes(ray, t, signs);
-        if (!met_) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Decision side = edge(ray, lane, corners[k], corners[(k + 1) % 3]);
+            if (!signs.at_least_zero(side, orientation)) return false;
+            through[k] = side.sign == 0;
+        }
+        // The eye is not in the triangle's plane, so the planes of two edges meet in a line.
+        for (std::size_t k = 0; k < 3; ++k)
+            if (through[k] && through[(k + 1) % 3])
+                vertex_[static_cast<std::size_t>(lane)] = corners[(k + 1) % 3];
+
         const std::uint32_t best = packet.hit[static_cast<std::size_t>(lane)];
+        if (best != no_triangle && meet_there(lane, corners, through, best)) {
+            signs.at_least_zero({0, Exactness::degenerate}, 1);
+            met_ = true;
+            return triangle < best;
+        }
+        met_ = within_planes(ray, t, signs);
+        if (!met_) return false;
         if (best == no_triangle) return true;
-        const Decision order = predicates.depth_order(ray, t, question_.triangle(best));
+        const Decision order =
+            question_.state->predicates.depth_order(ray, t, question_.triangle(best));
         signs.at_least_zero(order, 1);
         return order.sign < 0 || (order.sign == 0 && triangle < best);
+    }
+
+    /// Predicates::edge; edges at a vertex that the ray runs through are all met.
+    Decision edge(const EyeRay& ray, int lane, const glm::dvec3& a, const glm::dvec3& b) const {
+        const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(lane)];
+        if (vertex && (*vertex == a || *vertex == b)) return {0, Exactness::degenerate};
+        return question_.state->predicates.edge(ray, a, b);
+    }
+
+    /// Whether the ray meets both triangles in one point because they share it: the vertex that it
+    /// runs through, or an edge.
+    bool meet_there(int lane, const std::array<glm::dvec3, 3>& corners,
+                    const std::array<bool, 3>& through, std::uint32_t best) const {
+        const Corners other = question_.triangle(best);
+        const auto shares = [&](const glm::dvec3& p) {
+            return p == other.a || p == other.b || p == other.c;
+        };
+        const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(lane)];
+        if (vertex && shares(*vertex) && std::ranges::count(corners, *vertex) > 0) return true;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (through[k] && shares(corners[k]) && shares(corners[(k + 1) % 3])) return true;
+        return false;
     }
 
     bool within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const {
@@ -200,8 +238,8 @@ private:
 
 class CountArbiter final : public Arbiter {
 public:
-    CountArbiter(Question& question, const Lanes<Prober::Point>& points)
-        : question_(question), points_(points) {}
+    CountArbiter(Question& question, const Lanes<Prober::Point>& points, const RecordCache& records)
+        : question_(question), points_(points), records_(records) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override {
         const auto l = static_cast<std::size_t>(lane);
@@ -217,12 +255,13 @@ public:
             signs.above_zero(predicates.shadow_edge_untied(ray, q, t.b, t.c), orientation) &&
             signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation);
         question_.exact_decisions += signs.exact_decisions();
-        if (between) ++packet.crossed[l];
+        if (between) packet.crossed[l] += records_.copies(triangle);
     }
 
 private:
     Question& question_;
     const Lanes<Prober::Point>& points_;
+    const RecordCache& records_;
 
     /// Whether a point is behind a cap. A surface in the cap's plane is not. The eye is always on
     /// one side or the other: a ray from there has left the volume it began in, or has not.
@@ -366,7 +405,7 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         seen[l] = {};
-        set_lane(packet, lane, {directions[l], 0}, limits, no_triangle);
+        set_lane(packet, lane, {directions[l], 0}, limits, no_plane);
         ++rays_;
     });
     Question question{state_, &directions, 0};
@@ -376,10 +415,12 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         seen[l].triangle = packet.hit[l];
-        if (seen[l].triangle == no_triangle)
+        if (seen[l].triangle == no_triangle) {
             seen[l].depth = std::numeric_limits<double>::infinity();
-        else
-            measure_depth(directions[l], seen[l]);
+            return;
+        }
+        if (seen_.copies(seen[l].triangle) > 1) seen[l].exactness = Exactness::degenerate;
+        measure_depth(directions[l], seen[l]);
     });
 }
 
@@ -408,7 +449,8 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         if (lighting[l].lit) return;
         const LightRay ray =
             from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error);
-        set_lane(packet, lane, ray.w, ray.limits, triangle);
+        // The segment begins in that plane, and only there could a triangle of it be met.
+        set_lane(packet, lane, ray.w, ray.limits, state_->places.plane[triangle]);
         ++rays_;
     });
     const std::uint32_t asked = packet.active;
@@ -435,10 +477,12 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
             point.kind == RayPoint::Kind::infinity
                 ? from_light_to_infinity(*state_, directions[l])
                 : from_light_to(*state_, directions[l], at.depth, at.depth_error);
-        if (ray) set_lane(packet, lane, ray->w, ray->limits, point.skip);
+        const std::uint32_t plane =
+            point.skip == no_triangle ? no_plane : state_->places.plane[point.skip];
+        if (ray) set_lane(packet, lane, ray->w, ray->limits, plane);
     });
     Question question{state_, &directions, 0};
-    CountArbiter arbiter(question, points);
+    CountArbiter arbiter(question, points, light_facing_);
     count_all(packet, light_facing_, arbiter);
     exact_decisions_ += question.exact_decisions;
     for_lanes(lanes, [&](int lane) {

@@ -1,5 +1,6 @@
 #include "scenes/mesh/topology.h"
 
+#include "scenes/first_of_same.h"
 #include "scenes/roundoff.h"
 
 #include <fmt/format.h>
@@ -14,19 +15,11 @@
 namespace shadowproof {
 
 std::vector<std::uint32_t> weld_by_position(std::span<const glm::vec3> positions) {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
-        const glm::vec3& a = positions[i];
-        const glm::vec3& b = positions[k];
-        return std::tie(a.x, a.y, a.z, i) < std::tie(b.x, b.y, b.z, k);
-    });
-    std::vector<std::uint32_t> welded(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        welded[order[i]] = same ? welded[order[i - 1]] : order[i];
-    }
-    return welded;
+    std::vector<std::uint64_t> hashes;
+    hashes.reserve(positions.size());
+    for (const glm::vec3& position : positions) hashes.push_back(hash_of(position));
+    return first_of_same(
+        hashes, [&](std::uint32_t i, std::uint32_t k) { return positions[i] == positions[k]; });
 }
 
 namespace {

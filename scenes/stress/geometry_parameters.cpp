@@ -1,8 +1,6 @@
-#include "scenes/error.h"
 #include "scenes/stress/parameters.h"
 #include "scenes/stress/place.h"
-
-#include <fmt/format.h>
+#include "scenes/stress/replaced_triangles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +9,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// A scene of more is no stress of techniques, but of patience.
-constexpr std::size_t most_triangles = 2'000'000;
 
 bool any_scene(const Scene& /*scene*/) {
     return true;
@@ -47,29 +42,6 @@ void take_scale(Scene& scene, double value) {
 /// Whether all that a triangle carries lies in its corners' positions.
 bool has_caster_without_bumps(const Scene& scene) {
     return !is_bump_lit(scene) && main_caster(scene).has_value();
-}
-
-/// Gives every triangle of some meshes others instead. `split` takes its number and appends them.
-template <class Includes, class Split>
-void replace_triangles(Scene& scene, const Includes& includes, const Split& split) {
-    std::vector<glm::uvec3> triangles;
-    for (Mesh& mesh : scene.meshes) {
-        const auto first = static_cast<std::uint32_t>(triangles.size());
-        for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
-            const std::uint32_t number = mesh.first_triangle + i;
-            if (includes(mesh))
-                split(number, triangles);
-            else
-                triangles.push_back(scene.triangles[number]);
-            if (triangles.size() > most_triangles)
-                throw Error(scene.name,
-                            fmt::format("would have more than {} triangles", most_triangles),
-                            "take a smaller value, or a simpler scene");
-        }
-        mesh.first_triangle = first;
-        mesh.triangle_count = static_cast<std::uint32_t>(triangles.size()) - first;
-    }
-    scene.triangles = std::move(triangles);
 }
 
 /// A new vertex within the triangle, so near the middle of its longest edge that this edge is so

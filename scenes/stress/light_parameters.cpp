@@ -136,6 +136,22 @@ void take_elevation(Scene& scene, double radians) {
     if (light.kind == Light::Kind::spot) light.direction = -unit_or(to_light, receiver.normal);
 }
 
+bool has_place_over_receiver(const Scene& scene) {
+    return chosen_light(scene).kind != Light::Kind::directional && has_receiver(scene);
+}
+
+double distance_to_plane(const Scene& scene) {
+    const Receiver receiver = receiver_of(scene);
+    return glm::dot(receiver.to_light, receiver.normal) / size_of(scene);
+}
+
+/// The light comes straight down to the receiver's plane.
+void take_distance_to_plane(Scene& scene, double value) {
+    const Receiver receiver = receiver_of(scene);
+    const double height = glm::dot(receiver.to_light, receiver.normal);
+    light_of(scene).position += (value * size_of(scene) - height) * receiver.normal;
+}
+
 } // namespace
 
 std::vector<StressParameter> light_parameters() {
@@ -162,6 +178,13 @@ std::vector<StressParameter> light_parameters() {
          .suits = has_place_and_caster,
          .own = distance_to<nearest_vertex>,
          .take = take_distance_to<nearest_vertex>},
+        {.name = "light_to_plane",
+         .words = "from the plane of the main receiver to the light, in sizes of the scene",
+         .low = 1e-16,
+         .down_to_zero = true,
+         .suits = has_place_over_receiver,
+         .own = distance_to_plane,
+         .take = take_distance_to_plane},
         {.name = "light_w",
          .words = "the light's own distance from the main caster over its distance; 0: directional",
          .low = 1e-12,

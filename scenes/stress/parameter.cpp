@@ -14,7 +14,7 @@ namespace shadowproof {
 std::span<const StressParameter> stress_parameters() {
     static const std::vector<StressParameter> all = [] {
         std::vector<StressParameter> parameters = view_parameters();
-        for (const auto& more : {light_parameters(), geometry_parameters()})
+        for (const auto& more : {light_parameters(), geometry_parameters(), triangle_parameters()})
             parameters.insert(parameters.end(), more.begin(), more.end());
         return parameters;
     }();

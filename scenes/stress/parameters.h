@@ -13,5 +13,7 @@ std::vector<StressParameter> view_parameters();
 std::vector<StressParameter> light_parameters();
 /// Of vertices and triangles, and of what is mapped onto them.
 std::vector<StressParameter> geometry_parameters();
+/// Of the sizes of triangles.
+std::vector<StressParameter> triangle_parameters();
 
 } // namespace shadowproof

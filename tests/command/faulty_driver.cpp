@@ -1,9 +1,9 @@
 // A driver with faults, for LD_PRELOAD: SHADOWPROOF_FAULT=FUNCTION:N:HOW makes the Nth call of
 // FUNCTION end the process, or never return. Functions are glReadPixels, which each technique calls
-// when it has drawn, rtcBuildBVH, with which tracing begins, and fork, with which the command hands
-// its work to a child. HOW is a signal's number, "hang", or "throw": a thread throws what nobody
-// catches, as one of a library does where memory runs out. SHADOWPROOF_FAULT_ONCE names a file:
-// once it exists there are no more faults.
+// when it has drawn, glFinish, with which a sample of bench ends, rtcBuildBVH, with which tracing
+// begins, and fork, with which the command hands its work to a child. HOW is a signal's number,
+// "hang", or "throw": a thread throws what nobody catches, as one of a library does where memory
+// runs out. SHADOWPROOF_FAULT_ONCE names a file: once it exists there are no more faults.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -21,6 +21,7 @@ using ReadPixels = void (*)(int, int, int, int, unsigned, unsigned, void*);
 
 int calls = 0;
 ReadPixels true_read_pixels = nullptr;
+Procedure true_finish = nullptr;
 
 void fault_at(std::string_view function) {
     const char* text = std::getenv("SHADOWPROOF_FAULT");
@@ -46,6 +47,11 @@ void read_pixels(int x, int y, int w, int h, unsigned format, unsigned type, voi
     true_read_pixels(x, y, w, h, format, type, to);
 }
 
+void finish() {
+    fault_at("glFinish");
+    true_finish();
+}
+
 template <class Function>
 Function next(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -55,6 +61,10 @@ Function next(const char* name) {
 
 extern "C" Procedure OSMesaGetProcAddress(const char* name) {
     const Procedure found = next<Procedure (*)(const char*)>("OSMesaGetProcAddress")(name);
+    if (std::string_view(name) == "glFinish") {
+        true_finish = found;
+        return finish;
+    }
     if (std::string_view(name) != "glReadPixels") return found;
     true_read_pixels = reinterpret_cast<ReadPixels>(found);
     return reinterpret_cast<Procedure>(read_pixels);

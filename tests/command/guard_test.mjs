@@ -1,4 +1,5 @@
-// A crash, an abort or a hang in one cell, of the driver or of Embree, loses that cell alone.
+// A crash, an abort or a hang in one cell of verify, of the driver or of Embree, loses that cell
+// alone; render and explain end in a sentence. losses_test.mjs has stress, bench and check.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, readdirSync, rmSync } from 'node:fs';
@@ -94,70 +95,6 @@ test('a cell that hangs is given up after --timeout, with a verdict of its own t
   const again = shadowproof(['report', '--from', 'report', '--out', 'again']);
   assert.equal(again.code, 1, again.err);
   assert.match(again.out, /^fails: "zpass" on "near_plane": timed_out$/m);
-});
-
-const pointsOf = (file, technique) => resultsOf(file).points.filter((each) =>
-  each.technique === technique);
-
-test('a crash at a point of stress loses that technique there, and nothing else', () => {
-  const stress = ['stress', 'near_plane', '--technique', techniques.join(), '--parameter', 'aspect',
-                  '--witness', '0', '--no-pictures', ...size];
-  const plain = shadowproof([...stress, '--json', 'calm.json', '--out', 'calm']);
-  assert.equal(plain.code, 0, plain.err);
-  const run = shadowproof([...stress, '--json', 'shaken.json', '--out', 'shaken'],
-                          fault('glReadPixels:30:11', 'shaken-mark'));
-  assert.equal(run.code, 3, run.out + run.err);
-  assert.match(run.out + run.err, /^failed: near_plane, aspect=[^\n]*signal 11/m);
-  const whole = resultsOf('calm.json').points;
-  const shaken = resultsOf('shaken.json').points;
-  const lost = shaken.filter(({ loss }) => loss);
-  assert.equal(lost.length, 1);
-  assert.equal(lost[0].loss, 'crashed');
-  assert.match(lost[0].refused, /signal 11/);
-  const same = ({ technique, value, causes, differing }) => ({ technique, value, causes, differing });
-  // What is searched for may differ from there on; the ladder does not.
-  const ladder = (points) => points.filter(({ searched, technique, value }) => !searched &&
-    !(technique === lost[0].technique && value === lost[0].value)).map(same);
-  assert.deepEqual(ladder(shaken), ladder(whole));
-});
-
-test('a technique that hangs at a point of stress is given up, and the run fails', () => {
-  const run = shadowproof(['stress', 'near_plane', '--technique', 'zpass,zfail', '--parameter',
-                           'aspect', '--witness', '0', '--no-pictures', ...size, '--timeout', '20',
-                           '--json', 'given-up.json', '--out', 'given-up', '-q'],
-                          fault('glReadPixels:1:hang', 'hung-mark'));
-  assert.equal(run.code, 1, run.out + run.err);
-  const lost = resultsOf('given-up.json').points.filter(({ loss }) => loss);
-  assert.ok(lost.length > 0);
-  for (const { loss, refused, technique } of lost) {
-    assert.equal(loss, 'timed_out');
-    assert.equal(technique, 'zpass');
-    assert.match(refused, /took longer than --timeout 20/);
-  }
-  assert.ok(pointsOf('given-up.json', 'zfail').every(({ refused }) => !refused));
-});
-
-test('a crash in bench loses a point, and the others are measured', () => {
-  const run = shadowproof(['bench', 'near_plane', '--technique', techniques.join(), '--quick', ...size,
-                           '--no-pictures', '--json', 'bench.json', '--out', 'bench'],
-                          fault('glReadPixels:2:11', 'bench-mark'));
-  assert.equal(run.code, 3, run.out + run.err);
-  const { left_out: leftOut, points } = resultsOf('bench.json');
-  const lost = leftOut.filter(({ loss }) => loss === 'crashed');
-  assert.equal(lost.length, 1);
-  assert.match(lost[0].why, /signal 11/);
-  const measured = techniques.filter((name) => name !== lost[0].technique);
-  assert.equal(measured.length, 2);
-  for (const name of measured)
-    assert.ok(points.some(({ technique, ms }) => technique === name && ms.samples.length > 0), name);
-});
-
-test('a crash while check traces the scene is said, and exit code 3', () => {
-  assert.equal(shadowproof(['render', 'near_plane', '-o', 'right.png', ...size]).code, 0);
-  const run = shadowproof(['check', 'near_plane', 'right.png', '--mask', 'right.png', '--out', 'checked'],
-                          fault('rtcBuildBVH:1:6', 'check-mark'));
-  assert.equal(run.code, 3, run.out + run.err);
-  assert.match(run.out + run.err, /signal 6/);
 });
 
 test('explain and render are given up after --timeout, and write nothing', () => {

@@ -35,6 +35,9 @@ function manyTriangles(count) {
 writeFileSync(join(scratch, 'many.gltf'), JSON.stringify(manyTriangles(300_000)));
 writeFileSync(join(scratch, 'texture.gltf'), JSON.stringify(textured(evenPng(3000, 3000))));
 writeFileSync(join(scratch, 'heights.png'), evenPng(3000, 3000));
+// What is wrong is diagnosed, which takes most.
+const wrong = shadowproof(['render', 'ordinary', '-o', 'wrong.png', '--size', '1100x1100']);
+assert.equal(wrong.code, 0, wrong.err);
 
 const cases = [
   ['verify', 'ordinary', '--technique', 'zfail', '--size', '2000x2000'],
@@ -49,6 +52,11 @@ const cases = [
   ['verify', 'many.gltf', '--technique', 'zfail', '--size', '64x64'],
   ['verify', 'texture.gltf', '--technique', 'bump_tangent_space', '--size', '64x64'],
   ['normal-map', 'heights.png', '-o', 'n.png'],
+  ['check', 'near_plane', 'wrong.png'],
+  ['bench', 'near_plane', '--technique', 'zfail', '--size', '2000x2000', '--repeats', '1',
+   '--no-pictures'],
+  ['stress', 'near_plane', '--technique', 'zfail', '--parameter', 'aspect', '--size', '1000x1000',
+   '--witness', '0', '--no-pictures'],
 ];
 for (const args of cases)
   test(`what it takes is bounded from both sides: ${args.join(' ')}`, () => {

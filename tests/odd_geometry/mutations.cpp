@@ -176,17 +176,6 @@ void add_prism(Scene& scene, float low, float high) {
     for (const glm::uvec3& face : faces) scene.triangles.push_back(face + first);
 }
 
-Scene prism_over_floor() {
-    Scene scene = empty_scene();
-    scene.name = "prism over floor";
-    add_prism(scene, 1, 2);
-    scene.materials.push_back({.name = "double-sided", .double_sided = true});
-    add_rectangle(scene, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10}, {-10, 0, -10});
-    scene.lights[0].position = {1, 6, 0.5};
-    look_at(scene.camera, {4, 6, 7}, {0, 0, 0});
-    return scene;
-}
-
 Scene prism_under_the_sun() {
     Scene scene = prism_over_floor();
     scene.name = "prism under the sun";
@@ -201,6 +190,19 @@ Scene named(const char* name, Scene scene) {
 }
 
 } // namespace
+
+Scene prism_over_floor() {
+    Scene scene = empty_scene();
+    scene.name = "prism over floor";
+    add_prism(scene, 1, 2);
+    scene.materials.push_back({.name = "double-sided", .double_sided = true});
+    add_rectangle(scene, {-10, 0, 10}, {10, 0, 10}, {10, 0, -10}, {-10, 0, -10});
+    scene.lights[0].position = {1, 6, 0.5};
+    look_at(scene.camera, {4, 6, 7}, {0, 0, 0});
+    scene.camera.width = 28;
+    scene.camera.height = 24;
+    return scene;
+}
 
 std::vector<Scene> scenes_to_mutate() {
     std::vector<Scene> scenes{named("box over floor", box_over_floor()), prism_over_floor(),

@@ -10,6 +10,9 @@
 
 namespace shadowproof::tests {
 
+/// A closed prism of six vertices, the first of the scene, over a floor; 28x24 pixels.
+Scene prism_over_floor();
+
 /// Small scenes to mutate: closed casters over a floor, and the smallest of the bundled ones.
 std::vector<Scene> scenes_to_mutate();
 

@@ -1,32 +1,41 @@
 // A shared object for LD_PRELOAD: memory that runs out where a test says so. It counts the
 // allocations of the process from main() to its end, since nobody can answer for those before; of
 // the processes that it forks, each goes on from the count of its parent.
-//   ALLOCATION_AT     the allocation that fails, from 1; none: all are counted and none fails
-//   ALLOCATION_KIND   new: those of operator new alone; else all that come to malloc too
-//   ALLOCATION_COUNT  a file that gets the number of allocations when the process ends
+//   ALLOCATION_COUNTER  a file of 16 bytes, as uint64: the highest count of any process, and
+//                       whether an allocation has failed; without it nothing is counted
+//   ALLOCATION_AT       the allocation that fails, from 1, in the process that reaches it first;
+//                       none: all are counted and none fails
+//   ALLOCATION_KIND     new: those of operator new alone; else all that come to malloc too
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
 // What glibc's own are called as well, so that these need not be looked up, which allocates.
 extern "C" {
-void* __libc_malloc(std::size_t);              // NOLINT
-void* __libc_calloc(std::size_t, std::size_t); // NOLINT
-void* __libc_realloc(void*, std::size_t);      // NOLINT
+void* __libc_malloc(std::size_t);                // NOLINT
+void* __libc_calloc(std::size_t, std::size_t);   // NOLINT
+void* __libc_realloc(void*, std::size_t);        // NOLINT
+void* __libc_memalign(std::size_t, std::size_t); // NOLINT
 }
 
 namespace {
 
+struct Shared {
+    std::atomic<unsigned long> most;
+    std::atomic<unsigned long> has_failed;
+};
+
 std::atomic<bool> in_main = false;
 std::atomic<unsigned long> count = 0;
+Shared* shared = nullptr;
 unsigned long at = 0;
 bool counts_new = false;
 bool counts_malloc = false;
@@ -34,24 +43,26 @@ bool counts_malloc = false;
 [[gnu::constructor]] void begin() {
     if (const char* text = std::getenv("ALLOCATION_AT")) at = std::strtoul(text, nullptr, 10);
     const char* const kind = std::getenv("ALLOCATION_KIND");
-    if (kind == nullptr) return;
+    const char* const counter = std::getenv("ALLOCATION_COUNTER");
+    if (kind == nullptr || counter == nullptr) return;
+    const int file = ::open(counter, O_RDWR | O_CLOEXEC);
+    if (file < 0) return;
+    void* const mapped =
+        ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    ::close(file);
+    if (mapped == MAP_FAILED) return;
+    shared = static_cast<Shared*>(mapped);
     counts_new = std::strcmp(kind, "new") == 0;
     counts_malloc = !counts_new;
 }
 
-[[gnu::destructor]] void end() {
-    const char* const file = std::getenv("ALLOCATION_COUNT");
-    if (file == nullptr) return;
-    char text[32];
-    const int length = std::snprintf(text, sizeof text, "%lu", count.load());
-    const int opened = ::open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    if (opened < 0) return;
-    if (::write(opened, text, static_cast<std::size_t>(length)) != length) ::abort();
-    ::close(opened);
-}
-
 bool fails(bool counted) {
-    if (!counted || !in_main || count.fetch_add(1) + 1 != at) return false;
+    if (!counted || !in_main) return false;
+    const unsigned long now = count.fetch_add(1) + 1;
+    unsigned long most = shared->most;
+    while (now > most && !shared->most.compare_exchange_weak(most, now)) {
+    }
+    if (now != at || shared->has_failed.exchange(1) != 0) return false;
     errno = ENOMEM;
     return true;
 }
@@ -68,6 +79,18 @@ int counted_main(int argc, char** argv, char** environment) {
 
 void* allocate(std::size_t size) {
     void* const memory = fails(counts_new || counts_malloc) ? nullptr : __libc_malloc(size);
+    if (memory == nullptr) throw std::bad_alloc();
+    return memory;
+}
+
+void* aligned(std::size_t alignment, std::size_t size) {
+    return fails(counts_malloc) ? nullptr : __libc_memalign(alignment, size);
+}
+
+void* allocate(std::size_t size, std::align_val_t alignment) {
+    const auto bytes = static_cast<std::size_t>(alignment);
+    void* const memory =
+        fails(counts_new || counts_malloc) ? nullptr : __libc_memalign(bytes, size);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
@@ -93,6 +116,21 @@ void* calloc(std::size_t number, std::size_t size) noexcept {
 void* realloc(void* memory, std::size_t size) noexcept {
     return fails(counts_malloc) ? nullptr : __libc_realloc(memory, size);
 }
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+    return aligned(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+    return aligned(alignment, size);
+}
+/// Unlike the others it returns what went wrong.
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
+    const bool is_power_of_two = alignment != 0 && (alignment & (alignment - 1)) == 0;
+    if (!is_power_of_two || alignment % sizeof(void*) != 0) return EINVAL;
+    void* const got = aligned(alignment, size);
+    if (got == nullptr) return ENOMEM;
+    *memory = got;
+    return 0;
+}
 }
 
 void* operator new(std::size_t size) {
@@ -100,6 +138,12 @@ void* operator new(std::size_t size) {
 }
 void* operator new[](std::size_t size) {
     return allocate(size == 0 ? 1 : size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return allocate(size == 0 ? 1 : size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+    return allocate(size == 0 ? 1 : size, alignment);
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);
@@ -111,5 +155,17 @@ void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
 void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
     std::free(memory);
 }

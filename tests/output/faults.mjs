@@ -31,6 +31,11 @@ export function faults(below, settings = {}) {
              [`FAULTS_${key.toUpperCase()}`, String(value)])) };
 }
 
+/** Only what changes something counts: killed while it reads, a program leaves what there was before. */
+export const changes = { changes: 1 };
+/** The operation that is reached kills the program. */
+export const killed = { kill: 1, ...changes };
+
 /** How many file operations below a folder a command makes. */
 export function operationsOf(command, below, { cwd, ...settings } = {}) {
   const { code, out, err } = run(command, { cwd, env: faults(below, settings) });

@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'nod
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { grayPng } from '../command/png.mjs';
-import { assertRefused, contentOf, faults, killedAfter, operationsOf, run, scratch }
+import { assertRefused, changes, contentOf, faults, killed, killedAfter, operationsOf, run, scratch }
   from './faults.mjs';
 
 const program = process.env.SHADOWPROOF;
@@ -68,17 +68,17 @@ function assertMended(below, where) {
 
 test('verify: killed at file operations and at random moments, a report is whole', async () => {
   const below = place('verify-killed');
-  const count = operationsOf(verify('zfail'), below, { cwd: below });
+  const count = operationsOf(verify('zfail'), below, { cwd: below, ...changes });
   // Each of the operations of a folder that is replaced is tried in replace_test.mjs.
-  for (let at = 1; at <= count; at += 8) {
-    run(verify('zfail'), { cwd: below, env: faults(below, { at, kill: 1 }) });
+  for (let at = 1; at <= count; at += Math.ceil(count / 25)) {
+    run(verify('zfail'), { cwd: below, env: faults(below, { at, ...killed }) });
     assertWhole(below, `killed at operation ${at} of ${count}`);
     assertMended(below, `killed at operation ${at} of ${count}`);
   }
   const begin = process.hrtime.bigint();
   run(verify('zfail'), { cwd: below });
   const milliseconds = Number(process.hrtime.bigint() - begin) / 1e6;
-  const moments = 40;
+  const moments = 100;
   for (let i = 0; i < moments; ++i) {
     // Every other time, the next run comes while the children of the killed one still end.
     const children = i % 2 === 0;
@@ -119,8 +119,7 @@ test('merge and explain: where any one file operation fails, what they write is 
   ];
   for (const command of commands) {
     const count = operationsOf(command, below, { cwd: below });
-    const stride = command.includes('merge') ? 3 : 1;
-    for (let at = 1; at <= count; at += stride) {
+    for (let at = 1; at <= count; ++at) {
       const where = `${command[1]}, operation ${at} of ${count}`;
       const done = run(command, { cwd: below, env: faults(below, { at, errno: 5 }) });
       // What cannot be read of a shard is damage, which is said.
@@ -177,22 +176,26 @@ test(`a disk that fills at every 4 KB: pictures are whole or not there (${mounts
   }
 });
 
-test(`a disk that fills at every 4 KB: the report is the old one or the new (${mounts ? 'tmpfs' : 'by the shim'})`, () => {
-  const below = place('full-report');
-  const old = join(scratch, 'old-report');
-  run(['cp', '-a', join(below, 'report'), old]);
-  const look = 'ls -A; ls -A report; cat report/notes.txt; grep -Eo "\\"z(pass|fail)\\"" report/results.json';
-  const seen = new Set();
-  let code = 3;
-  for (let bytes = 0; code !== 0; bytes += 4096) {
-    assert.ok(bytes < 2000000, 'the report never fits');
-    const done = withRoom(bytes, verify('zfail'), below, `rm -rf report; cp -a '${old}' report`, look);
-    code = done.code;
-    if (code !== 0) assertRefused(done, `${bytes} bytes`);
-    assert.match(done.look, /^report\nindex\.html\nmanifest\.json\nnear_plane\nnotes\.txt\nresults\.js\nresults\.json\nmine/,
-                 `${bytes} bytes`);
-    assert.ok(done.look.includes(`"${code === 0 ? 'zfail' : 'zpass'}"`), `${bytes} bytes: ${done.look}`);
-    seen.add(code);
-  }
-  assert.deepEqual([...seen], [3, 0]);
-});
+const where = mounts ? 'tmpfs' : 'by the shim';
+const merged = [program, 'merge', join(scratch, 'shard'), '--out', 'report', '-q'];
+assert.equal(run([...verify('zfail').slice(0, -3), '--out', 'shard', '-q']).code, 0);
+for (const [name, command] of [['verify', verify('zfail')], ['merge', merged]])
+  test(`a disk that fills at every 4 KB: the report of ${name} is the old one or the new (${where})`, () => {
+    const below = place(`full-${name}`);
+    const old = join(scratch, `old-${name}`);
+    run(['cp', '-a', join(below, 'report'), old]);
+    const look = 'ls -A; ls -A report; cat report/notes.txt; grep -Eo "\\"z(pass|fail)\\"" report/results.json';
+    const seen = new Set();
+    let code = 3;
+    for (let bytes = 0; code !== 0; bytes += 4096) {
+      assert.ok(bytes < 2000000, 'the report never fits');
+      const done = withRoom(bytes, command, below, `rm -rf report; cp -a '${old}' report`, look);
+      code = done.code;
+      if (code !== 0) assertRefused(done, `${bytes} bytes`);
+      assert.match(done.look, /^report\nindex\.html\nmanifest\.json\nnear_plane\nnotes\.txt\nresults\.js\nresults\.json\nmine/,
+                   `${bytes} bytes`);
+      assert.ok(done.look.includes(`"${code === 0 ? 'zfail' : 'zpass'}"`), `${bytes} bytes: ${done.look}`);
+      seen.add(code);
+    }
+    assert.deepEqual([...seen], [3, 0]);
+  });

@@ -5,7 +5,8 @@ import { chmodSync, closeSync, copyFileSync, linkSync, lstatSync, mkdirSync, ope
          readdirSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertRefused, contentOf, faults, operationsOf, run, scratch } from './faults.mjs';
+import { assertRefused, changes, contentOf, faults, killed, operationsOf, run, scratch }
+  from './faults.mjs';
 
 const program = process.env.WRITE_OUTPUT;
 const fresh = 'nnnnnnnn'; // what the program writes
@@ -201,11 +202,11 @@ test('where any one file operation fails, the old file or the new one is whole, 
 
 test('killed at any file operation, the old file or the new one is whole, and the next run alone', () => {
   const below = folder('killed', { old: 'old' });
-  const count = operationsOf([program, 'old'], below, { cwd: below });
+  const count = operationsOf([program, 'old'], below, { cwd: below, ...changes });
   for (let at = 1; at <= count; ++at) {
     const where = `operation ${at} of ${count}`;
     writeFileSync(join(below, 'old'), 'old');
-    const done = run([program, 'old'], { cwd: below, env: faults(below, { at, kill: 1 }) });
+    const done = run([program, 'old'], { cwd: below, env: faults(below, { at, ...killed }) });
     assert.equal(done.signal, 'SIGKILL', where);
     assert.ok(['old', fresh].includes(readFileSync(join(below, 'old'), 'utf8')), where);
     assert.equal(run([program, 'old'], { cwd: below }).code, 0);

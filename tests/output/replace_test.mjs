@@ -6,7 +6,7 @@ import { chmodSync, existsSync, lstatSync, mkdirSync, readFileSync, readdirSync,
          symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertRefused, contentOf, faults, killedAfter, operationsOf, run, scratch }
+import { assertRefused, changes, contentOf, faults, killed, killedAfter, operationsOf, run, scratch }
   from './faults.mjs';
 
 const program = process.env.REPLACE_FOLDER;
@@ -266,11 +266,11 @@ function assertMended(below, where) {
 
 test('killed at any file operation, the old report or the new one is whole', () => {
   const below = place('killed');
-  const count = operationsOf(command('report', ...newFiles), below, { cwd: below });
+  const count = operationsOf(command('report', ...newFiles), below, { cwd: below, ...changes });
   for (let at = 1; at <= count; ++at) {
     assert.equal(run(command('report', ...oldFiles), { cwd: below }).code, 0);
     const done = run(command('report', ...newFiles),
-                     { cwd: below, env: faults(below, { at, kill: 1 }) });
+                     { cwd: below, env: faults(below, { at, ...killed }) });
     assert.equal(done.signal, 'SIGKILL', `operation ${at}`);
     assertMended(below, `killed at operation ${at} of ${count}`);
   }
@@ -278,11 +278,11 @@ test('killed at any file operation, the old report or the new one is whole', () 
 
 test('where folders cannot be exchanged, a run after a kill finds what was there, or mends it', () => {
   const below = place('killed-poor');
-  const count = operationsOf(command('report', ...newFiles), below, { cwd: below, ...poor });
+  const count = operationsOf(command('report', ...newFiles), below, { cwd: below, ...changes, ...poor });
   let missing = 0;
   for (let at = 1; at <= count; ++at) {
     assert.equal(run(command('report', ...oldFiles), { cwd: below }).code, 0);
-    run(command('report', ...newFiles), { cwd: below, env: faults(below, { at, kill: 1, ...poor }) });
+    run(command('report', ...newFiles), { cwd: below, env: faults(below, { at, ...killed, ...poor }) });
     if (existsSync(join(below, 'report'))) assertWhole(below, `operation ${at}`);
     else ++missing;
     assert.equal(run(command('report', ...newFiles), { cwd: below, env: faults(below, poor) }).code, 0);
@@ -293,11 +293,11 @@ test('where folders cannot be exchanged, a run after a kill finds what was there
 
 test('killed twice in turn, a run after a run, nothing is lost either', () => {
   const below = place('killed-twice');
-  const count = operationsOf(command('report', ...newFiles), below, { cwd: below });
+  const count = operationsOf(command('report', ...newFiles), below, { cwd: below, ...changes });
   for (let at = 3; at <= count; at += 3) {
     run(command('report', ...oldFiles), { cwd: below });
     for (const files of [newFiles, newFiles])
-      run(command('report', ...files), { cwd: below, env: faults(below, { at, kill: 1 }) });
+      run(command('report', ...files), { cwd: below, env: faults(below, { at, ...killed }) });
     assertMended(below, `killed twice at operation ${at}`);
   }
 });

@@ -142,7 +142,7 @@ Scene degenerate_triangles() {
     return scene;
 }
 
-/// Vertices as small as floats go, beyond what expansions can hold.
+/// Vertices as small as floats go, beyond what limbs can hold.
 Scene denormals() {
     Scene scene = boxes({2, 3, -2});
     for (glm::vec3& p : scene.positions)

@@ -240,16 +240,26 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         if (!samples[i].empty()) drawn[i]->growth.points.push_back({value, samples[i]});
 }
 
+/// Whether an earlier run lost something of a technique on a scene: it is measured again.
+bool was_lost(const BenchRun& kept, const Growth& growth) {
+    return std::ranges::any_of(kept.left_out, [&](const BenchLeftOut& out) {
+        return out.loss != Loss::none && out.scene == growth.scene &&
+               out.technique == growth.technique;
+    });
+}
+
 /// Whether an earlier run had all of these lines, by the same commands: they are taken over.
 bool take_over(const BenchWork& work, const std::vector<Runner>& runners) {
     if (work.kept == nullptr) return false;
     std::vector<const Growth*> found;
-    for (const Runner& runner : runners)
+    for (const Runner& runner : runners) {
+        if (was_lost(*work.kept, runner.growth)) return false;
         for (const Growth& growth : work.kept->growth)
             if (growth.axis == runner.growth.axis && growth.scene == runner.growth.scene &&
                 growth.technique == runner.growth.technique &&
                 growth.command == runner.growth.command)
                 found.push_back(&growth);
+    }
     if (found.size() != runners.size()) return false;
     for (const Growth* growth : found) {
         work.run.growth.push_back(*growth);

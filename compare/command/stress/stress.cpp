@@ -114,10 +114,11 @@ void check_files(const StressOptions& options) {
                     Workload::comparison);
 }
 
-/// How many points and cells were lost.
+/// How much was lost.
 struct Losses {
-    std::size_t crashed = 0;
-    std::size_t timed_out = 0; ///< cells; a point that took too long has no truth
+    std::size_t points = 0;    ///< by a crash or by taking too long: there is no truth
+    std::size_t crashed = 0;   ///< cells
+    std::size_t timed_out = 0; ///< cells
 };
 
 Losses losses_of(const StressRun& run) {
@@ -125,7 +126,7 @@ Losses losses_of(const StressRun& run) {
     for (const StressScene& scene : run.scenes)
         for (const StressAlong& along : scene.parameters)
             for (const StressPoint& point : along.points) {
-                losses.crashed += point.loss != Loss::none ? 1 : 0;
+                losses.points += point.loss != Loss::none ? 1 : 0;
                 for (const StressCell& cell : point.cells) {
                     losses.crashed += cell.loss == Loss::crashed ? 1 : 0;
                     losses.timed_out += cell.loss == Loss::timed_out ? 1 : 0;
@@ -163,7 +164,7 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
     const bool unread = std::ranges::any_of(
         run.scenes, [](const StressScene& scene) { return !scene.error.empty(); });
     const Losses losses = losses_of(run);
-    if (unread || losses.crashed > 0 || tally.disagreements > 0 || tally.changed > 0)
+    if (unread || losses.points + losses.crashed > 0 || tally.disagreements > 0 || tally.changed > 0)
         return exit_could_not;
     return tally.unexplained + losses.timed_out > 0 ? exit_failed : exit_passed;
 }

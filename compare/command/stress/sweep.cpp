@@ -36,7 +36,7 @@ struct Sweep {
     std::vector<const Technique*> techniques{};
     const StressParameter* parameter = nullptr;
     StressAlong along{};
-    std::string place{}; ///< "3 of 19 parameters"
+    std::string place{}; ///< ", parameter 3 of 19"; empty for the scene as it is
 };
 
 /// The words, after the program's name, that show a cell again.
@@ -90,7 +90,8 @@ std::string place_of(const std::optional<Stress>& stress) {
 
 /// Says once what was lost.
 void complain_of(const Sweep& sweep, const std::string& place, const LostPiece& lost) {
-    complain(fmt::format("{}, {}: {}", sweep.name, place, lost.what()));
+    if (!sweep.work.pieces.catching_up())
+        complain(fmt::format("{}, {}: {}", sweep.name, place, lost.what()));
 }
 
 StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
@@ -129,7 +130,7 @@ StressCell try_technique(const Sweep& sweep, Trial& trial, const Technique& tech
     try {
         return sweep.work.pieces.piece(name, [&] { return draw(sweep, trial, technique); });
     } catch (const LostPiece& lost) {
-        if (!sweep.work.pieces.catching_up()) complain_of(sweep, place_of(trial.stress), lost);
+        complain_of(sweep, place_of(trial.stress), lost);
         return {.technique = name,
                 .refused = lost.what(),
                 .loss = lost.loss,
@@ -144,7 +145,7 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     const std::string place = place_of(stress);
     const auto progress = [&](std::string_view what) {
         work.console.progress(
-            fmt::format("{}{}, {}: {}: {}", work.place, sweep.name, sweep.place, place, what));
+            fmt::format("{}{}{}: {}: {}", work.place, sweep.name, sweep.place, place, what));
     };
     progress("tracing");
     require_scene(work.options.scene.memory, scene, Workload::comparison);
@@ -176,6 +177,29 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     }
 }
 
+/// A point that was lost while it was traced has neither truth nor cells.
+void lose(const Sweep& sweep, const std::string& place, const LostPiece& lost, StressPoint& point) {
+    complain_of(sweep, place, lost);
+    point.refused = lost.what();
+    point.loss = lost.loss;
+}
+
+/// The scene as it is. One that is refused is of no use at any value.
+StressPoint own_point(const Sweep& sweep) {
+    StressPoint point{.own = true};
+    const std::string place = place_of(std::nullopt);
+    try {
+        return sweep.work.pieces.piece(place, [&] {
+            StressPoint tried = point;
+            try_point(sweep, sweep.scene, std::nullopt, sweep.techniques, tried);
+            return tried;
+        });
+    } catch (const LostPiece& lost) {
+        lose(sweep, place, lost, point);
+    }
+    return point;
+}
+
 /// Adds the point of a value, or what is still missing there.
 void add_point(Sweep& sweep, double value, bool searched,
                const std::vector<const Technique*>& techniques) {
@@ -192,9 +216,7 @@ void add_point(Sweep& sweep, double value, bool searched,
     } catch (const std::bad_alloc&) {
         point.refused = out_of_memory;
     } catch (const LostPiece& lost) {
-        if (!sweep.work.pieces.catching_up()) complain_of(sweep, words_of(stress), lost);
-        point.refused = lost.what();
-        point.loss = lost.loss;
+        lose(sweep, words_of(stress), lost, point);
     } catch (const Error& error) {
         point.refused = error.what();
     }
@@ -226,7 +248,8 @@ StressAlong sweep_along(Sweep& sweep, const StressParameter& parameter, const St
     StressPoint& point = sweep.along.points.emplace_back(own);
     point.value = parameter.own(sweep.scene);
     for (const StressCell& cell : own.cells)
-        if (has_failed(cell)) sweep.along.wrong_before.push_back(cell.technique);
+        if (cell.refused.empty() && has_failed(cell))
+            sweep.along.wrong_before.push_back(cell.technique);
     sweep_side(sweep, false);
     sweep_side(sweep, true);
     return std::move(sweep.along);
@@ -274,11 +297,7 @@ StressScene stress_scene(const StressWork& work, const std::string& argument) {
     for (const Technique* technique : options.technique.chosen())
         if (!options.technique.techniques.empty() || suits(*technique, scene))
             sweep.techniques.push_back(technique);
-    const StressPoint own = work.pieces.piece("as it is", [&] {
-        StressPoint point{.own = true};
-        try_point(sweep, scene, std::nullopt, sweep.techniques, point);
-        return point;
-    });
+    const StressPoint own = own_point(sweep);
 
     const std::vector<const StressParameter*> parameters = asked_parameters(options);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -287,7 +306,7 @@ StressScene stress_scene(const StressWork& work, const std::string& argument) {
             described.left_out.emplace_back(parameter.name);
             continue;
         }
-        sweep.place = fmt::format("parameter {} of {}", i + 1, parameters.size());
+        sweep.place = fmt::format(", parameter {} of {}", i + 1, parameters.size());
         described.parameters.push_back(sweep_along(sweep, parameter, own));
         work.console.clear_progress();
         for (const std::string& line : stress_table(described.parameters.back()))

@@ -80,7 +80,14 @@ glm::dmat3 lighting_axes(const Scene& scene, const ColorModel& model) {
 
 // A frame whose axes are off is a rotated one: N is moved to its place, and then T about it. The
 // products' sums round four times, of vectors that are at most 1 long.
+//
+// Without tangents the components along them are 0, and no longer tell how far the vector is from
+// N, on which it depends what a rotation does: it is rotated before.
 VectorRange into(const TangentFrame& frame, const VectorRange& vector) {
+    if (frame.tangent == glm::dvec3(0)) {
+        const Interval along_normal = dot(vector, {around(frame.normal), 0, frame.normal_off});
+        return {{around(0), around(0), widened(along_normal, 4 * v)}};
+    }
     const double turn = frame.normal_off + frame.tangent_off;
     const auto along = [&](const glm::dvec3& axis) {
         const Interval carried = dot(vector.box, around(axis));

@@ -113,15 +113,32 @@ private:
     }
 
     void add_caps(const Part& part) {
-        for (const std::uint32_t triangle : part.triangles) {
+        const std::vector<std::uint32_t>& triangles = part.triangles;
+        std::uint32_t copies = 1;
+        for (std::size_t i = 0; i < triangles.size(); i += copies) {
+            const std::uint32_t triangle = triangles[i];
+            copies = 1;
+            while (i + copies < triangles.size() && triangles[i + copies] == triangle + copies &&
+                   have_same_caps(part, triangle, triangle + copies))
+                ++copies;
             if (facing_[triangle] == Facing::no) continue;
             const bool certain = facing_[triangle] == Facing::yes;
             const glm::uvec3 corners = casters_.triangles[triangle];
             if (part.caster.light_cap && !is_hidden(part, triangle))
-                found_.faces.push_back(
-                    {DrawnFace::Part::light_cap, certain, triangle, corners, {}});
-            if (part.caster.dark_cap) add_dark_cap(triangle, corners, certain);
+                found_.faces.push_back({.part = DrawnFace::Part::light_cap,
+                                        .certain = certain,
+                                        .triangle = triangle,
+                                        .corners = corners,
+                                        .other_corner = {},
+                                        .copies = copies});
+            if (part.caster.dark_cap) add_dark_cap(triangle, corners, certain, copies);
         }
+    }
+
+    bool have_same_caps(const Part& part, std::uint32_t one, std::uint32_t other) const {
+        return casters_.triangles[one] == casters_.triangles[other] &&
+               facing_[one] == facing_[other] && is_hidden(part, one) == is_hidden(part, other) &&
+               split_.behind(one) == nullptr && split_.behind(other) == nullptr;
     }
 
     /// Of a volume with a split far end, a triangle for each of its faces that the plane cuts: its
@@ -136,9 +153,15 @@ private:
         for (int i = 0; i < faces; ++i) found_.near_layers.push_back({triangle, true});
     }
 
-    void add_dark_cap(std::uint32_t triangle, const glm::uvec3& corners, bool certain) {
+    void add_dark_cap(std::uint32_t triangle, const glm::uvec3& corners, bool certain,
+                      std::uint32_t copies) {
         const auto add = [&](const glm::uvec3& cap) {
-            found_.faces.push_back({DrawnFace::Part::dark_cap, certain, triangle, cap, {}});
+            found_.faces.push_back({.part = DrawnFace::Part::dark_cap,
+                                    .certain = certain,
+                                    .triangle = triangle,
+                                    .corners = cap,
+                                    .other_corner = {},
+                                    .copies = copies});
         };
         const auto far_end = [&](std::uint32_t position) { return far_end_of(position); };
         if (split_.behind(triangle) == nullptr)
@@ -148,7 +171,8 @@ private:
     }
 
     /// The two triangles of a side, parted from the earlier position's far end to the later one.
-    void add_side(std::uint32_t a, std::uint32_t b, std::uint32_t triangle, bool certain = true) {
+    void add_side(std::uint32_t a, std::uint32_t b, std::uint32_t triangle, bool certain = true,
+                  std::uint32_t copies = 1) {
         const std::uint32_t low = std::min(a, b);
         const std::uint32_t high = std::max(a, b);
         constexpr auto part = DrawnFace::Part::side;
@@ -158,11 +182,13 @@ private:
             const std::uint32_t middle = along(*across);
             for (const glm::uvec3& face :
                  {glm::uvec3{middle, high, low}, {middle, low, low_end}, {middle, high_end, high}})
-                found_.faces.push_back({part, certain, triangle, face, {}});
+                found_.faces.push_back({part, certain, triangle, face, {}, false, copies});
             return;
         }
-        found_.faces.push_back({part, certain, triangle, {high, low, low_end}, high_end, true});
-        found_.faces.push_back({part, certain, triangle, {low_end, high_end, high}, low});
+        found_.faces.push_back(
+            {part, certain, triangle, {high, low, low_end}, high_end, true, copies});
+        found_.faces.push_back(
+            {part, certain, triangle, {low_end, high_end, high}, low, false, copies});
     }
 
     void add_all_sides(const Part& part) {
@@ -198,8 +224,9 @@ private:
             int surplus = 0;
             for (; end < uses.size() && edge_of(uses[end]) == edge_of(uses[begin]); ++end)
                 surplus += uses[end].runs;
-            for (int i = 0; i < std::abs(surplus); ++i)
-                add_side(uses[begin].low, uses[begin].high, uses[begin].triangle);
+            if (surplus != 0)
+                add_side(uses[begin].low, uses[begin].high, uses[begin].triangle, true,
+                         static_cast<std::uint32_t>(std::abs(surplus)));
         }
     }
 

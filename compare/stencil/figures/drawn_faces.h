@@ -26,6 +26,9 @@ struct DrawnFace {
     /// other one has.
     std::optional<std::uint32_t> other_corner;
     bool first_of_side = false;
+    /// How often it is drawn: a side with a surplus, or the caps of so many triangles with the same
+    /// corners, of which `triangle` is the first and the others follow it.
+    std::uint32_t copies = 1;
 };
 
 /// What is drawn where a triangle's volume meets the near plane.

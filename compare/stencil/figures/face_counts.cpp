@@ -80,7 +80,11 @@ private:
             making_, {place(drawn.corners.x), place(drawn.corners.y), place(drawn.corners.z)},
             drawn.other_corner ? &other : nullptr, glm::length(glm::dvec3(light_)));
         face.stands_for_both = !drawn.other_corner || drawn.first_of_side;
-        if (drawn.part == DrawnFace::Part::light_cap) face.light_cap_of = drawn.triangle;
+        face.copies = drawn.copies;
+        if (drawn.part == DrawnFace::Part::light_cap) {
+            face.light_cap_of = drawn.triangle;
+            face.own_triangles = drawn.copies;
+        }
         if (!drawn.certain) face.certain = face.certain_of_both = {};
         return face;
     }
@@ -192,8 +196,8 @@ private:
         FigureRange& row = fragments_[static_cast<std::size_t>(y)];
         const int counted = face.stands_for_both ? certain.length() : 0;
         const int others = possible.length() - common(certain, possible).length();
-        row.low += static_cast<std::uint64_t>(counted);
-        row.high += static_cast<std::uint64_t>(counted + others);
+        row.low += std::uint64_t{face.copies} * static_cast<std::uint64_t>(counted);
+        row.high += std::uint64_t{face.copies} * static_cast<std::uint64_t>(counted + others);
     }
 
     void add_row(const PicturedFace& face, int y, std::vector<double>& errors) {
@@ -206,8 +210,9 @@ private:
         std::int32_t* low = &counts_.low.at(0, y);
         std::int32_t* high = &counts_.high.at(0, y);
         if (face.in_front || face.edge_on) {
-            for (int x = possible.first; x < possible.end; ++x) ++high[x];
-            for (int x = certain.first; face.in_front && x < certain.end; ++x) ++low[x];
+            const auto copies = static_cast<std::int32_t>(face.copies);
+            for (int x = possible.first; x < possible.end; ++x) high[x] += copies;
+            for (int x = certain.first; face.in_front && x < certain.end; ++x) low[x] += copies;
             return;
         }
         if (face.parts.size() == 1) {
@@ -227,7 +232,7 @@ private:
     }
 
     /// Counts the face where it is not behind what is seen, with its inverse depth moved by `side`
-    /// times its error.
+    /// times its error; a light cap at least once where its own triangle is seen.
     template <class ErrorAt>
     void add_in_front(const PicturedFace& face, int y, PixelRun run, double side,
                       const ErrorAt& error_at, std::int32_t* faces) const {
@@ -238,10 +243,13 @@ private:
         const double slope = inverse.x;
         const double share = share_error_;
         const std::uint32_t own = face.light_cap_of;
+        const std::uint32_t own_count = face.own_triangles;
+        const auto copies = static_cast<std::int32_t>(face.copies);
         for (int x = run.first; x < run.end; ++x) {
             const double depth = start + slope * x;
-            const int in_front = depth + side * (error_at(x) + share * depth) >= seen[x] ? 1 : 0;
-            faces[x] += in_front | (triangles[x] == own ? 1 : 0);
+            const bool in_front = depth + side * (error_at(x) + share * depth) >= seen[x];
+            const std::int32_t seen_itself = triangles[x] - own < own_count ? 1 : 0;
+            faces[x] += in_front ? copies : seen_itself;
         }
     }
 

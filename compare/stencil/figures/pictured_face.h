@@ -64,11 +64,13 @@ struct PicturedFace {
     /// Pixels with a certain fragment of exactly one of two faces: this one and the one that shares
     /// an edge with it. Without the latter, as `certain`. One of the two stands for both.
     ConvexRegion certain_of_both;
-    bool is_one_of_two = false;               ///< there is such another face
-    bool stands_for_both = true;              ///< always, where there is none
-    bool in_front = false;                    ///< in front of everything
-    bool edge_on = false;                     ///< it may have any depth
-    std::uint32_t light_cap_of = 0xffffffffU; ///< the triangle whose surface it coincides with
+    bool is_one_of_two = false;      ///< there is such another face
+    bool stands_for_both = true;     ///< always, where there is none
+    bool in_front = false;           ///< in front of everything
+    bool edge_on = false;            ///< it may have any depth
+    std::uint32_t copies = 1;        ///< how many faces it is (DrawnFace::copies)
+    std::uint32_t light_cap_of = 0;  ///< the first of the triangles whose surface it coincides with
+    std::uint32_t own_triangles = 0; ///< how many those are: one of each copy of a light cap
     /// The inverse of its view depth at a pixel (x, y): inverse_depth . (x, y, 1).
     glm::dvec3 inverse_depth{0, 0, 0};
     /// The parts in which it may be set up: more than one if it is clipped.

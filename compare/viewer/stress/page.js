@@ -13,6 +13,9 @@ const chartWidth = () => Math.max(760, Math.min(1300, document.documentElement.c
 const hasFailed = (point) =>
   Boolean(point.refused) || wrongPixels(point) > 0 || point.verdict === 'unexplained';
 
+/** "refused", or what it was lost by: "crashed", "timed out". */
+const refusal = ({ loss }) => (loss ?? 'refused').replaceAll('_', ' ');
+
 const shareOf = (point) => ({ value: point.value, share: percent(wrongPixels(point), point) });
 
 /** A parameter's entries of the chosen scene. */
@@ -47,7 +50,7 @@ function wrongSeries(points, parameter) {
 
 function chosenStory(point) {
   if (point.refused)
-    return [element('h3', {}, `${point.technique}: refused`), element('p', {}, point.refused)];
+    return [element('h3', {}, `${point.technique}: ${refusal(point)}`), element('p', {}, point.refused)];
   const what = `${point.technique} at ${point.parameter}=${valueWords(point.value)}`;
   return [
     element('h3', {}, what),
@@ -76,10 +79,10 @@ function truthWords(point) {
 function matrix(points, parameter, story) {
   const values = points.filter(({ technique }) => technique === 'truth');
   const entry = (point) => {
-    const wrong = point.refused ? 'refused' : grouped(wrongPixels(point));
+    const wrong = point.refused ? refusal(point) : grouped(wrongPixels(point));
     const verdict = point.verdict === 'unexplained' ? 'unexplained'
       : hasFailed(point) ? 'fails' : 'holds';
-    const words = point.refused ? 'refused' : errorWords(point);
+    const words = point.refused ? refusal(point) : errorWords(point);
     const button = element('button', { type: 'button', 'data-verdict': verdict, title: words,
       'aria-pressed': 'false',
       onclick: () => {
@@ -120,7 +123,7 @@ function parameterSection(parameter) {
   const points = pointsAlong(parameter);
   const truths = points.filter(({ technique, refused }) => technique === 'truth' && !refused);
   const values = truths.map(({ value }) => value);
-  const own = truths.find((point) => point.own);
+  const own = points.find((point) => point.own);
   const ink = isDark() ? darkInk : lightInk;
   const series = wrongSeries(points, parameter);
   const story = element('section', { 'aria-live': 'polite', class: 'story',
@@ -134,6 +137,8 @@ function parameterSection(parameter) {
     breakingTable(parameter),
     parameter.wrong_before.length > 0 ? element('p', { class: 'quiet' },
       `Wrong on the scene as it is: ${parameter.wrong_before.join(', ')}.`) : null,
+    ...points.filter((point) => point.own && point.refused)
+      .map((point) => alertLine(`${refusal(point)} on the scene as it is: ${point.refused}`)),
     series.length > 0 ? frame(`${title} along ${parameter.name}`,
                               shareChart(title, series, values, own.value, ink, chartWidth()))
       : null,

@@ -109,6 +109,48 @@ ColorCheck colors_of(const char* scene, const char* technique) {
     return colors_of(traced(scene, 256), *find_technique(technique), {}, gpu);
 }
 
+/// Every bump-mapped mesh becomes two, of which the second has no bumps, and so no tangents.
+Scene half_smooth(Scene scene) {
+    const std::vector<Mesh> given = std::exchange(scene.meshes, {});
+    for (const Mesh& mesh : given) {
+        scene.meshes.push_back(mesh);
+        if (scene.materials[mesh.material].bump == Bump::none) continue;
+        Mesh& rough = scene.meshes.back();
+        rough.triangle_count /= 2;
+        Mesh smooth = mesh;
+        smooth.name += ", smooth";
+        smooth.first_triangle += rough.triangle_count;
+        smooth.triangle_count -= rough.triangle_count;
+        smooth.material = static_cast<std::uint32_t>(scene.materials.size());
+        scene.materials.push_back(scene.materials[mesh.material]);
+        scene.materials.back().bump = Bump::none;
+        for (std::uint32_t t = 0; t < smooth.triangle_count; ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+                scene.surfaces[std::size_t{3} * (smooth.first_triangle + t) + k].tangent =
+                    glm::vec4(0);
+        scene.meshes.push_back(std::move(smooth));
+    }
+    return scene;
+}
+
+/// Such a surface has no tangents, and yet what its interpolated normals are off by counts for all
+/// of the vectors to light and eye.
+TEST(Colors, of_smooth_surfaces_beside_bumps_are_predicted) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const std::string& name : bump_lit_scenes()) {
+        SceneRequest request;
+        request.width = request.height = 96;
+        const TracedScene scene(half_smooth(load_scene(name, request)));
+        for (const Technique* technique : techniques_for(scene.scene)) {
+            SCOPED_TRACE(name + ", " + std::string(technique->name));
+            const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
+            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            EXPECT_EQ(colors.unpredicted, 0U)
+                << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+        }
+    }
+}
+
 TEST(Colors, one_pass_dims_highlights_near_the_terminator_and_three_passes_do_not) {
     EXPECT_GT(colors_of("terminator_highlight", "bump_one_pass").beyond, 1000U);
     EXPECT_EQ(colors_of("terminator_highlight", "bump_three_pass").beyond, 0U);

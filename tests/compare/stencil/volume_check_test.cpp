@@ -2,6 +2,7 @@
 #include "compare/stencil/figures/pictured_face.h"
 #include "compare/stencil/figures/volume_check.h"
 #include "scenes/load/catalog.h"
+#include "scenes/stress/parameter.h"
 #include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
 
@@ -161,6 +162,23 @@ TEST(VolumeCheck, one_face_too_many_or_missing_is_caught_at_nearly_every_pixel) 
             EXPECT_NE(words_of(check).find("picture of the volumes unexplained at"),
                       std::string::npos);
         }
+    }
+}
+
+/// Copies of a face are pictured once and counted as often as they are drawn.
+TEST(VolumeCheck, of_triangles_that_are_there_three_times_each_copy_counts) {
+    const TracedScene traced(
+        stressed(small("near_plane"), {.parameter = "coincident_faces", .value = 3}));
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* technique : {"zpass", "zfail", "zfail_reversed", "zfail_per_triangle"}) {
+        SCOPED_TRACE(technique);
+        Frame frame = render(*find_technique(technique), traced.scene, traced.plan, gpu);
+        const VolumeCheck check = checked(traced, frame);
+        EXPECT_TRUE(check.holds()) << words_of(check);
+        const FigureRange& range = check.fragments.predicted;
+        EXPECT_LT(range.high - range.low, frame.counted->volume_fragments / 8 + 100);
+        frame.counted->volume_fragments = frame.counted->volume_fragments / 3 * 2;
+        EXPECT_FALSE(checked(traced, frame).fragments.holds());
     }
 }
 

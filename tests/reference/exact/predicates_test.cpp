@@ -5,10 +5,10 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <memory_resource>
 #include <random>
 
 namespace shadowproof {
@@ -26,6 +26,7 @@ struct RationalArithmetic {
         friend Number operator*(const Number& a, const Number& b) { return {a.value * b.value}; }
     };
     Number number(double a) const { return {mpq_class(a)}; }
+    Number direction(double a) const { return number(a); }
     Number difference(double a, double b) const { return {mpq_class(a) - mpq_class(b)}; }
 };
 
@@ -38,12 +39,11 @@ double any_double(std::mt19937& random) {
     return std::ldexp(mantissa(random), exponent(random));
 }
 
-TEST(Expansion, sums_and_products_of_random_doubles_have_the_sign_of_their_rationals) {
+TEST(Limbs, sums_and_products_of_random_doubles_have_the_sign_of_their_rationals) {
     std::mt19937 random(seed);
     for (int trial = 0; trial < 20000; ++trial) {
-        std::pmr::monotonic_buffer_resource arena;
         bool left_range = false;
-        const ExpansionArithmetic exact{&arena, &left_range};
+        const LimbsArithmetic exact{&left_range};
         std::array<double, 6> x{};
         for (double& value : x) value = any_double(random);
         // A determinant whose value is the rounding error of a larger one.
@@ -58,11 +58,47 @@ TEST(Expansion, sums_and_products_of_random_doubles_have_the_sign_of_their_ratio
     }
 }
 
-TEST(Expansion, an_input_beyond_its_range_is_noticed) {
-    const auto leaves = [](const auto& use) {
-        std::pmr::monotonic_buffer_resource arena;
+/// A double whose size is anything from `smallest` to limbs_largest, with all bits or a few.
+double within_range(std::mt19937& random, double smallest) {
+    std::uniform_real_distribution<double> exponent(std::log2(smallest), std::log2(limbs_largest));
+    const double size = std::clamp(std::exp2(exponent(random)), smallest, limbs_largest);
+    const double few = std::ldexp(1.0, std::ilogb(size) + 1);
+    const double chosen = random() % 4 == 0 && few <= limbs_largest ? few : size;
+    return random() % 2 == 0 ? chosen : -chosen;
+}
+
+TEST(Limbs, hold_sums_of_degree_six_of_inputs_from_one_end_of_their_range_to_the_other) {
+    std::mt19937 random(seed);
+    for (int trial = 0; trial < 20000; ++trial) {
+        std::array<double, 12> x{};
+        for (double& value : x) value = within_range(random, limbs_smallest);
+        // Now and then ends themselves, whose products have most digits.
+        for (double& value : x)
+            if (random() % 8 == 0) value = random() % 2 == 0 ? limbs_smallest : -limbs_largest;
+        const double d = within_range(random, limbs_smallest_direction);
+        const auto formula = [&](const auto& arithmetic) {
+            const auto product = [&](int first) {
+                auto result = arithmetic.direction(d);
+                for (int k = 0; k < 5; ++k) {
+                    const auto i = static_cast<std::size_t>(first + k);
+                    result = result * arithmetic.difference(x[i], x[i + 1]);
+                }
+                return result;
+            };
+            return product(0) - product(6) + product(3);
+        };
         bool left_range = false;
-        use(ExpansionArithmetic{&arena, &left_range});
+        ASSERT_EQ(formula(LimbsArithmetic{&left_range}).sign(),
+                  formula(RationalArithmetic{}).sign())
+            << "seed " << seed << ", trial " << trial;
+        ASSERT_FALSE(left_range);
+    }
+}
+
+TEST(Limbs, an_input_beyond_its_range_is_noticed) {
+    const auto leaves = [](const auto& use) {
+        bool left_range = false;
+        use(LimbsArithmetic{&left_range});
         return left_range;
     };
     for (const double inside : {0.0, -0.0, 1e-20, -1e20})
@@ -102,10 +138,10 @@ TEST(Dyadic, sums_and_products_of_any_finite_doubles_have_the_sign_of_their_rati
     }
 }
 
-TEST(Predicates, inputs_that_expansions_would_lose_are_decided_all_the_same) {
+TEST(Predicates, inputs_that_limbs_would_lose_are_decided_all_the_same) {
     const Predicates predicates;
     // The normal is (1e-120, -1e-30, -1e-30), and what is seen of it 1e-90 - 2 * 0.75e-90: the
-    // first term is a product of numbers of which expansions would lose the last bits.
+    // first term is a product of numbers of which limbs have no room for the last bits.
     const Corners t{{0, 0, 0}, {1e30, 1e-60, 0}, {1e30, 0, 1e-60}};
     const glm::dvec3 above{1e30, 0.75e-60, 0.75e-60};
     EXPECT_EQ(predicates.side({above, 1}, t).sign, 1);

@@ -36,8 +36,9 @@ class FarCorner : public testing::TestWithParam<glm::dvec4> {};
 TEST_P(FarCorner, takes_nothing_from_what_floats_see_of_the_others) {
     for (const float far : {1e12F, 1e18F}) {
         const Scene scene = row_with_a_far_corner(far);
-        const Hierarchy hierarchy = build_hierarchy(scene, 1);
-        const OriginView view = view_from(GetParam(), true, scene, hierarchy, {}, 1);
+        const Places places = find_places(scene, {}, 1);
+        const Hierarchy hierarchy = build_hierarchy(scene, places.firsts(), 1);
+        const OriginView view = view_from(GetParam(), true, scene, hierarchy, places, {}, 1);
         EXPECT_GE(view.scale * 64, 0.125);
         EXPECT_TRUE(has_box_everywhere(view));
     }
@@ -45,8 +46,9 @@ TEST_P(FarCorner, takes_nothing_from_what_floats_see_of_the_others) {
 
 TEST_P(FarCorner, that_is_not_far_is_scaled_like_the_others) {
     const Scene scene = row_with_a_far_corner(1000);
-    const Hierarchy hierarchy = build_hierarchy(scene, 1);
-    const OriginView view = view_from(GetParam(), true, scene, hierarchy, {}, 1);
+    const Places places = find_places(scene, {}, 1);
+    const Hierarchy hierarchy = build_hierarchy(scene, places.firsts(), 1);
+    const OriginView view = view_from(GetParam(), true, scene, hierarchy, places, {}, 1);
     EXPECT_LE(view.scale * 1000, 1);
     EXPECT_FALSE(has_box_everywhere(view));
 }

@@ -1,10 +1,12 @@
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
+#include "scenes/mesh/topology.h"
 #include "scenes/stress/parameter.h"
 #include "scenes/stress/place.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -194,6 +196,44 @@ TEST(StressParameters, slivers_cover_what_their_triangle_covered) {
     const glm::dvec3 c = corner(split, 0, 2);
     const double height = glm::length(glm::cross(b - a, c - a)) / glm::distance(a, b);
     EXPECT_NEAR(glm::distance(a, b) / height, 1e4, 10);
+}
+
+TEST(StressParameters, small_triangles_are_as_small_as_asked_and_leave_no_gaps) {
+    const Scene scene = box_over_floor();
+    const Scene split = stressed(scene, {"triangle_size", 0.01});
+    EXPECT_EQ(split.triangles.size(), 7 * scene.triangles.size());
+    expect_meshes_cover_all(split);
+    EXPECT_NEAR(area_of(split), area_of(scene), 1e-5 * area_of(scene));
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        const std::uint32_t small = 7 * i; // the others are around it
+        const double pixel = 2 * scene.camera.tan_half_height *
+                             glm::distance(corner(split, small, 0), scene.camera.eye) /
+                             scene.camera.height;
+        double longest = 0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(
+                longest, glm::distance(corner(split, small, k), corner(split, small, (k + 1) % 3)));
+        EXPECT_NEAR(longest / pixel, 0.01, 1e-4);
+    }
+    const std::vector<std::uint32_t> box = triangles_of(split.meshes[0]);
+    EXPECT_TRUE(boundary(split, weld_by_position(split.positions), box).empty());
+}
+
+TEST(StressParameters, a_receiver_grows_in_its_plane_and_nothing_else_does) {
+    const Scene scene = box_over_floor();
+    const Scene large = stressed(scene, {"receiver_size", 1e4});
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(large.positions[i], scene.positions[i]);
+    for (std::size_t i = 8; i < 12; ++i) EXPECT_EQ(large.positions[i].y, 0);
+    const double height = 2 * scene.camera.tan_half_height * size_of(scene); // of the picture
+    EXPECT_NEAR(glm::distance(large.positions[8], large.positions[10]) / height, 1e4, 1);
+}
+
+TEST(StressParameters, a_light_comes_down_to_the_receivers_plane) {
+    const Scene scene = box_over_floor();
+    const Scene level = stressed(scene, {"light_to_plane", 0});
+    EXPECT_EQ(chosen_light(level).position, glm::dvec3(0.5, 0, 0.25));
+    const Scene above = stressed(scene, {"light_to_plane", 1e-3});
+    EXPECT_NEAR(chosen_light(above).position.y, 1e-3 * size_of(scene), 1e-15);
 }
 
 TEST(StressParameters, faces_and_casters_are_repeated_as_often_as_asked) {

@@ -1,0 +1,26 @@
+// Triangles that lie in one place, or in one plane: what is decided of one of them holds of all.
+#pragma once
+
+#include "reference/exact/predicates.h"
+#include "scenes/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace shadowproof {
+
+/// All are per triangle.
+struct Places {
+    std::vector<std::uint32_t> first; ///< the first with the same three corners, in any order
+    std::vector<std::uint32_t> next;  ///< the next such one, or no_triangle
+    std::vector<std::uint32_t> plane; ///< two with one number lie exactly in one plane
+
+    /// The first of each place, in ascending order.
+    std::vector<std::uint32_t> firsts() const;
+};
+
+/// Triangles in one plane may have different numbers where rounding parts them, and those of hardly
+/// any area always have. O(n) time.
+Places find_places(const Scene& scene, const Predicates& predicates, int threads);
+
+} // namespace shadowproof
