@@ -1,8 +1,9 @@
 #include "compare/command/guard.h"
 
-#include "compare/command/child_process.h"
-#include "compare/command/console.h"
-#include "compare/command/standard_output.h"
+#include "compare/command/process/child_process.h"
+#include "compare/command/process/console.h"
+#include "compare/command/process/exit_code.h"
+#include "compare/command/process/standard_output.h"
 #include "compare/memory.h"
 #include "compare/output/unfinished.h"
 #include "compare/report/report.h"

@@ -1,7 +1,7 @@
 #include "compare/command/judged_cell.h"
 
 #include "compare/blank.h"
-#include "compare/command/stopwatch.h"
+#include "compare/command/process/stopwatch.h"
 #include "compare/families.h"
 #include "raster/render.h"
 

@@ -1,5 +1,6 @@
 #include "compare/command/commands.h"
-#include "compare/command/standard_output.h"
+#include "compare/command/process/exit_code.h"
+#include "compare/command/process/standard_output.h"
 #include "scenes/load/catalog.h"
 
 #include <fmt/format.h>

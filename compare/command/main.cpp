@@ -1,7 +1,8 @@
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
-#include "compare/command/signals.h"
-#include "compare/command/standard_output.h"
+#include "compare/command/process/exit_code.h"
+#include "compare/command/process/signals.h"
+#include "compare/command/process/standard_output.h"
 #include "reference/trace/trace.h"
 
 #include <fmt/format.h>

@@ -22,14 +22,6 @@ class Validator;
 
 namespace shadowproof {
 
-/// Exit codes, for scripts and build servers.
-enum ExitCode : int {
-    exit_passed = 0,    ///< agrees, or fails as predicted
-    exit_failed = 1,    ///< a defect or an unexplained pixel
-    exit_usage = 2,     ///< wrong usage
-    exit_could_not = 3, ///< unreadable scene, no OpenGL, blank or NaN render
-};
-
 /// A subcommand's work, returning an exit code; main() registers and runs them.
 using Work = std::function<int()>;
 

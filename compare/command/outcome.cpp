@@ -2,7 +2,8 @@
 
 #include "compare/command/options.h"
 #include "compare/command/output_files.h"
-#include "compare/command/standard_output.h"
+#include "compare/command/process/exit_code.h"
+#include "compare/command/process/standard_output.h"
 #include "compare/output/write_file.h"
 #include "raster/technique.h"
 #include "scenes/error.h"

@@ -1,8 +1,8 @@
 // The end of a run, the same for all commands that judge one: files, console, exit code.
 #pragma once
 
-#include "compare/command/console.h"
 #include "compare/command/gate_options.h"
+#include "compare/command/process/console.h"
 #include "compare/report/report.h"
 #include "compare/results/baseline.h"
 

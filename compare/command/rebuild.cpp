@@ -1,9 +1,10 @@
 #include "compare/command/rebuild.h"
 
-#include "compare/command/console.h"
 #include "compare/command/guard.h"
 #include "compare/command/options.h"
 #include "compare/command/output_files.h"
+#include "compare/command/process/console.h"
+#include "compare/command/process/exit_code.h"
 #include "compare/output/write_file.h"
 #include "compare/results/merge.h"
 #include "compare/results/results_check.h"

@@ -35,7 +35,7 @@ Json legend() {
 
 std::string report_page() {
     return fill(viewer_file("page.html"),
-                {{"style", std::string(viewer_file("style.css"))},
+                {{"style", viewer_style()},
                  {"script", viewer_script()},
                  {"legend", "shadowproof.legend(" + legend().dump(1) + ");"}});
 }

@@ -16,7 +16,8 @@ std::string fill(std::string_view text, const Gaps& values);
 /// An embedded file of compare/viewer, "page.html"; it must exist (asserted).
 std::string_view viewer_file(std::string_view name);
 
-/// The scripts of the report's page, one after the other.
+/// The scripts of the report's page, and its styles, one after the other.
 std::string viewer_script();
+std::string viewer_style();
 
 } // namespace shadowproof

@@ -1,6 +1,6 @@
 #include "compare/stencil/pixel_readings.h"
 #include "compare/stencil/shared_faces.h"
-#include "reference/predict/tally.h"
+#include "reference/predict/prediction.h"
 
 #include <algorithm>
 

@@ -1,22 +1,7 @@
 #include "compare/stencil/pixel_readings.h"
-#include "reference/predict/tally.h"
-
-#include <algorithm>
-#include <array>
+#include "reference/predict/prediction.h"
 
 namespace shadowproof {
-
-void sort_out(std::vector<Reading>& readings) {
-    const auto key = [](const Reading& r) {
-        return std::array<std::int64_t, 5>{r.count, r.ideal, r.in_cone, r.by_rounding, r.off_ray};
-    };
-    std::sort(readings.begin(), readings.end(),
-              [&](const Reading& a, const Reading& b) { return key(a) < key(b); });
-    readings.erase(
-        std::unique(readings.begin(), readings.end(),
-                    [&](const Reading& a, const Reading& b) { return key(a) == key(b); }),
-        readings.end());
-}
 
 void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
                std::vector<Reading>& readings) {

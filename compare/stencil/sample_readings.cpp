@@ -1,5 +1,5 @@
 #include "compare/stencil/pixel_readings.h"
-#include "reference/predict/tally.h"
+#include "reference/predict/prediction.h"
 
 #include <utility>
 

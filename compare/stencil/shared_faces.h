@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/stencil/pixel_faces.h"
-#include "reference/predict/tally.h"
+#include "reference/predict/prediction.h"
 
 #include <cstdint>
 #include <map>

@@ -3,7 +3,7 @@
 #include "reference/exact/norms.h"
 #include "reference/parallel.h"
 #include "reference/trace/view.h"
-#include "scenes/first_of_same.h"
+#include "scenes/mesh/first_of_same.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "scenes/mesh/topology.h"
 
-#include "scenes/first_of_same.h"
+#include "scenes/mesh/first_of_same.h"
 #include "scenes/roundoff.h"
 
 #include <fmt/format.h>

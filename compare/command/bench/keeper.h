@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compare/bench/bench_run.h"
-#include "compare/command/stopwatch.h"
+#include "compare/command/process/stopwatch.h"
 #include "scenes/memory_budget.h"
 
 #include <optional>

@@ -3,9 +3,9 @@
 
 #include "compare/command/bench/keeper.h"
 #include "compare/command/bench/options.h"
-#include "compare/command/console.h"
 #include "compare/command/pieces/pieces.h"
 #include "compare/command/point_pictures.h"
+#include "compare/command/process/console.h"
 #include "raster/gl/context.h"
 
 namespace shadowproof {

@@ -5,10 +5,10 @@
 // results alone, and be quick.
 #pragma once
 
-#include "compare/command/console.h"
 #include "compare/command/pieces/archive.h"
 #include "compare/command/pieces/messages.h"
 #include "compare/command/pieces/record.h"
+#include "compare/command/process/console.h"
 #include "scenes/error.h"
 
 #include <map>

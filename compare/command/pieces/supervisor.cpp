@@ -1,7 +1,7 @@
 #include "compare/command/pieces/supervisor.h"
 
-#include "compare/command/child_process.h"
-#include "compare/command/options.h"
+#include "compare/command/process/child_process.h"
+#include "compare/command/process/exit_code.h"
 #include "compare/memory.h"
 
 #include <fmt/format.h>

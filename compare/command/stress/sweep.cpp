@@ -2,9 +2,9 @@
 
 #include "compare/bench/bench_error.h"
 #include "compare/command/judged_cell.h"
+#include "compare/command/process/standard_output.h"
+#include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
-#include "compare/command/standard_output.h"
-#include "compare/command/stopwatch.h"
 #include "compare/command/stress/stress_archive.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"

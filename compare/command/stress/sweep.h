@@ -1,9 +1,9 @@
 // Takes a scene along the parameters, and judges every technique on the way.
 #pragma once
 
-#include "compare/command/console.h"
 #include "compare/command/pieces/pieces.h"
 #include "compare/command/point_pictures.h"
+#include "compare/command/process/console.h"
 #include "compare/command/stress/options.h"
 #include "compare/stress/stress_run.h"
 #include "raster/gl/context.h"

@@ -1,7 +1,7 @@
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
-#include "compare/command/stopwatch.h"
+#include "compare/command/process/stopwatch.h"
 #include "compare/command/verify/worker.h"
 #include "compare/memory.h"
 

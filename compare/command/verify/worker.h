@@ -2,11 +2,11 @@
 // pictures.
 #pragma once
 
-#include "compare/command/console.h"
 #include "compare/command/gate_options.h"
 #include "compare/command/options.h"
 #include "compare/command/pieces/report_archive.h"
 #include "compare/command/pieces/supervisor.h"
+#include "compare/command/process/console.h"
 #include "compare/report/report.h"
 #include "compare/results/baseline.h"
 

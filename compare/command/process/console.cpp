@@ -1,6 +1,6 @@
-#include "compare/command/console.h"
+#include "compare/command/process/console.h"
 
-#include "compare/command/standard_output.h"
+#include "compare/command/process/standard_output.h"
 #include "compare/report/escape.h"
 
 #include <fmt/format.h>

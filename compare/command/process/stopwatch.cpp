@@ -1,4 +1,4 @@
-#include "compare/command/stopwatch.h"
+#include "compare/command/process/stopwatch.h"
 
 #include <time.h>
 #include <unistd.h>

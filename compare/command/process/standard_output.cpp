@@ -1,4 +1,4 @@
-#include "compare/command/standard_output.h"
+#include "compare/command/process/standard_output.h"
 
 #include "compare/report/escape.h"
 

@@ -1,6 +1,6 @@
-#include "compare/command/child_process.h"
+#include "compare/command/process/child_process.h"
 
-#include "compare/command/signals.h"
+#include "compare/command/process/signals.h"
 #include "scenes/error.h"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
-#include "compare/command/signals.h"
+#include "compare/command/process/signals.h"
 
-#include "compare/command/options.h"
+#include "compare/command/process/exit_code.h"
 #include "compare/output/unfinished.h"
 
 #include <fmt/format.h>
