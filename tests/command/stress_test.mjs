@@ -81,6 +81,24 @@ test('breaking points lie between the last value that holds and the first that f
   }
 });
 
+test('where depths no longer suffice is derived to within a factor of 4', () => {
+  const scenes = ['ordinary', 'near_plane', 'far_plane', 'overlapping', 'coarse_curve'];
+  const { code, err } = shadowproof(['stress', ...scenes, '--parameter', 'near_plane',
+    '--technique', 'zpass,zfail,zfail_infinite,zfail_reversed', '--witness', '1',
+    '--json', 'derived.json', '--no-pictures', '-q']);
+  assert.ok([0, 1].includes(code), err);
+  const { breaking } = written('derived.json');
+  const both = breaking.filter(({ derived, measured }) => derived !== null && measured !== null);
+  for (const cause of ['precision', 'near_plane'])
+    assert.ok(both.filter((each) => each.cause === cause).length >= 4, cause);
+  for (const { scene, technique, side, derived, measured } of both)
+    assert.ok(Math.max(derived / measured, measured / derived) <= 4,
+              `${scene} ${technique} ${side}: derived ${derived}, measured ${measured}`);
+  // Depth that floats reversed hold breaks nowhere, and nothing else is derived.
+  const alone = breaking.filter(({ derived, measured }) => (derived === null) !== (measured === null));
+  assert.deepEqual(alone, []);
+});
+
 test('z-fail without a far plane outlasts any near plane that floats of depth resolve', () => {
   const near = along('zfail_reversed', 'near_plane').filter(({ value }) => value <= 0.01);
   assert.ok(near.length > 2);

@@ -29,10 +29,10 @@ void serialize(Archive& archive, RelationCheck& check) {
 
 template <class Archive>
 void serialize(Archive& archive, StressCell& cell) {
-    auto& [technique, family, milliseconds, judging, error, verdict, refused, loss, command,
+    auto& [technique, family, milliseconds, judging, error, strain, verdict, refused, loss, command,
            pictures] = cell;
-    archive(technique, family, milliseconds, judging, error, verdict, refused, loss, command,
-            pictures);
+    archive(technique, family, milliseconds, judging, error, strain, verdict, refused, loss,
+            command, pictures);
 }
 
 template <class Archive>
@@ -45,8 +45,8 @@ void serialize(Archive& archive, StressPoint& point) {
 
 template <class Archive>
 void serialize(Archive& archive, Breaking& breaking) {
-    auto& [technique, up, holds, fails, cause, refused] = breaking;
-    archive(technique, up, holds, fails, cause, refused);
+    auto& [technique, up, holds, fails, derived_holds, derived, cause, refused] = breaking;
+    archive(technique, up, holds, fails, derived_holds, derived, cause, refused);
 }
 
 template <class Archive>

@@ -100,10 +100,11 @@ StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
     const PointPictures* const pictures = sweep.work.pictures;
     const Stopwatch stopwatch;
     try {
-        Cell cell =
-            judged_cell(technique, trial.traced, trial.plan, sweep.work.gpu, pictures != nullptr)
-                .cell;
+        JudgedCell judged = judged_cell(technique, trial.traced, trial.plan, sweep.work.gpu,
+                                        {.evidence = pictures != nullptr, .strain = true});
+        Cell& cell = judged.cell;
         tried.judging = stopwatch.milliseconds();
+        tried.strain = judged.strain;
         tried.family = cell.family;
         tried.milliseconds = cell.milliseconds;
         tried.error = error_of(cell.frame, cell.comparison, trial.result.truth.visibility);
