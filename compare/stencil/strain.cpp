@@ -2,6 +2,8 @@
 
 #include "compare/driver/error_bounds.h"
 #include "reference/parallel.h"
+#include "reference/trace/places.h"
+#include "reference/trace/view.h"
 #include "scenes/camera.h"
 
 #include <algorithm>
@@ -41,11 +43,14 @@ double share_beyond(double distance, double deviation) {
 
 /// The chance that a surface, off by a normal error along its ray, has another claim there: at all
 /// places where the shadow depth is 0 and should not be, or the other way round. The surface's own
-/// light cap is drawn with the same depths. `inside`: the shadow depth at the surface.
-double chance_of_error(const std::vector<Crossing>& crossings, std::uint32_t seen, double depth,
-                       std::int32_t inside, double deviation) {
+/// light cap, and those of triangles with the same corners, are drawn with the same depths.
+/// `inside`: the shadow depth at the surface.
+double chance_of_error(const Scene& scene, const std::vector<Crossing>& crossings,
+                       std::uint32_t seen, double depth, std::int32_t inside, double deviation) {
     const auto counts = [&](const Crossing& crossing) {
-        return crossing.part != Crossing::Part::light_cap || crossing.triangle != seen;
+        return crossing.part != Crossing::Part::light_cap ||
+               crossing.triangle >= scene.triangles.size() ||
+               !have_same_corners(corners(scene, crossing.triangle), corners(scene, seen));
     };
     const bool lit = inside == 0;
     double chance = 0;
@@ -87,8 +92,9 @@ Strained strained_at(const CountedClaim& judged, PixelPlace p, RegionLedger& led
     ledger.crossings(direction, crossings);
     const double deviation = deviation_share * depth_error(scene, judged.frame.depth_model, point);
     const std::int32_t inside = judged.prediction.depths().at_surface.at(p.x, p.y);
-    return {chance_of_error(crossings, truth.triangle.at(p.x, p.y), depth, inside, deviation), p,
-            point};
+    return {
+        chance_of_error(scene, crossings, truth.triangle.at(p.x, p.y), depth, inside, deviation), p,
+        point};
 }
 
 /// Those whose claims depend on counters, and that are not certainly right.

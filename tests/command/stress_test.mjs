@@ -119,6 +119,29 @@ test('a point is shown again by its command: the same causes, and its pictures a
   assert.ok(existsSync(join(scratch, 'stress', 'pictures', place, 'claim.png')), place);
 });
 
+test('settings of maps are taken from end to end too, on maps alone, and shown again by their flags', () => {
+  const { code, err } = stressed(['near_plane', '--technique', 'zfail,cube_map_six_pass', '--parameter',
+    'map_size,map_bias,map_range', '--json', 'maps.json', '--out', 'maps', '-q', '--no-pictures']);
+  assert.equal(code, 0, err);
+  const maps = written('maps.json');
+  assertValid(maps);
+  assert.ok(!maps.points.some(({ technique }) => technique === 'zfail'));
+  const wrongAt = (parameter, value) => wrong(maps.points.find((point) =>
+    point.technique === 'cube_map_six_pass' && point.parameter === parameter &&
+    (value === 'own' ? point.own : point.value === value)));
+  assert.ok(wrongAt('map_size', 4) > 10 * wrongAt('map_size', 'own'));
+  assert.ok(wrongAt('map_bias', 0) > wrongAt('map_bias', 'own')); // acne
+  assert.ok(wrongAt('map_bias', 1000) > wrongAt('map_bias', 'own')); // leaks
+  assert.ok(wrongAt('map_range', 0.01) > wrongAt('map_range', 'own'));
+  assert.ok(wrongAt('map_range', 1e6) > wrongAt('map_range', 'own')); // the near plane goes along
+  const coarse = maps.points.find(({ parameter, technique, value }) =>
+    parameter === 'map_size' && technique === 'cube_map_six_pass' && value === 4);
+  assert.match(coarse.command, /--map-size 4$/);
+  const refused = shadowproof(['verify', 'ordinary', '--stress', 'map_size=4', '-q']);
+  assert.equal(refused.code, 3);
+  assert.match(refused.err + refused.out, /is a setting of techniques; give --map-size instead/);
+});
+
 test('--stress takes one scene to a value, for any command', () => {
   const stress = ['--stress', 'aspect=16', '--size', '64x64'];
   const { code, err } = shadowproof(['render', 'ordinary', '-o', 'wide.png', ...stress]);

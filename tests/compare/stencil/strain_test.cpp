@@ -49,6 +49,14 @@ TEST(Strain, is_infinite_only_where_the_algorithm_shows_something_else_than_the_
     EXPECT_TRUE(std::isfinite(strain_of(gpu, small("far_plane"), "zpass")));
 }
 
+TEST(Strain, comes_from_no_face_that_is_drawn_with_the_same_depths) {
+    Gpu gpu(GlPlatform::osmesa);
+    const Scene scene = small("ordinary");
+    const double once = strain_of(gpu, scene, "zfail_reversed");
+    const double often = strain_of(gpu, stressed(scene, {"coincident_faces", 5}), "zfail_reversed");
+    EXPECT_LT(often, 2 * once + 0.1);
+}
+
 TEST(Strain, is_the_same_whatever_was_drawn) {
     Gpu gpu(GlPlatform::osmesa);
     const Scene scene = stressed(small("ordinary"), {"near_plane", 1e-3});
