@@ -52,8 +52,8 @@ ${scene.width}x${scene.height} as it becomes extreme: how many of ${grouped(scen
 each gets wrong. Rays are Embree's, in float. \`traced_epsilon\` begins shadow rays a little further on,
 \`traced_offset\` moves their origins along the normal, \`traced_skip\` ignores the triangle that was hit
 ([how](techniques.md)). \`zfail_reversed\` stands for shadow volumes. All use their own settings; pixels
-at edges, where either answer is right, do not count. What the parameters mean, see
-[Stress](stress.md#parameters).
+at edges, where either answer is right, do not count. A blank: the parameter is a setting that the
+technique does not have. What the parameters mean, see [Stress](stress.md#parameters).
 
 ${line(['parameter', 'value', ...techniques.map((name) => `\`${name}\``)])}
 ${line(['---', '--:', ...techniques.map(() => '--:')])}
