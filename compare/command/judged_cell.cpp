@@ -8,7 +8,7 @@
 namespace shadowproof {
 
 JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, const Plan& plan,
-                       Gpu& gpu, bool evidence) {
+                       Gpu& gpu, const Wanted& wanted) {
     JudgedCell judged;
     Cell& cell = judged.cell;
     const Scene& scene = traced.scene();
@@ -24,7 +24,8 @@ JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, co
                  pixels_of(cell.comparison, Cause::unexplained) > 0);
     cell.verdict = judge(scene, technique.fails_at, technique.by_nature, cell.comparison);
     cell.excused = excused_causes(scene, technique.fails_at, technique.by_nature, cell.comparison);
-    if (!evidence) return judged;
+    if (wanted.strain) judged.strain = family->strain();
+    if (!wanted.evidence) return judged;
     const Stopwatch stopwatch;
     cell.evidence = family->report(cell.comparison.cause);
     judged.evidence_milliseconds = stopwatch.milliseconds();

@@ -6,16 +6,25 @@
 #include "raster/technique.h"
 #include "reference/predict/traced_scene.h"
 
+#include <optional>
+
 namespace shadowproof {
 
 struct JudgedCell {
     Cell cell;
     double evidence_milliseconds = 0; ///< spent on Cell::evidence
+    std::optional<double> strain{};   ///< Judge::strain
 };
 
-/// `evidence`: whether to find what a report shows of it. Throws Error where the technique cannot
-/// draw the scene, or draws nothing where something is seen.
+/// What is wanted besides the judgement.
+struct Wanted {
+    bool evidence = false; ///< what a report shows of it
+    bool strain = false;
+};
+
+/// Throws Error where the technique cannot draw the scene, or draws nothing where something is
+/// seen.
 JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, const Plan& plan,
-                       Gpu& gpu, bool evidence);
+                       Gpu& gpu, const Wanted& wanted);
 
 } // namespace shadowproof

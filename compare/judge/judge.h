@@ -97,6 +97,11 @@ public:
     virtual std::shared_ptr<const EvidenceReport>
     report(const Image<std::uint8_t>& cause) const = 0;
 
+    /// Derive: how near the technique is to failing on this scene, by its arithmetic and the truth
+    /// alone, whatever was drawn; beyond 1 some pixel is expected to be wrong. None where nothing
+    /// is derived.
+    virtual std::optional<double> strain() const { return std::nullopt; }
+
     /// Account: the story of the record's pixel, its lengths times `unit` (Scene::unit).
     virtual Account account(const PixelRecord& record, double unit) const = 0;
 };

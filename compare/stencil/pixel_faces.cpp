@@ -65,9 +65,10 @@ bool PixelFaces::are_displaced(const std::vector<std::uint32_t>& triangles) cons
     });
 }
 
-/// A light cap is drawn as its triangle is, from the same corners. Fillings of holes are small.
+/// A light cap is drawn as its triangle is, from the same corners: where the one is shown, the
+/// other is drawn. Fillings of holes are small.
 bool PixelFaces::is_displaced_cap(const Crossing& crossing) const {
-    return crossing.part == Crossing::Part::light_cap &&
+    return crossing.part == Crossing::Part::light_cap && crossing.triangle != shown_ &&
            crossing.triangle < scene_.triangles.size() &&
            may_be_displaced(scene_, crossing.triangle, depths_.covered_pixel());
 }

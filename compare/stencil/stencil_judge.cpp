@@ -6,6 +6,7 @@
 #include "compare/stencil/stencil_account.h"
 #include "compare/stencil/stencil_report.h"
 #include "compare/stencil/stencil_results.h"
+#include "compare/stencil/strain.h"
 
 #include <algorithm>
 #include <limits>
@@ -139,6 +140,8 @@ public:
     std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
         return report_counters(claim_.traced, claim_.frame, prediction_, cause);
     }
+
+    std::optional<double> strain() const override { return shadowproof::strain(claim_); }
 
     Account account(const PixelRecord& record, double unit) const override {
         return account_of_counter(claim_.frame, prediction_, record, unit);

@@ -71,6 +71,23 @@ const StressCell* find_cell(const StressPoint& point, const std::string& techniq
     return found == point.cells.end() ? nullptr : &*found;
 }
 
+/// Where strains reach 1 from the own value outwards.
+void add_derived(const StressPoint& own, const std::vector<const StressPoint*>& side,
+                 Breaking& breaking) {
+    breaking.derived_holds = own.value;
+    const StressCell* const as_it_is = find_cell(own, breaking.technique);
+    if (!as_it_is->strain || *as_it_is->strain >= 1) return;
+    for (const StressPoint* point : side) {
+        const StressCell* const there = find_cell(*point, breaking.technique);
+        if (there == nullptr || !there->strain) continue;
+        if (*there->strain >= 1) {
+            breaking.derived = point->value;
+            return;
+        }
+        breaking.derived_holds = point->value;
+    }
+}
+
 } // namespace
 
 std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
@@ -84,7 +101,8 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
     std::vector<Breaking> all;
     for (const StressCell& cell : own->cells) {
         if (has_failed(cell)) continue;
-        Breaking breaking{.technique = cell.technique, .up = up, .holds = own->value, .fails = {}};
+        Breaking breaking{
+            .technique = cell.technique, .up = up, .holds = own->value, .fails = {}, .derived = {}};
         for (const StressPoint* point : side) {
             const StressCell* const there = find_cell(*point, cell.technique);
             if (!point->refused.empty()) {
@@ -103,6 +121,7 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
             breaking.refused = !there->refused.empty();
             break;
         }
+        add_derived(*own, side, breaking);
         all.push_back(std::move(breaking));
     }
     return all;
@@ -110,13 +129,17 @@ std::vector<Breaking> breaking_points(const StressAlong& along, bool up) {
 
 std::optional<Search> next_search(const std::vector<Breaking>& breaking, bool whole) {
     std::optional<Search> search;
-    for (const Breaking& each : breaking) {
-        if (!each.fails || each.refused) continue;
-        const std::optional<double> value = value_between(each.holds, *each.fails, whole);
-        if (!value) continue;
+    const auto add = [&](const std::string& technique, double holds, double fails) {
+        const std::optional<double> value = value_between(holds, fails, whole);
+        if (!value) return;
         if (!search) search = Search{*value, {}};
-        if (*value == search->value) search->techniques.push_back(each.technique);
-    }
+        if (*value == search->value) search->techniques.push_back(technique);
+    };
+    for (const Breaking& each : breaking)
+        if (each.fails && !each.refused) add(each.technique, each.holds, *each.fails);
+    if (search) return search;
+    for (const Breaking& each : breaking)
+        if (each.derived) add(each.technique, each.derived_holds, *each.derived);
     return search;
 }
 

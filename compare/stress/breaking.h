@@ -18,9 +18,9 @@ std::string refusal(Loss loss);
 /// has nothing between itself and the nearest value that was tried.
 std::optional<double> value_between(double holds, double fails, bool whole);
 
-/// Each technique's breaking point on one side of the scene's own value, as far as the points tell.
-/// Points are in the order of values; techniques that fail at the own value are left out. A value
-/// counts only up to the first that fails.
+/// Each technique's breaking point, measured and derived, on one side of the scene's own value, as
+/// far as the points tell. Points are in the order of values; techniques that fail at the own value
+/// are left out. A value counts only up to the first that fails.
 std::vector<Breaking> breaking_points(const StressAlong& along, bool up);
 
 /// The value that tells most about the side's breaking points, none where all are near enough. With

@@ -78,6 +78,7 @@ Json breaking_json(const StressScene& scene, const StressAlong& along, const Bre
               {"parameter", along.parameter}, {"side", breaking.up ? "up" : "down"},
               {"derived", nullptr},           {"measured", nullptr},
               {"holds", breaking.holds}};
+    if (breaking.derived) json["derived"] = *breaking.derived;
     if (breaking.fails) {
         json["measured"] = *breaking.fails;
         json["cause"] = breaking.cause;

@@ -21,6 +21,7 @@ struct StressCell {
     double milliseconds = 0; ///< of its one frame
     double judging = 0;      ///< milliseconds, of frame, judgement and what a report shows
     BenchError error{};
+    std::optional<double> strain{}; ///< Judge::strain
     Verdict verdict = Verdict::agrees;
     std::string refused{};  ///< why it could not be drawn; then the numbers mean nothing
     Loss loss = Loss::none; ///< if not none, `refused` says what happened, and the run fails
@@ -48,14 +49,17 @@ struct StressPoint {
     std::vector<StressCell> cells{};
 };
 
-/// Where a technique, right on the scene as it is, starts to fail as a parameter leaves its value.
+/// Where a technique, right on the scene as it is, starts to fail as a parameter leaves its value,
+/// as measured, and where it is expected to.
 struct Breaking {
     std::string technique{};
     bool up = false;             ///< the side: values above the scene's own
     double holds = 0;            ///< the last value known at which no pixel is wrong
     std::optional<double> fails; ///< the first known at which one is; none: within the range never
-    std::string cause{};         ///< the most frequent there, or "refused", or a loss's name
-    bool refused = false;        ///< it was not drawn there, refused or lost
+    double derived_holds = 0;    ///< the last value up to which no strain reaches 1
+    std::optional<double> derived; ///< the first known at which one does
+    std::string cause{};           ///< the most frequent there, or "refused", or a loss's name
+    bool refused = false;          ///< it was not drawn there, refused or lost
 };
 
 struct StressAlong {

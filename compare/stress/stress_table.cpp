@@ -31,32 +31,40 @@ double own_value(const StressAlong& along) {
     return 1;
 }
 
-/// Those of one side, a line for those that break at the same value by the same cause.
+/// What is derived, in words; empty where nothing is.
+std::string derived_words(const Breaking& breaking) {
+    return breaking.derived ? "derived " + value_words(*breaking.derived) : std::string();
+}
+
+/// Those of one side, a line for those that break at the same value by the same cause, and are
+/// derived to break at the same value.
 void add_side(const StressAlong& along, bool up, std::vector<std::string>& lines) {
     const double own = own_value(along);
-    using Key = std::tuple<double, double, double, std::string>; // far, fails, holds, cause
+    using Key = std::tuple<double, double, double, std::string, std::string>;
     std::map<Key, std::vector<std::string>> broken;
-    std::vector<std::string> holding;
+    std::map<std::string, std::vector<std::string>> holding; // by what is derived
     double farthest = own;
     for (const StressPoint& point : along.points)
         if (up ? point.value > farthest : point.value < farthest) farthest = point.value;
     for (const Breaking& each : along.breaking) {
         if (each.up != up) continue;
+        const std::string derived = derived_words(each);
         if (each.fails)
-            broken[{outwards(each, own), *each.fails, each.holds, each.cause}].push_back(
+            broken[{outwards(each, own), *each.fails, each.holds, each.cause, derived}].push_back(
                 each.technique);
         else
-            holding.push_back(each.technique);
+            holding[derived].push_back(each.technique);
     }
     for (const auto& [key, techniques] : broken) {
-        const auto& [far, fails, holds, cause] = key;
-        lines.push_back(fmt::format("    {:<9}  {:<14}  {}{}", value_words(fails), cause,
-                                    listed(techniques),
-                                    fmt::format("  (holds at {})", value_words(holds))));
+        const auto& [far, fails, holds, cause, derived] = key;
+        lines.push_back(fmt::format("    {:<9}  {:<14}  {}  (holds at {}{})", value_words(fails),
+                                    cause, listed(techniques), value_words(holds),
+                                    derived.empty() ? "" : ", " + derived));
     }
-    if (!holding.empty())
-        lines.push_back(
-            fmt::format("    {:<9}  {:<14}  {}", value_words(farthest), "hold", listed(holding)));
+    for (const auto& [derived, techniques] : holding)
+        lines.push_back(fmt::format("    {:<9}  {:<14}  {}{}", value_words(farthest), "hold",
+                                    listed(techniques),
+                                    derived.empty() ? "" : "  (" + derived + ")"));
 }
 
 } // namespace

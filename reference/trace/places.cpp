@@ -20,12 +20,6 @@ std::uint64_t place_hash(const Corners& t) {
     return hash_of(t.a) + hash_of(t.b) + hash_of(t.c);
 }
 
-bool have_same_corners(const Corners& t, const Corners& u) {
-    const std::array<glm::dvec3, 3> corners{t.a, t.b, t.c};
-    const std::array<glm::dvec3, 3> others{u.a, u.b, u.c};
-    return std::is_permutation(corners.begin(), corners.end(), others.begin());
-}
-
 /// Of the normal, divided by its largest component, and of the plane's place, both rounded so
 /// coarsely that they are most often equal in one plane. 0 where rounding may be all there is of
 /// the normal, whose components are off by 8 u l^2 (view.cpp), and nowhere else.
@@ -61,6 +55,12 @@ std::vector<std::uint32_t> Places::firsts() const {
     for (std::uint32_t i = 0; i < first.size(); ++i)
         if (first[i] == i) found.push_back(i);
     return found;
+}
+
+bool have_same_corners(const Corners& t, const Corners& u) {
+    const std::array<glm::dvec3, 3> corners{t.a, t.b, t.c};
+    const std::array<glm::dvec3, 3> others{u.a, u.b, u.c};
+    return std::is_permutation(corners.begin(), corners.end(), others.begin());
 }
 
 Places find_places(const Scene& scene, const Predicates& predicates, int threads) {

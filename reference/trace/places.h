@@ -19,6 +19,9 @@ struct Places {
     std::vector<std::uint32_t> firsts() const;
 };
 
+/// Whether two triangles have the same corners, in any order.
+bool have_same_corners(const Corners& t, const Corners& u);
+
 /// Triangles in one plane may have different numbers where rounding parts them, and those of hardly
 /// any area always have. O(n) time.
 Places find_places(const Scene& scene, const Predicates& predicates, int threads);

@@ -14,7 +14,8 @@ namespace shadowproof {
 std::span<const StressParameter> stress_parameters() {
     static const std::vector<StressParameter> all = [] {
         std::vector<StressParameter> parameters = view_parameters();
-        for (const auto& more : {light_parameters(), geometry_parameters(), triangle_parameters()})
+        for (const auto& more :
+             {light_parameters(), geometry_parameters(), triangle_parameters(), map_parameters()})
             parameters.insert(parameters.end(), more.begin(), more.end());
         return parameters;
     }();
@@ -73,6 +74,9 @@ Scene stressed(Scene scene, const Stress& stress) {
     const std::string words = "--stress " + words_of(stress);
     if (parameter == nullptr)
         throw Error(words, "there is no such parameter", "take one of " + parameter_names());
+    if (parameter->take == nullptr)
+        throw Error(words, "is a setting of techniques",
+                    fmt::format("give --{} instead", parameter->flag));
     if (!parameter->suits(scene))
         throw Error(words, fmt::format("does not suit scene {}", scene.name),
                     "leave it out, or take one of " + parameter_names());

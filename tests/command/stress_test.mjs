@@ -81,6 +81,24 @@ test('breaking points lie between the last value that holds and the first that f
   }
 });
 
+test('where depths no longer suffice is derived to within a factor of 4', () => {
+  const scenes = ['ordinary', 'near_plane', 'far_plane', 'overlapping', 'coarse_curve'];
+  const { code, err } = shadowproof(['stress', ...scenes, '--parameter', 'near_plane',
+    '--technique', 'zpass,zfail,zfail_infinite,zfail_reversed', '--witness', '1',
+    '--json', 'derived.json', '--no-pictures', '-q']);
+  assert.ok([0, 1].includes(code), err);
+  const { breaking } = written('derived.json');
+  const both = breaking.filter(({ derived, measured }) => derived !== null && measured !== null);
+  for (const cause of ['precision', 'near_plane'])
+    assert.ok(both.filter((each) => each.cause === cause).length >= 4, cause);
+  for (const { scene, technique, side, derived, measured } of both)
+    assert.ok(Math.max(derived / measured, measured / derived) <= 4,
+              `${scene} ${technique} ${side}: derived ${derived}, measured ${measured}`);
+  // Depth that floats reversed hold breaks nowhere, and nothing else is derived.
+  const alone = breaking.filter(({ derived, measured }) => (derived === null) !== (measured === null));
+  assert.deepEqual(alone, []);
+});
+
 test('z-fail without a far plane outlasts any near plane that floats of depth resolve', () => {
   const near = along('zfail_reversed', 'near_plane').filter(({ value }) => value <= 0.01);
   assert.ok(near.length > 2);
@@ -99,6 +117,29 @@ test('a point is shown again by its command: the same causes, and its pictures a
   const [page, place] = point.pictures.split('#');
   assert.ok(existsSync(join(scratch, 'stress', page)));
   assert.ok(existsSync(join(scratch, 'stress', 'pictures', place, 'claim.png')), place);
+});
+
+test('settings of maps are taken from end to end too, on maps alone, and shown again by their flags', () => {
+  const { code, err } = stressed(['near_plane', '--technique', 'zfail,cube_map_six_pass', '--parameter',
+    'map_size,map_bias,map_range', '--json', 'maps.json', '--out', 'maps', '-q', '--no-pictures']);
+  assert.equal(code, 0, err);
+  const maps = written('maps.json');
+  assertValid(maps);
+  assert.ok(!maps.points.some(({ technique }) => technique === 'zfail'));
+  const wrongAt = (parameter, value) => wrong(maps.points.find((point) =>
+    point.technique === 'cube_map_six_pass' && point.parameter === parameter &&
+    (value === 'own' ? point.own : point.value === value)));
+  assert.ok(wrongAt('map_size', 4) > 10 * wrongAt('map_size', 'own'));
+  assert.ok(wrongAt('map_bias', 0) > wrongAt('map_bias', 'own')); // acne
+  assert.ok(wrongAt('map_bias', 1000) > wrongAt('map_bias', 'own')); // leaks
+  assert.ok(wrongAt('map_range', 0.01) > wrongAt('map_range', 'own'));
+  assert.ok(wrongAt('map_range', 1e6) > wrongAt('map_range', 'own')); // the near plane goes along
+  const coarse = maps.points.find(({ parameter, technique, value }) =>
+    parameter === 'map_size' && technique === 'cube_map_six_pass' && value === 4);
+  assert.match(coarse.command, /--map-size 4$/);
+  const refused = shadowproof(['verify', 'ordinary', '--stress', 'map_size=4', '-q']);
+  assert.equal(refused.code, 3);
+  assert.match(refused.err + refused.out, /is a setting of techniques; give --map-size instead/);
 });
 
 test('--stress takes one scene to a value, for any command', () => {

@@ -47,11 +47,14 @@ test('the page opens from disk in silence, with a section for each parameter', a
 
 test('breaking points are those of the results, each with its mark in the chart', async () => {
   const { page } = await openReport(folder);
-  const broken = run.breaking.filter(({ parameter, measured }) =>
-    parameter === 'light_to_face' && measured !== null);
-  assert.ok(broken.length > 0);
-  assert.equal(await page.locator('#light_to_face table.numbers tbody tr').count(), broken.length);
-  assert.equal(await page.locator('#light_to_face svg .breaking').count(), broken.length);
+  const along = run.breaking.filter(({ parameter }) => parameter === 'light_to_face');
+  const measured = along.filter((each) => each.measured !== null);
+  const derived = along.filter((each) => each.derived !== null);
+  assert.ok(measured.length > 0 && derived.length > 0);
+  const rows = new Set([...measured, ...derived]).size;
+  assert.equal(await page.locator('#light_to_face table.numbers tbody tr').count(), rows);
+  assert.equal(await page.locator('#light_to_face svg .breaking').count(), measured.length);
+  assert.equal(await page.locator('#light_to_face svg .derived').count(), derived.length);
 });
 
 test('an entry tells its causes and command, and leads to its pictures', async () => {

@@ -78,7 +78,7 @@ JudgedPoint judge_point(Trial& trial, const Technique& technique, BenchPoint poi
     Cell cell;
     try {
         cell = judged_cell(technique, trial.traced, plan_with(trial, point.settings), work.gpu,
-                           work.pictures != nullptr)
+                           {.evidence = work.pictures != nullptr})
                    .cell;
     } catch (const std::bad_alloc&) {
         return {.why = out_of_memory};

@@ -164,7 +164,8 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
     const bool unread = std::ranges::any_of(
         run.scenes, [](const StressScene& scene) { return !scene.error.empty(); });
     const Losses losses = losses_of(run);
-    if (unread || losses.points + losses.crashed > 0 || tally.disagreements > 0 || tally.changed > 0)
+    if (unread || losses.points + losses.crashed > 0 || tally.disagreements > 0 ||
+        tally.changed > 0)
         return exit_could_not;
     return tally.unexplained + losses.timed_out > 0 ? exit_failed : exit_passed;
 }

@@ -1,6 +1,7 @@
 #include "compare/command/stress/sweep.h"
 
 #include "compare/bench/bench_error.h"
+#include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
@@ -34,6 +35,7 @@ struct Sweep {
     const Scene& scene; ///< as it is
     std::string name;   ///< unique in the run
     std::vector<const Technique*> techniques{};
+    TechniqueOptions settings{}; ///< of all techniques, at the point at hand
     const StressParameter* parameter = nullptr;
     StressAlong along{};
     std::string place{}; ///< ", parameter 3 of 19"; empty for the scene as it is
@@ -45,9 +47,8 @@ std::vector<std::string> verify_words(const Sweep& sweep, const std::string& tec
     std::vector<std::string> words{"verify", sweep.argument, "--technique", technique};
     SceneOptions scene = sweep.work.options.scene;
     if (sweep.scene.lights.size() > 1) scene.light = chosen_light(sweep.scene).choice;
-    if (stress) scene.stress = stress;
-    for (const std::string& word : settings(scene, sweep.work.options.technique))
-        words.push_back(word);
+    if (stress && sweep.parameter->take != nullptr) scene.stress = stress;
+    for (const std::string& word : settings(scene, sweep.settings)) words.push_back(word);
     return words;
 }
 
@@ -75,7 +76,7 @@ struct Trial {
     Trial(const Scene& at, const Sweep& sweep, std::optional<Stress> by)
         : scene(at), tracer(at, sweep.work.options.scene.threads), result(traced_result(tracer)),
           traced(tracer, result.truth), plan(make_plan(at)), stress(std::move(by)) {
-        plan.asked = sweep.work.options.technique.asked;
+        plan.asked = sweep.settings.asked;
         result.argument = sweep.argument;
         result.name = sweep.name;
         describe(result, scene);
@@ -101,10 +102,11 @@ StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
     const PointPictures* const pictures = sweep.work.pictures;
     const Stopwatch stopwatch;
     try {
-        Cell cell =
-            judged_cell(technique, trial.traced, trial.plan, sweep.work.gpu, pictures != nullptr)
-                .cell;
+        JudgedCell judged = judged_cell(technique, trial.traced, trial.plan, sweep.work.gpu,
+                                        {.evidence = pictures != nullptr, .strain = true});
+        Cell& cell = judged.cell;
         tried.judging = stopwatch.milliseconds();
+        tried.strain = judged.strain;
         tried.family = cell.family;
         tried.milliseconds = cell.milliseconds;
         tried.error = error_of(cell.frame, cell.comparison, trial.result.truth.visibility);
@@ -200,6 +202,15 @@ StressPoint own_point(const Sweep& sweep) {
     return point;
 }
 
+/// The sweep with the parameter's flag at a value.
+Sweep with_setting(const Sweep& sweep, double value) {
+    Sweep set = sweep;
+    const double taken = sweep.parameter->flag_value(sweep.scene, value);
+    set.settings = with_settings(sweep.settings,
+                                 {{std::string(sweep.parameter->flag), fmt::format("{}", taken)}});
+    return set;
+}
+
 /// Adds the point of a value, or what is still missing there.
 void add_point(Sweep& sweep, double value, bool searched,
                const std::vector<const Technique*>& techniques) {
@@ -208,6 +219,10 @@ void add_point(Sweep& sweep, double value, bool searched,
     try {
         point = sweep.work.pieces.piece(words_of(stress), [&] {
             StressPoint tried = point;
+            if (sweep.parameter->take == nullptr) {
+                try_point(with_setting(sweep, value), sweep.scene, stress, techniques, tried);
+                return tried;
+            }
             Scene scene = stressed(sweep.scene, stress);
             admit(scene);
             try_point(sweep, scene, stress, techniques, tried);
@@ -242,12 +257,28 @@ void sweep_side(Sweep& sweep, bool up) {
         sweep.along.breaking.push_back(std::move(breaking));
 }
 
-StressAlong sweep_along(Sweep& sweep, const StressParameter& parameter, const StressPoint& own) {
+/// The techniques that a parameter can make a difference to.
+std::vector<const Technique*> concerned(const std::vector<const Technique*>& techniques,
+                                        const StressParameter& parameter) {
+    std::vector<const Technique*> some;
+    for (const Technique* technique : techniques)
+        if (parameter.take != nullptr || heeds(*technique, parameter.flag))
+            some.push_back(technique);
+    return some;
+}
+
+/// `sweep`: with the techniques that the parameter concerns. `own`: the scene as it is, with all.
+StressAlong sweep_along(Sweep sweep, const StressParameter& parameter, const StressPoint& own) {
     sweep.parameter = &parameter;
     sweep.along = {.parameter = std::string(parameter.name), .words = std::string(parameter.words)};
     StressPoint& point = sweep.along.points.emplace_back(own);
     point.value = parameter.own(sweep.scene);
-    for (const StressCell& cell : own.cells)
+    std::erase_if(point.cells, [&](const StressCell& cell) {
+        return std::ranges::none_of(sweep.techniques, [&](const Technique* technique) {
+            return technique->name == cell.technique;
+        });
+    });
+    for (const StressCell& cell : point.cells)
         if (cell.refused.empty() && has_failed(cell))
             sweep.along.wrong_before.push_back(cell.technique);
     sweep_side(sweep, false);
@@ -293,7 +324,11 @@ StressScene stress_scene(const StressWork& work, const std::string& argument) {
                                   scene.camera.height, chosen_light(scene).name));
     for (const std::string& note : scene.notes) work.console.line("  note: " + note);
 
-    Sweep sweep{.work = work, .argument = argument, .scene = scene, .name = described.name};
+    Sweep sweep{.work = work,
+                .argument = argument,
+                .scene = scene,
+                .name = described.name,
+                .settings = options.technique};
     for (const Technique* technique : options.technique.chosen())
         if (!options.technique.techniques.empty() || suits(*technique, scene))
             sweep.techniques.push_back(technique);
@@ -302,18 +337,21 @@ StressScene stress_scene(const StressWork& work, const std::string& argument) {
     const std::vector<const StressParameter*> parameters = asked_parameters(options);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const StressParameter& parameter = *parameters[i];
-        if (!parameter.suits(scene)) {
+        Sweep along = sweep;
+        along.techniques = concerned(sweep.techniques, parameter);
+        if (!parameter.suits(scene) || along.techniques.empty()) {
             described.left_out.emplace_back(parameter.name);
             continue;
         }
-        sweep.place = fmt::format(", parameter {} of {}", i + 1, parameters.size());
-        described.parameters.push_back(sweep_along(sweep, parameter, own));
+        along.place = fmt::format(", parameter {} of {}", i + 1, parameters.size());
+        described.parameters.push_back(sweep_along(std::move(along), parameter, own));
         work.console.clear_progress();
         for (const std::string& line : stress_table(described.parameters.back()))
             work.console.line(line);
     }
     for (const std::string& name : described.left_out)
-        work.console.line(fmt::format("  left out: {} does not suit the scene", name));
+        work.console.line(
+            fmt::format("  left out: {} does not suit the scene or the techniques", name));
     return described;
 }
 

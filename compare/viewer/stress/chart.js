@@ -32,7 +32,8 @@ function roomy(values, at, room) {
 
 /**
  * Lines of shares in percent along a parameter. `series`: { name, group, points: [{ value, share }],
- * breaks: values of breaking points }. `own`: the scene's own value.
+ * breaks: values of breaking points, derived: those that are worked out }. `own`: the scene's own
+ * value.
  */
 function shareChart(title, series, values, own, ink, width) {
   const box = { left: 74, right: width - 230, top: 40,
@@ -59,7 +60,7 @@ function shareChart(title, series, values, own, ink, width) {
   const ends = series.map(({ points }) => [x(points.at(-1).value), y(points.at(-1).share)]);
   const heights = spreadOut(ends.map(([, at]) => at), 13, box.top, box.bottom);
   const dashes = ['none', '7 3', '2 3', '9 3 2 3', '5 2', '12 4'];
-  series.forEach(({ name, group, points, breaks }, i) => {
+  series.forEach(({ name, group, points, breaks, derived }, i) => {
     const color = inkOf(group, ink);
     const places = points.map(({ value, share }) => [x(value), y(share)]);
     parts.push(line(places, { stroke: color, 'stroke-width': 1.5,
@@ -74,6 +75,11 @@ function shareChart(title, series, values, own, ink, width) {
       parts.push(svgElement('path', { class: 'breaking', fill: 'none', stroke: color,
         'stroke-width': 2, d: `M${x(value).toFixed(1)} ${box.bottom - 9}v18` },
         svgElement('title', {}, `${name} breaks at ${valueWords(value)}`)));
+    for (const value of derived)
+      parts.push(svgElement('path', { class: 'derived', fill: 'none', stroke: color,
+        'stroke-width': 2, 'stroke-dasharray': '2 2',
+        d: `M${x(value).toFixed(1)} ${box.bottom - 9}v18` },
+        svgElement('title', {}, `${name} is derived to break at ${valueWords(value)}`)));
   });
   return svgElement('svg', { xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${width} ${height}`,
                              width, height, role: 'img', 'aria-label': title },
@@ -89,6 +95,6 @@ function truthSeries(points) {
     ({ value: point.value, share: 100 * point.ms.median / own.ms.median }));
   const exact = points.map((point) =>
     ({ value: point.value, share: point.rays > 0 ? 100 * point.exact_decisions / point.rays : 0 }));
-  return [{ name: 'time, of its own', group, points: times, breaks: [] },
-          { name: 'exact decisions a ray', group: markGroups[2], points: exact, breaks: [] }];
+  return [{ name: 'time, of its own', group, points: times, breaks: [], derived: [] },
+          { name: 'exact decisions a ray', group: markGroups[2], points: exact, breaks: [], derived: [] }];
 }

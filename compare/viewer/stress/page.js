@@ -27,6 +27,11 @@ const breaksOf = (technique, parameter) => state.run.breaking
                     each.technique === technique && each.measured !== null)
   .map(({ measured }) => measured);
 
+const derivedOf = (technique, parameter) => state.run.breaking
+  .filter((each) => each.scene === state.scene.name && each.parameter === parameter.name &&
+                    each.technique === technique && each.derived !== null)
+  .map(({ derived }) => derived);
+
 const techniquesOf = (points) =>
   [...new Set(points.map(({ technique }) => technique))].filter((name) => name !== 'truth');
 
@@ -37,15 +42,18 @@ function wrongSeries(points, parameter) {
     return techniquesOf(drawn).map((technique) => {
       const own = drawn.filter((point) => point.technique === technique);
       return { name: technique, group: groupOf(own[0]), points: own.map(shareOf),
-               breaks: breaksOf(technique, parameter) };
-    }).filter((each) => each.points.some(({ share }) => share > 0));
+               breaks: breaksOf(technique, parameter),
+               derived: derivedOf(technique, parameter) };
+    }).filter(({ points: all, derived }) =>
+      derived.length > 0 || all.some(({ share }) => share > 0));
   const own = drawn.filter((point) => point.technique === state.technique);
   const causes = [...new Set(own.flatMap((point) => Object.keys(point.causes)))]
     .filter((cause) => cause !== 'edge');
   return causes.map((cause, i) => ({ name: cause, group: markGroups[(i + 1) % markGroups.length],
     points: own.map((point) => ({ value: point.value,
                                   share: percent(point.causes[cause] ?? 0, point) })),
-    breaks: i === 0 ? breaksOf(state.technique, parameter) : [] }));
+    breaks: i === 0 ? breaksOf(state.technique, parameter) : [],
+    derived: i === 0 ? derivedOf(state.technique, parameter) : [] }));
 }
 
 function chosenStory(point) {
@@ -109,14 +117,16 @@ function matrix(points, parameter, story) {
 
 function breakingTable(parameter) {
   const broken = state.run.breaking.filter((each) => each.scene === state.scene.name &&
-    each.parameter === parameter.name && each.measured !== null);
+    each.parameter === parameter.name && (each.measured !== null || each.derived !== null));
   if (broken.length === 0) return element('p', {}, 'No technique that is right on the scene as it is breaks along this parameter.');
   return element('table', { class: 'numbers' },
-    element('thead', {}, element('tr', {}, ['Technique', 'Holds at', 'Breaks at', 'Cause']
+    element('thead', {}, element('tr', {}, ['Technique', 'Holds at', 'Breaks at', 'Derived', 'Cause']
       .map((head) => element('th', { scope: 'col' }, head)))),
     element('tbody', {}, broken.map((each) => element('tr', {},
       element('th', { scope: 'row' }, each.technique), element('td', {}, valueWords(each.holds)),
-      element('td', {}, valueWords(each.measured)), element('td', {}, each.cause)))));
+      element('td', {}, each.measured === null ? 'never' : valueWords(each.measured)),
+      element('td', {}, each.derived === null ? '' : valueWords(each.derived)),
+      element('td', {}, each.cause ?? '')))));
 }
 
 function parameterSection(parameter) {

@@ -79,6 +79,33 @@ TEST(Breaking, bisection_ends_within_a_tenth_of_the_value_at_which_a_technique_b
     EXPECT_FALSE(breaking_points(along, true)[0].fails);
 }
 
+TEST(Breaking, where_strains_reach_1_is_searched_for_as_well) {
+    const auto cells = [](double value) {
+        std::vector all{cell("strained", 0), cell("calm", 0), cell("unknown", 0)};
+        all[0].strain = 0.03 / value;
+        all[1].strain = 0;
+        return all;
+    };
+    StressAlong along = ladder_of({1e-4, 1e-2, 1, 10}, cells);
+    int tried = 0;
+    while (const auto search = next_search(breaking_points(along, false), false)) {
+        ASSERT_LT(++tried, 15);
+        ASSERT_EQ(search->techniques, std::vector<std::string>{"strained"});
+        const auto after =
+            std::ranges::upper_bound(along.points, search->value, {}, &StressPoint::value);
+        along.points.insert(after, point(search->value, {cells(search->value)[0]}));
+    }
+    const std::vector<Breaking> found = breaking_points(along, false);
+    ASSERT_TRUE(found[0].derived);
+    EXPECT_LE(*found[0].derived, 0.03);
+    EXPECT_GT(found[0].derived_holds, 0.03);
+    EXPECT_LE(found[0].derived_holds, 1.11 * *found[0].derived);
+    EXPECT_FALSE(found[0].fails);
+    EXPECT_FALSE(found[1].derived);
+    EXPECT_FALSE(found[2].derived);
+    EXPECT_FALSE(breaking_points(along, true)[0].derived);
+}
+
 TEST(Breaking, what_comes_after_the_first_failure_does_not_count) {
     const StressAlong along = ladder_of(
         {0.01, 0.1, 1}, [](double value) { return std::vector{cell("a", value == 0.1 ? 1 : 0)}; });

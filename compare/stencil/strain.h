@@ -1,0 +1,21 @@
+// How near a technique's numbers are to failing: worked out from the truth and the arithmetic of a
+// driver, and never from what was drawn.
+#pragma once
+
+#include "compare/stencil/pixel_cause.h"
+
+namespace shadowproof {
+
+/// The number of pixels at which rounding is expected to put two faces in the wrong order, over
+/// log 2: from 1 on it is more likely than not that there is one, if they are taken for
+/// independent. Infinite where the technique's algorithm, with exact numbers, does not show the
+/// truth. Pixels whose truth changes within the driver's lateral error do not count: there either
+/// answer is right.
+///
+/// N roundings, each of anything up to e, add up to N e at most (depth_error), and to sqrt(N / 3) e
+/// by standard deviation; half of that, since the largest error that rounding to float may have,
+/// relative to a number, is twice the smallest. How the planes of faces are set up is not part of
+/// it: that depends on single faces.
+double strain(const CountedClaim& judged);
+
+} // namespace shadowproof
