@@ -190,11 +190,10 @@ bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPix
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
     const std::vector<PicturePoint> polygon =
         clipped_polygon(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
-    if (!may_hold(polygon, project(scene.camera, scene.camera.eye + pixel.direction),
-                  std::numbers::sqrt2 * pixel.reach))
-        return false;
+    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
     for (std::size_t i = 2; i < polygon.size(); ++i) {
-        const std::array<PicturePoint, 3> part{polygon[0], polygon[i - 1], polygon[i]};
+        const std::vector<PicturePoint> part{polygon[0], polygon[i - 1], polygon[i]};
+        if (!may_hold(part, place, std::numbers::sqrt2 * pixel.reach)) continue;
         const double area = cross(part[1].place - part[0].place, part[2].place - part[0].place);
         double change = 0;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -65,10 +65,11 @@ bool PixelFaces::are_displaced(const std::vector<std::uint32_t>& triangles) cons
     });
 }
 
-/// A light cap is drawn as its triangle is, from the same corners: where the one is shown, the
-/// other is drawn. Fillings of holes are small.
-bool PixelFaces::is_displaced_cap(const Crossing& crossing) const {
-    return crossing.part == Crossing::Part::light_cap && crossing.triangle != shown_ &&
+/// Whether the clipper's errors may displace a light cap off the pixel. It is drawn as its triangle
+/// is, from the same corners: one that may be as deep as what is shown is that surface's own, or
+/// shares an edge with it, and then one of their caps is drawn. Fillings of holes are small.
+bool PixelFaces::is_displaced_cap(const Crossing& crossing, const DepthRange& range) const {
+    return crossing.part == Crossing::Part::light_cap && range.lower > shown_range_.upper &&
            crossing.triangle < scene_.triangles.size() &&
            may_be_displaced(scene_, crossing.triangle, depths_.covered_pixel());
 }
@@ -198,7 +199,7 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample, int move
         const bool maybe_behind = behind || range.upper >= shown_range_.lower;
         if (!(pass ? maybe_front : maybe_behind)) continue;
         const bool in_front = !behind && crossing.depth < sample.depth;
-        const bool certain = !(maybe_front && maybe_behind) && !is_displaced_cap(crossing);
+        const bool certain = !(maybe_front && maybe_behind) && !is_displaced_cap(crossing, range);
         found.push_back({crossing, in_front == pass, certain});
     }
     return found;

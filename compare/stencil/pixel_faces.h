@@ -103,7 +103,7 @@ private:
 
     bool certainly_in_front(std::uint32_t triangle) const;
     bool are_displaced(const std::vector<std::uint32_t>& triangles) const;
-    bool is_displaced_cap(const Crossing& crossing) const;
+    bool is_displaced_cap(const Crossing& crossing, const DepthRange& range) const;
     std::vector<std::uint32_t> all_in_front() const;
     std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
                                       bool& moved) const;

@@ -215,7 +215,7 @@ TEST(OddGeometry, a_light_cap_that_the_clipper_loses_is_counted_or_not) {
     EXPECT_EQ(frame.counted->counter.at(9, 8), 1U);
     EXPECT_FALSE(is_caught(traced, frame, {9, 8}, 0));
     EXPECT_FALSE(is_caught(traced, frame, {9, 8}, 1));
-    EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 2));
+    EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 3));
     EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 254));
 }
 
