@@ -96,9 +96,9 @@ void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work
     const std::array<Part, 3> parts = parts_of(scene, work);
     const Part& most = *std::max_element(
         parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
-    require_memory(
-        budget, program_bytes,
-        {scene_bytes(scene, work), scene.file.string(), most.name + " and the rest of the work", most.remedy});
+    require_memory(budget, program_bytes,
+                   {scene_bytes(scene, work), scene.file.string(),
+                    most.name + " and the rest of the work", most.remedy});
 }
 
 } // namespace shadowproof

@@ -79,7 +79,8 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     cell.technique = technique.name;
     cell.summary = technique.summary;
     try {
-        JudgedCell judged = judged_cell(technique, trial.traced, trial.plan, run.gpu, {.evidence = true});
+        JudgedCell judged =
+            judged_cell(technique, trial.traced, trial.plan, run.gpu, {.evidence = true});
         report_milliseconds += judged.evidence_milliseconds;
         cell = std::move(judged.cell);
     } catch (const std::bad_alloc&) {
