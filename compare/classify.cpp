@@ -136,6 +136,23 @@ void look_across_coarse_outlines(const Case& tried, const std::vector<PixelPlace
     });
 }
 
+/// Tries for the last time.
+void look_at_all_faces(const Case& tried, const std::vector<PixelPlace>& places,
+                       std::vector<Finding>& findings) {
+    std::vector<std::size_t> open;
+    std::vector<PixelPlace> open_places;
+    std::vector<Finding> found;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (is_explained(tried, places[i], findings[i])) continue;
+        open.push_back(i);
+        open_places.push_back(places[i]);
+        found.push_back(findings[i]);
+    }
+    if (open.empty() || scrutiny_after(open.size()) == Scrutiny::centre) return;
+    tried.judge.look_at_all_faces(open_places, found);
+    for (std::size_t k = 0; k < open.size(); ++k) findings[open[k]] = found[k];
+}
+
 void record(Comparison& comparison, PixelPlace p, bool in_band) {
     EvidenceCheck& check = comparison.evidence;
     if (in_band) {
@@ -269,6 +286,7 @@ Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& 
     });
     std::vector<Finding> findings = look_around(tried, open);
     look_across_coarse_outlines(tried, open, findings);
+    look_at_all_faces(tried, open, findings);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
         record(comparison, p, findings[i].evidence_in_band);
@@ -293,6 +311,7 @@ PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const
         const std::vector<PixelPlace> places{p};
         std::vector<Finding> findings = look_around(tried, places);
         look_across_coarse_outlines(tried, places, findings);
+        look_at_all_faces(tried, places, findings);
         found.unexplained = !findings.front().evidence_in_band;
         if (tried.claim.differs(p)) cause = findings.front().cause;
     }

@@ -87,6 +87,11 @@ public:
     virtual Finding look_around(PixelPlace p, const Neighbourhood& around,
                                 std::span<const RayTruth> truth) const = 0;
 
+    /// Name, where none of this explains a pixel: what may be drawn there by the errors of all that
+    /// is drawn, wherever it lies. Changes the findings that it explains.
+    virtual void look_at_all_faces(std::span<const PixelPlace> /*places*/,
+                                   std::span<Finding> /*findings*/) const {}
+
     /// Outlines that the clipper may draw far aside, of surfaces and of what else is drawn.
     virtual CoarseOutlines coarse_outlines() const = 0;
 

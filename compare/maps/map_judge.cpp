@@ -1,7 +1,10 @@
 #include "compare/driver/coarse_outlines.h"
+#include "compare/driver/cone_side.h"
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/setup_error.h"
+#include "compare/driver/shown_pixel.h"
 #include "compare/judge/judge.h"
+#include "compare/maps/map_account.h"
 #include "compare/maps/map_cause.h"
 #include "compare/maps/map_claim.h"
 #include "compare/maps/map_report.h"
@@ -9,15 +12,12 @@
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 namespace shadowproof {
 
@@ -87,6 +87,22 @@ public:
         return finding;
     }
 
+    // A surface whose corners' errors displace it is drawn where no place of it is known, and so
+    // neither is the texel that is asked.
+    void look_at_all_faces(std::span<const PixelPlace> places,
+                           std::span<Finding> findings) const override {
+        const std::vector<BandRadius> reach = radii(places);
+        std::vector<ShownPixel> pixels;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            pixels.push_back(shown_pixel(claim_.frame, claim_.traced.far(), places[i].x,
+                                         places[i].y, reach[i].surface));
+        const std::vector<SurfaceChance> chances =
+            surface_chances(claim_.traced.tracer(), claim_.frame, pixels);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (chances[i].is_coarse && chances[i].may_be_seen && may_be_displaced_to(places[i]))
+                findings[i] = {true, {Cause::precision, {}}};
+    }
+
     CoarseOutlines coarse_outlines() const override {
         const Scene& scene = claim_.traced.scene();
         return {
@@ -110,41 +126,7 @@ public:
     }
 
     Account account(const PixelRecord& record, double unit) const override {
-        Account account;
-        nlohmann::ordered_json members;
-        const std::optional<PixelLookup> pixel = lookup_at({record.x, record.y});
-        if (!pixel) {
-            account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
-            if (light_.model().filter > 0) account.columns.push_back({"lit", "-"});
-            account.remark = {"shows", "not asked"};
-            members["map"] = nullptr;
-        } else {
-            const Texel& texel = pixel->lookup.texel;
-            account.columns = {{"face", fmt::format("{}", texel.face)},
-                               {"texel", fmt::format("({},{})", texel.x, texel.y)},
-                               {"map", fmt::format("{:.6g}", pixel->stored * unit)},
-                               {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
-            account.remark = {"shows", pixel->shown == no_triangle
-                                           ? std::string("nothing")
-                                           : fmt::format("triangle {}", pixel->shown)};
-            if (light_.model().filter > 0)
-                account.columns.push_back(
-                    {"lit", fmt::format("{}/{}", pixel->lit, light_.model().asked())});
-            members["map"] = {{"face", texel.face},
-                              {"texel", {texel.x, texel.y}},
-                              {"stored", pixel->stored * unit},
-                              {"bias", light_.model().bias * unit},
-                              {"own", pixel->lookup.value * unit},
-                              {"shows", pixel->shown == no_triangle
-                                            ? nlohmann::ordered_json(nullptr)
-                                            : nlohmann::ordered_json(pixel->shown)}};
-            if (light_.model().filter > 0) {
-                members["map"]["lit"] = pixel->lit;
-                members["map"]["of"] = light_.model().asked();
-            }
-        }
-        account.members = members.dump();
-        return account;
+        return account_of_lookup(lookup_at({record.x, record.y}), light_.model(), unit);
     }
 
 private:
@@ -291,6 +273,21 @@ private:
                                                 chosen_light(scene).position);
         point.error = glm::min(point.error, glm::dvec3(1e30)); // infinity times zero is no number
         return point;
+    }
+
+    /// Whether the claim may be that of some place of a displaced surface, or, where that is the
+    /// true one, of one outside a spot's cone.
+    bool may_be_displaced_to(PixelPlace p) const {
+        const std::uint32_t triangle = claim_.frame.triangle.at(p.x, p.y);
+        const Visibility claim = claim_.frame.claim.at(p.x, p.y);
+        if (triangle == no_triangle || claim == Visibility::background)
+            return triangle == no_triangle && claim == Visibility::background;
+        if (claim_.surface_as_true(p))
+            return claim == Visibility::shadowed && !claim_.traced.truth().in_cone.pixels.empty() &&
+                   cone_may_pass(claim_.traced.scene(), claim_.frame.depth_model,
+                                 claim_.traced.far(), triangle, p.x, p.y);
+        return claim == Visibility::shadowed ||
+               sides_of(claim_.traced.tracer(), triangle).faces_light();
     }
 
     /// Whether the claim follows from what may be drawn at the pixel. `cause`: what it is then

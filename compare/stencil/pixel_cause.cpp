@@ -9,15 +9,6 @@ namespace shadowproof {
 
 namespace {
 
-/// The claim that follows from a counter and a triangle, where the light shines or not.
-Visibility claim_of(const CountedClaim& judged, std::int64_t count, std::uint32_t triangle,
-                    bool in_cone) {
-    if (triangle == no_triangle) return Visibility::background;
-    const bool unshadowed = judged.receives[triangle] == 0 || judged.stored(count) == 0;
-    const bool lit = in_cone && unshadowed && sides_of(judged.tracer(), triangle).faces_light();
-    return lit ? Visibility::lit : Visibility::shadowed;
-}
-
 /// The limitations to lift so that a technique that counted `count` claims the truth, where its
 /// surface is the true one. `count_without`: what it counts without some of them. None if the
 /// counter leads to the truth as it is, or if nothing mends it.
@@ -74,6 +65,14 @@ std::optional<PixelCause> cause_of_reading(const CountedClaim& judged, const Rea
 }
 
 } // namespace
+
+Visibility claim_of(const CountedClaim& judged, std::int64_t count, std::uint32_t triangle,
+                    bool in_cone) {
+    if (triangle == no_triangle) return Visibility::background;
+    const bool unshadowed = judged.receives[triangle] == 0 || judged.stored(count) == 0;
+    const bool lit = in_cone && unshadowed && sides_of(judged.tracer(), triangle).faces_light();
+    return lit ? Visibility::lit : Visibility::shadowed;
+}
 
 bool settled(const CountedClaim& judged, PixelPlace p, std::optional<PixelCause>& cause) {
     const bool counted =

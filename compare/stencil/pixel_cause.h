@@ -30,6 +30,10 @@ struct CountedClaim : JudgedClaim {
     std::uint32_t read_back(PixelPlace p) const { return frame.counted->counter.at(p.x, p.y); }
 };
 
+/// The claim that follows from a counter and a triangle, where the light shines or not.
+Visibility claim_of(const CountedClaim& judged, std::int64_t count, std::uint32_t triangle,
+                    bool in_cone);
+
 /// Whether the pixel is decided at its centre, without its surroundings; `cause` is set if it
 /// differs.
 bool settled(const CountedClaim& judged, PixelPlace p, std::optional<PixelCause>& cause);

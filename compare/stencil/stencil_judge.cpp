@@ -1,6 +1,7 @@
 #include "compare/stencil/stencil_judge.h"
 
 #include "compare/driver/error_bounds.h"
+#include "compare/stencil/coarse_counts.h"
 #include "compare/stencil/figures/volume_check.h"
 #include "compare/stencil/pixel_cause.h"
 #include "compare/stencil/stencil_account.h"
@@ -119,6 +120,19 @@ public:
         RegionLedger counted = prediction_.volumes().ledger(around.corners);
         RegionLedger ideal = prediction_.volumes().ideal_ledger(around.corners);
         return find_in_band(claim_, p, around, counted, ideal, truth);
+    }
+
+    void look_at_all_faces(std::span<const PixelPlace> places,
+                           std::span<Finding> findings) const override {
+        const Camera& camera = claim_.traced.scene().camera;
+        std::vector<double> reach;
+        for (const PixelPlace& p : places)
+            reach.push_back(
+                neighbourhood(camera, {p.x + 0.5, p.y + 0.5}, radii(std::span(&p, 1)).front())
+                    .reach);
+        const std::vector<CoarseCount> counts = coarse_counts(claim_, places, reach);
+        for (std::size_t i = 0; i < places.size(); ++i)
+            findings[i] = finding_by_all_faces(claim_, places[i], counts[i], findings[i]);
     }
 
     CoarseOutlines coarse_outlines() const override {

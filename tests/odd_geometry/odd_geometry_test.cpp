@@ -219,6 +219,31 @@ TEST(OddGeometry, a_light_cap_that_the_clipper_loses_is_counted_or_not) {
     EXPECT_TRUE(is_caught(traced, frame, {9, 8}, 254));
 }
 
+/// Floors of 1e3 to 1e8 beside a camera's height of 3, with triangles without area among them; a
+/// solid that is stretched by 1e7; sides of volumes whose planes pass the eye. Found by fuzzing.
+TEST(OddGeometry, what_floats_displace_by_pixels_is_explained) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* file : {"side_through_eye.gltf", "eye_in_floor.gltf", "floor_cut_by_far.gltf",
+                             "floor_beyond_far.gltf", "spot_on_wide_floor.gltf",
+                             "stretched_solid.gltf", "folded_floor.gltf", "widest_floor.gltf"}) {
+        SCOPED_TRACE(file);
+        try_techniques(TracedScene(odd_scene(file, 24)), gpu);
+    }
+}
+
+/// The planes of three sides pass the eye closer than floats tell at 1.7e7: each may be drawn over
+/// half of the picture, or over the other half, or before the near plane. There are no others.
+TEST(OddGeometry, sides_next_to_the_eye_are_counted_or_not) {
+    const TracedScene traced(odd_scene("side_through_eye.gltf", 24));
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("zpass"), traced.scene, traced.plan, gpu);
+    EXPECT_EQ(frame.counted->counter.at(2, 0), 255U);
+    for (const std::uint32_t counter : {255U, 0U, 1U})
+        EXPECT_FALSE(is_caught(traced, frame, {2, 0}, counter)) << counter;
+    for (const std::uint32_t counter : {4U, 5U, 128U, 251U, 252U})
+        EXPECT_TRUE(is_caught(traced, frame, {2, 0}, counter)) << counter;
+}
+
 /// Pixel (20, 13) lies beside the volume of a sliver, a ten-thousandth of a pixel wide there, and
 /// is drawn within it.
 TEST(OddGeometry, a_volume_that_is_a_ten_thousandth_of_a_pixel_wide_is_counted_or_not) {

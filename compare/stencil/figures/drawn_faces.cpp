@@ -161,6 +161,7 @@ private:
                                     .triangle = triangle,
                                     .corners = cap,
                                     .other_corner = {},
+                                    .inward = true,
                                     .copies = copies});
         };
         const auto far_end = [&](std::uint32_t position) { return far_end_of(position); };
@@ -170,11 +171,13 @@ private:
         for (const glm::uvec3& cap : far_fan(split_, triangle, corners, far_end, extra)) add(cap);
     }
 
-    /// The two triangles of a side, parted from the earlier position's far end to the later one.
+    /// The two triangles of a side, parted from the earlier position's far end to the later one. A
+    /// triangle that faces the light has the edge from a to b.
     void add_side(std::uint32_t a, std::uint32_t b, std::uint32_t triangle, bool certain = true,
                   std::uint32_t copies = 1) {
         const std::uint32_t low = std::min(a, b);
         const std::uint32_t high = std::max(a, b);
+        const bool inward = high == a;
         constexpr auto part = DrawnFace::Part::side;
         const std::uint32_t low_end = far_end_of(low);
         const std::uint32_t high_end = far_end_of(high);
@@ -182,13 +185,13 @@ private:
             const std::uint32_t middle = along(*across);
             for (const glm::uvec3& face :
                  {glm::uvec3{middle, high, low}, {middle, low, low_end}, {middle, high_end, high}})
-                found_.faces.push_back({part, certain, triangle, face, {}, false, copies});
+                found_.faces.push_back({part, certain, triangle, face, {}, false, inward, copies});
             return;
         }
         found_.faces.push_back(
-            {part, certain, triangle, {high, low, low_end}, high_end, true, copies});
+            {part, certain, triangle, {high, low, low_end}, high_end, true, inward, copies});
         found_.faces.push_back(
-            {part, certain, triangle, {low_end, high_end, high}, low, false, copies});
+            {part, certain, triangle, {low_end, high_end, high}, low, false, inward, copies});
     }
 
     void add_all_sides(const Part& part) {
@@ -224,9 +227,10 @@ private:
             int surplus = 0;
             for (; end < uses.size() && edge_of(uses[end]) == edge_of(uses[begin]); ++end)
                 surplus += uses[end].runs;
-            if (surplus != 0)
-                add_side(uses[begin].low, uses[begin].high, uses[begin].triangle, true,
-                         static_cast<std::uint32_t>(std::abs(surplus)));
+            const auto [low, high, triangle, runs] = uses[begin];
+            const auto copies = static_cast<std::uint32_t>(std::abs(surplus));
+            if (surplus > 0) add_side(low, high, triangle, true, copies);
+            if (surplus < 0) add_side(high, low, triangle, true, copies);
         }
     }
 

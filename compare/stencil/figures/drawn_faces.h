@@ -26,6 +26,7 @@ struct DrawnFace {
     /// other one has.
     std::optional<std::uint32_t> other_corner;
     bool first_of_side = false;
+    bool inward = false; ///< its corners run clockwise as seen from outside the volume
     /// How often it is drawn: a side with a surplus, or the caps of so many triangles with the same
     /// corners, of which `triangle` is the first and the others follow it.
     std::uint32_t copies = 1;

@@ -1,5 +1,5 @@
 // The figures of volumes: predicted from the faces that a technique draws, and wrong ones caught.
-#include "compare/stencil/figures/pictured_face.h"
+#include "compare/driver/pictured_face.h"
 #include "compare/stencil/figures/volume_check.h"
 #include "scenes/load/catalog.h"
 #include "scenes/stress/parameter.h"

@@ -1,4 +1,4 @@
-#include "compare/stencil/figures/pictured_face.h"
+#include "compare/driver/pictured_face.h"
 
 #include "compare/driver/setup_error.h"
 
@@ -84,6 +84,15 @@ void ConvexRegion::bound(const glm::dvec2& normal, double most) {
     bounds_[count_++] = {most / normal.x, -normal.y / normal.x, normal.x < 0};
 }
 
+bool ConvexRegion::holds(const glm::dvec2& place) const {
+    if (!(place.x >= low_.x && place.x <= high_.x && place.y >= low_.y && place.y <= high_.y))
+        return false;
+    return std::all_of(bounds_.begin(), bounds_.begin() + count_, [&](const Bound& bound) {
+        const double x = bound.at + bound.slope * place.y;
+        return bound.lower ? place.x >= x : place.x <= x;
+    });
+}
+
 PixelRun ConvexRegion::rows(int height) const {
     if (!(low_.x <= high_.x && low_.y <= high_.y)) return {};
     const PixelRun run{first_column(low_.y, height), last_column(high_.y, height) + 1};
@@ -133,15 +142,20 @@ struct Regions {
     ConvexRegion certain;
     ConvexRegion possible;
     std::optional<double> margin; ///< of the possible one
+    bool is_wide = false; ///< it covers some place whatever its corners do, and so never flips
 };
 
 Regions regions_of(const PictureMaking& making, const std::vector<PicturePoint>& most,
                    const std::vector<PicturePoint>& least) {
-    Regions regions{{}, ConvexRegion::everywhere(), margin_of(making, most)};
+    Regions regions{{}, ConvexRegion::everywhere(), margin_of(making, most), false};
     if (!regions.margin) return regions;
     regions.possible = ConvexRegion(most, -*regions.margin);
-    if (const std::optional<double> margin = margin_of(making, least))
+    if (const std::optional<double> margin = margin_of(making, least)) {
         regions.certain = ConvexRegion(least, *margin);
+        glm::dvec2 sum(0);
+        for (const PicturePoint& point : least) sum += point.place;
+        regions.is_wide = regions.certain.holds(sum / double(least.size()));
+    }
     return regions;
 }
 
@@ -154,6 +168,25 @@ glm::dvec3 plane_of(const std::array<ViewCorner, 3>& corners) {
     const glm::dvec3 sum = corners[0].at.w * glm::cross(b, c) + corners[1].at.w * glm::cross(c, a) +
                            corners[2].at.w * glm::cross(a, b);
     return sum / glm::dot(a, glm::cross(b, c));
+}
+
+/// Whether the front (+1) or the back (-1) of a triangle is seen; 0 where errors of its corners may
+/// reverse that. Right, up and forward make a left-handed frame: the determinant of corners that
+/// run anticlockwise as seen from the eye is positive. It is linear in each corner.
+int seen_side(const std::array<ViewCorner, 3>& corners) {
+    const glm::dvec3 a(corners[0].at);
+    const glm::dvec3 b(corners[1].at);
+    const glm::dvec3 c(corners[2].at);
+    const double da = glm::length(corners[0].error);
+    const double db = glm::length(corners[1].error);
+    const double dc = glm::length(corners[2].error);
+    const double once = da * glm::length(glm::cross(b, c)) + db * glm::length(glm::cross(c, a)) +
+                        dc * glm::length(glm::cross(a, b));
+    const double twice =
+        da * db * glm::length(c) + db * dc * glm::length(a) + dc * da * glm::length(b);
+    const double determinant = glm::dot(a, glm::cross(b, c));
+    if (!(std::abs(determinant) > once + twice + da * db * dc)) return 0;
+    return determinant > 0 ? 1 : -1;
 }
 
 /// As coefficients of pixels.
@@ -198,6 +231,7 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
     PicturedFace face;
     if (!std::all_of(seen.begin(), seen.end(), has_direction)) {
         face.possible = ConvexRegion::everywhere();
+        face.margin = infinity;
         face.edge_on = true;
         return face;
     }
@@ -218,6 +252,8 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
         face.is_one_of_two = true;
     }
     face.possible = regions.possible;
+    face.margin = regions.margin.value_or(infinity);
+    face.change = regions.is_wide ? seen_side(seen) : 0;
     face.inverse_depth = in_pixels(making.camera, plane_of(seen));
     const glm::dvec3& inverse = face.inverse_depth;
     face.edge_on = !regions.margin || !std::isfinite(inverse.x + inverse.y + inverse.z);
@@ -234,6 +270,7 @@ PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewC
     drawing.far = infinity;
     if (!std::all_of(most.begin(), most.end(), has_direction)) {
         face.possible = ConvexRegion::everywhere();
+        face.margin = infinity;
         return face;
     }
     const Regions regions =
@@ -242,6 +279,7 @@ PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewC
     face.certain = regions.certain;
     face.certain_of_both = regions.certain;
     face.possible = regions.possible;
+    face.margin = regions.margin.value_or(infinity);
     return face;
 }
 

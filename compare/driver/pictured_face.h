@@ -31,6 +31,7 @@ public:
     /// The whole plane.
     static ConvexRegion everywhere();
 
+    bool holds(const glm::dvec2& place) const;
     /// Pixels of row y whose centres it holds, in a picture of `width` columns.
     PixelRun row(int y, int width) const;
     /// Rows that may have such pixels, of `height` rows.
@@ -64,10 +65,12 @@ struct PicturedFace {
     /// Pixels with a certain fragment of exactly one of two faces: this one and the one that shares
     /// an edge with it. Without the latter, as `certain`. One of the two stands for both.
     ConvexRegion certain_of_both;
-    bool is_one_of_two = false;      ///< there is such another face
-    bool stands_for_both = true;     ///< always, where there is none
-    bool in_front = false;           ///< in front of everything
-    bool edge_on = false;            ///< it may have any depth
+    bool is_one_of_two = false;  ///< there is such another face
+    bool stands_for_both = true; ///< always, where there is none
+    bool in_front = false;       ///< in front of everything
+    bool edge_on = false;        ///< it may have any depth
+    int change = 0; ///< +1: a ray enters the volume there, -1: it leaves it; 0: either may be drawn
+    double margin = 0; ///< how far its corners may be drawn aside, in pixels; may be infinite
     std::uint32_t copies = 1;        ///< how many faces it is (DrawnFace::copies)
     std::uint32_t light_cap_of = 0;  ///< the first of the triangles whose surface it coincides with
     std::uint32_t own_triangles = 0; ///< how many those are: one of each copy of a light cap
@@ -88,6 +91,7 @@ struct PictureMaking {
 /// `light_size`, the size of the light's coordinates, off a direction. `other`: the other corner of
 /// a triangle that lies in the same plane, beyond the edge from the third corner to the first, and
 /// is drawn with it; null where there is none.
+/// `PicturedFace::change` is that of corners that run anticlockwise as seen from outside.
 PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners,
                            const glm::dvec4* other, double light_size);
 

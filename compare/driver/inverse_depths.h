@@ -1,0 +1,24 @@
+// Inverse view depths as window depths give them, and their roundings.
+#pragma once
+
+#include "scenes/depth_model.h"
+#include "scenes/frame.h"
+#include "scenes/image.h"
+
+namespace shadowproof {
+
+/// Error of any inverse depth by the window's roundings: see driver/error_bounds.h.
+struct WindowRoundings {
+    double constant = 0;
+    double share = 0; ///< of its size
+};
+WindowRoundings window_roundings(const DepthModel& model);
+
+/// Of a window depth.
+double inverse_depth(const DepthModel& model, double window_depth);
+
+/// The inverse view depths, read back, that a face must reach in order not to be behind what is
+/// seen. A background is behind everything.
+Image<double> inverse_depths(const Frame& frame);
+
+} // namespace shadowproof

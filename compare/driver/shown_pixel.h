@@ -1,0 +1,61 @@
+// What one pixel of a frame shows, and how what is drawn lies beside it: whether a face covers the
+// pixel, and whether it is in front.
+#pragma once
+
+#include "compare/driver/inverse_depths.h"
+#include "compare/driver/pictured_face.h"
+#include "reference/trace/trace.h"
+#include "scenes/frame.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+struct ShownPixel {
+    glm::dvec2 centre{0, 0};
+    double reach = 0; ///< how far aside, in pixels, the rasterizer may draw what it shows
+    std::uint32_t triangle = no_triangle;
+    double inverse_depth = 0; ///< of the surface, as read back, or of the background
+};
+
+/// The background lies at `far`, the far plane, in finite projections, else at infinity.
+ShownPixel shown_pixel(const Frame& frame, double far, int x, int y, double reach);
+
+/// Whether something is so: never, perhaps, or always.
+struct Chance {
+    bool possible = false;
+    bool certain = false;
+};
+
+/// Whether a face covers the pixel.
+Chance covers(const PicturedFace& face, const ShownPixel& pixel);
+
+/// The inverse view depths that a face may have there; all where it is seen edge-on.
+struct InverseDepths {
+    double low = 0;
+    double high = 0;
+};
+InverseDepths inverse_depths_of(const PicturedFace& face, const ShownPixel& pixel,
+                                const WindowRoundings& roundings);
+/// Whether such a face is in front of what is shown.
+Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel);
+
+/// Whether a face that may cover the pixel, or not, is off by more than the pixel's reach and half
+/// a pixel: it may be drawn at another pixel altogether, and what is true next to this one does not
+/// tell what is drawn here.
+bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel);
+
+/// Whether a pixel may show what it shows, by the errors of all triangles that are seen.
+struct SurfaceChance {
+    bool is_coarse = false; ///< one of them is
+    bool may_be_seen = true;
+};
+
+/// Time is linear in pixels times triangles.
+std::vector<SurfaceChance> surface_chances(const Tracer& tracer, const Frame& frame,
+                                           std::span<const ShownPixel> pixels);
+
+} // namespace shadowproof

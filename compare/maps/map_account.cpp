@@ -1,0 +1,46 @@
+#include "compare/maps/map_account.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace shadowproof {
+
+Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapModel& model,
+                          double unit) {
+    Account account;
+    nlohmann::ordered_json members;
+    if (!pixel) {
+        account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
+        if (model.filter > 0) account.columns.push_back({"lit", "-"});
+        account.remark = {"shows", "not asked"};
+        members["map"] = nullptr;
+    } else {
+        const Texel& texel = pixel->lookup.texel;
+        account.columns = {{"face", fmt::format("{}", texel.face)},
+                           {"texel", fmt::format("({},{})", texel.x, texel.y)},
+                           {"map", fmt::format("{:.6g}", pixel->stored * unit)},
+                           {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
+        account.remark = {"shows", pixel->shown == no_triangle
+                                       ? std::string("nothing")
+                                       : fmt::format("triangle {}", pixel->shown)};
+        if (model.filter > 0)
+            account.columns.push_back({"lit", fmt::format("{}/{}", pixel->lit, model.asked())});
+        members["map"] = {{"face", texel.face},
+                          {"texel", {texel.x, texel.y}},
+                          {"stored", pixel->stored * unit},
+                          {"bias", model.bias * unit},
+                          {"own", pixel->lookup.value * unit},
+                          {"shows", pixel->shown == no_triangle
+                                        ? nlohmann::ordered_json(nullptr)
+                                        : nlohmann::ordered_json(pixel->shown)}};
+        if (model.filter > 0) {
+            members["map"]["lit"] = pixel->lit;
+            members["map"]["of"] = model.asked();
+        }
+    }
+    account.members = members.dump();
+    return account;
+}
+
+} // namespace shadowproof
