@@ -72,12 +72,34 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
 
 } // namespace
 
-ViewCorner viewed(const Camera& camera, const glm::dvec4& point, double offset) {
+// A row of the transform holds a direction of the camera, and the eye's place along it as the last
+// term. What is relative to the eye, or to the light, is rounded twice before, so that 5 roundings
+// of double its size are more than all.
+// Where window depth rises with depth, its numerator and w are sums of their own. An infinite
+// projection has the same products in both but for the eye's term, which is rounded in either
+// matrix, and the last sums; in a finite one all of them are others.
+ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& drawing) {
     const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
-    const glm::dvec3 at(glm::dot(camera.right, relative), glm::dot(camera.up, relative),
-                        glm::dot(camera.forward, relative));
-    const double terms = 2 * (std::sqrt(3.0) * glm::length(at) + point.w * offset);
-    return {.at = {at, point.w}, .error = glm::dvec3(transform_roundings * v * terms)};
+    const bool from_origin = drawing.offset > 0 && point.w > 0;
+    ViewCorner corner;
+    corner.at.w = point.w;
+    const std::array<glm::dvec3, 3> axes{camera.right, camera.up, camera.forward};
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3& axis = axes[static_cast<std::size_t>(k)];
+        corner.at[k] = glm::dot(axis, relative);
+        const double terms = from_origin ? glm::dot(glm::abs(axis), glm::abs(glm::dvec3(point))) +
+                                               point.w * std::abs(glm::dot(axis, camera.eye))
+                                         : 2 * glm::dot(glm::abs(axis), glm::abs(relative));
+        corner.error[k] = transform_roundings * v * terms;
+    }
+    const double n = drawing.standard_near;
+    if (n > 0 && drawing.infinite)
+        corner.clip_error = 2 * v *
+                            (std::abs(corner.at.z) +
+                             point.w * (n + std::abs(glm::dot(camera.forward, camera.eye))));
+    else if (n > 0)
+        corner.clip_error = 2 * corner.error.z;
+    return corner;
 }
 
 std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
@@ -126,15 +148,15 @@ Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
     return {.near = model.clamp ? 0 : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
-            .standard_near = model.reversed() ? 0 : model.near};
+            .standard_near = model.reversed() ? 0 : model.near,
+            .infinite = !model.finite()};
 }
 
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing) {
     Polygon polygon;
-    for (const glm::dvec4& corner : corners)
-        polygon.push_back(viewed(camera, corner, drawing.offset));
+    for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner, drawing));
     return clipped_polygon(camera, std::move(polygon), drawing, PlaneCut::nominal);
 }
 

@@ -15,12 +15,13 @@ namespace shadowproof {
 // A point at d from the light is in the cone where d . axis - cos |d| is not negative. That changes
 // by at most 1 + |cos| times what the point is off; both products, sums and the length round d by
 // less than 8 v of it.
-bool cone_may_pass(const Scene& scene, const DepthModel& model, double far, std::uint32_t triangle,
-                   int x, int y) {
+ConeSides cone_sides(const Scene& scene, const DepthModel& model, double far,
+                     std::uint32_t triangle, int x, int y) {
     const Light& light = chosen_light(scene);
+    if (light.kind != Light::Kind::spot) return {};
     const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
     const double depth = depth_on_triangle(scene, triangle, direction);
-    if (!(depth > 0)) return true; // its plane is not met: it is drawn aside
+    if (!(depth > 0)) return {true, true}; // its plane is not met: it is drawn aside
     const glm::dvec3 point = scene.camera.eye + depth * direction;
     const double clips_at = model.clips_at_far() ? far : std::numeric_limits<double>::infinity();
     const CoveredPixel pixel{direction, lateral_error(scene, model, point),
@@ -31,7 +32,8 @@ bool cone_may_pass(const Scene& scene, const DepthModel& model, double far, std:
         8 * float_roundoff * glm::length(from_light);
     const double cosine = std::cos(light.outer_cone);
     const double inside = glm::dot(from_light, light.direction) - cosine * glm::length(from_light);
-    return !(std::abs(inside) > (1 + std::abs(cosine)) * error);
+    const double off = (1 + std::abs(cosine)) * error;
+    return {!(inside < -off), !(inside > off)}; // both where it is no number
 }
 
 } // namespace shadowproof

@@ -9,9 +9,15 @@
 
 namespace shadowproof {
 
-/// Whether the cone of the chosen light, a spot, may pass between the point of a triangle that the
-/// pixel's centre sees and where a shader puts it. `far`: the far plane of what is drawn.
-bool cone_may_pass(const Scene& scene, const DepthModel& model, double far, std::uint32_t triangle,
-                   int x, int y);
+struct ConeSides {
+    bool inside = true;
+    bool outside = false;
+};
+
+/// Where a shader may put the point of a triangle that the pixel's centre sees: inside or outside
+/// the cone of the chosen light. Lights that are no spots shine everywhere. `far`: the far plane of
+/// what is drawn.
+ConeSides cone_sides(const Scene& scene, const DepthModel& model, double far,
+                     std::uint32_t triangle, int x, int y);
 
 } // namespace shadowproof

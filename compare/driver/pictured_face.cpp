@@ -125,17 +125,31 @@ bool has_direction(const ViewCorner& corner) {
 // A corner that clipping makes is put together with a weight that is itself rounded, in its
 // difference and quotient: by up to 2 v of the edge, which is up to 4 v of the larger corner,
 // beside the 3 v that clipped_polygon counts.
+double place_error_of(const PicturePoint& point) {
+    return point.place_error * (point.made_by_clipping ? 7.0 / 3.0 : 1.0);
+}
+
 std::optional<double> margin_of(const PictureMaking& making,
                                 const std::vector<PicturePoint>& polygon) {
     double margin = 0;
     for (const PicturePoint& point : polygon) {
-        const double error = point.place_error * (point.made_by_clipping ? 7.0 / 3.0 : 1.0);
+        const double error = place_error_of(point);
         // Not a number where it lies in the eye.
         if (!(error < infinity) || !std::isfinite(point.place.x) || !std::isfinite(point.place.y))
             return std::nullopt;
         margin = std::max(margin, error);
     }
     return making.half_step + margin;
+}
+
+/// Whether none of the triangles that a polygon is cut into may be drawn flipped.
+bool stays_as_wound(const PictureMaking& making, const std::vector<PicturePoint>& polygon) {
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        std::array<PicturePoint, 3> part{polygon[0], polygon[i - 1], polygon[i]};
+        for (PicturePoint& corner : part) corner.place_error = place_error_of(corner);
+        if (may_be_flipped(part, making.half_step)) return false;
+    }
+    return true;
 }
 
 struct Regions {
@@ -222,7 +236,7 @@ std::vector<DepthError> depth_errors(const std::vector<PicturePoint>& polygon, d
 PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners,
                            const glm::dvec4* other, double light_size) {
     const auto seen_of = [&](const glm::dvec4& corner) {
-        ViewCorner seen = viewed(making.camera, corner, making.drawing.offset);
+        ViewCorner seen = viewed(making.camera, corner, making.drawing);
         if (corner.w == 0) seen.error += 0x1p-48 * light_size;
         return seen;
     };
@@ -253,7 +267,7 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
     }
     face.possible = regions.possible;
     face.margin = regions.margin.value_or(infinity);
-    face.change = regions.is_wide ? seen_side(seen) : 0;
+    face.change = regions.is_wide || stays_as_wound(making, most) ? seen_side(seen) : 0;
     face.inverse_depth = in_pixels(making.camera, plane_of(seen));
     const glm::dvec3& inverse = face.inverse_depth;
     face.edge_on = !regions.margin || !std::isfinite(inverse.x + inverse.y + inverse.z);

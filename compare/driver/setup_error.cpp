@@ -186,28 +186,28 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 
 // Twice the area changes by an edge's length times the move of the corner across from it, and by
 // products of two moves.
-bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
-    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-    const std::vector<PicturePoint> polygon =
-        clipped_polygon(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
-    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-        const std::vector<PicturePoint> part{polygon[0], polygon[i - 1], polygon[i]};
-        if (!may_hold(part, place, std::numbers::sqrt2 * pixel.reach)) continue;
-        const double area = cross(part[1].place - part[0].place, part[2].place - part[0].place);
-        double change = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const PicturePoint& one = part[(k + 1) % 3];
-            const PicturePoint& other = part[(k + 2) % 3];
-            const auto move = [&](const PicturePoint& corner) {
-                return std::numbers::sqrt2 * (corner.place_error + pixel.reach);
-            };
-            change +=
-                move(part[k]) * glm::length(other.place - one.place) + move(one) * move(other);
-        }
-        if (!(std::abs(area) > change)) return true; // or no number
+bool may_be_flipped(const PictureTriangle& triangle, double reach) {
+    const double area =
+        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
+    double change = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PicturePoint& one = triangle[(k + 1) % 3];
+        const PicturePoint& other = triangle[(k + 2) % 3];
+        const auto move = [&](const PicturePoint& corner) {
+            return std::numbers::sqrt2 * (corner.place_error + reach);
+        };
+        change +=
+            move(triangle[k]) * glm::length(other.place - one.place) + move(one) * move(other);
     }
-    return false;
+    return !(std::abs(area) > change); // or no number
+}
+
+bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    return std::ranges::any_of(set_up(scene, triangle, pixel), [&](const PictureTriangle& part) {
+        return may_hold({part.begin(), part.end()}, place, std::numbers::sqrt2 * pixel.reach) &&
+               may_be_flipped(part, pixel.reach);
+    });
 }
 
 // It grows to all sides as sizes of linear functions do, so that no pixel has more than the corners

@@ -33,6 +33,9 @@ double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
 /// errors, and snapping by up to the pixel's reach along each axis, may reverse their winding.
 bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
+/// Whether the same may reverse the winding of a triangle of the picture.
+bool may_be_flipped(const std::array<PicturePoint, 3>& triangle, double reach);
+
 /// The largest error for a triangle of the picture, over all pixels within `reach` of it.
 double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach);
 

@@ -44,9 +44,7 @@ Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel) {
 }
 
 bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel) {
-    constexpr double half_a_pixel = 0.5;
-    return covered.possible && !covered.certain &&
-           face.margin > std::max(pixel.reach, half_a_pixel);
+    return covered.possible && !covered.certain && face.margin > pixel.reach;
 }
 
 namespace {
@@ -73,11 +71,14 @@ public:
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const Chance covered = covers(face, pixels[i]);
             SurfaceChance& chance = chances[i];
-            if (triangle == pixels[i].triangle)
+            if (triangle == pixels[i].triangle) {
                 chance.may_be_seen = chance.may_be_seen && covered.possible;
-            else if (covered.certain && certainly_drawn &&
-                     is_in_front(inverse_depths_of(face, pixels[i], roundings_), pixels[i]).certain)
-                chance.may_be_seen = false;
+            } else if (covered.possible && maybe_drawn) {
+                const Chance front =
+                    is_in_front(inverse_depths_of(face, pixels[i], roundings_), pixels[i]);
+                if (front.certain && covered.certain && certainly_drawn) chance.may_be_seen = false;
+                if (front.possible && !front.certain) chance.tied.push_back(triangle);
+            }
             if (maybe_drawn && is_coarse(face, covered, pixels[i])) chance.is_coarse = true;
         }
     }
@@ -112,6 +113,8 @@ std::vector<SurfaceChance> surface_chances(const Tracer& tracer, const Frame& fr
                      for (std::size_t i = 0; i < pixels.size(); ++i) {
                          chances[i].is_coarse = chances[i].is_coarse || found[i].is_coarse;
                          chances[i].may_be_seen = chances[i].may_be_seen && found[i].may_be_seen;
+                         chances[i].tied.insert(chances[i].tied.end(), found[i].tied.begin(),
+                                                found[i].tied.end());
                      }
                  });
     return chances;

@@ -52,6 +52,9 @@ bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel
 struct SurfaceChance {
     bool is_coarse = false; ///< one of them is
     bool may_be_seen = true;
+    /// Other triangles that may have the depth that is shown: a pass that draws what has just that
+    /// depth draws them as well. In any order.
+    std::vector<std::uint32_t> tied{};
 };
 
 /// Time is linear in pixels times triangles.

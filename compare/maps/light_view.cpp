@@ -176,8 +176,7 @@ bool LightView::clipping_may_draw(const Texel& texel, std::uint32_t caster, doub
     const Drawing drawing = drawing_of(scene, depth_model_, map_.model.far);
     std::vector<ViewCorner> corners;
     for (int k = 0; k < 3; ++k)
-        corners.push_back(
-            viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing.offset));
+        corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
     const auto is_beyond_near = [&](const ViewCorner& c) { return c.at.z > 2 * map_.model.near; };
     if (std::all_of(corners.begin(), corners.end(), is_beyond_near)) return false;
     const std::vector<PicturePoint> polygon =

@@ -99,7 +99,8 @@ public:
         const std::vector<SurfaceChance> chances =
             surface_chances(claim_.traced.tracer(), claim_.frame, pixels);
         for (std::size_t i = 0; i < places.size(); ++i)
-            if (chances[i].is_coarse && chances[i].may_be_seen && may_be_displaced_to(places[i]))
+            if (may_lie_outside_cone(places[i]) ||
+                (chances[i].is_coarse && chances[i].may_be_seen && may_be_displaced_to(places[i])))
                 findings[i] = {true, {Cause::precision, {}}};
     }
 
@@ -275,19 +276,28 @@ private:
         return point;
     }
 
-    /// Whether the claim may be that of some place of a displaced surface, or, where that is the
-    /// true one, of one outside a spot's cone.
+    /// Whether the claim may be that of some place of a displaced surface, which is not the true
+    /// one.
     bool may_be_displaced_to(PixelPlace p) const {
         const std::uint32_t triangle = claim_.frame.triangle.at(p.x, p.y);
         const Visibility claim = claim_.frame.claim.at(p.x, p.y);
         if (triangle == no_triangle || claim == Visibility::background)
             return triangle == no_triangle && claim == Visibility::background;
-        if (claim_.surface_as_true(p))
-            return claim == Visibility::shadowed && !claim_.traced.truth().in_cone.pixels.empty() &&
-                   cone_may_pass(claim_.traced.scene(), claim_.frame.depth_model,
-                                 claim_.traced.far(), triangle, p.x, p.y);
-        return claim == Visibility::shadowed ||
-               sides_of(claim_.traced.tracer(), triangle).faces_light();
+        return !claim_.surface_as_true(p) &&
+               (claim == Visibility::shadowed ||
+                sides_of(claim_.traced.tracer(), triangle).faces_light());
+    }
+
+    /// Whether the pixel shows the true surface as if it were outside a spot's cone, on whose
+    /// border it lies as far as its interpolated place tells.
+    bool may_lie_outside_cone(PixelPlace p) const {
+        const std::uint32_t triangle = claim_.frame.triangle.at(p.x, p.y);
+        return triangle != no_triangle && claim_.surface_as_true(p) &&
+               claim_.frame.claim.at(p.x, p.y) == Visibility::shadowed &&
+               !claim_.traced.truth().in_cone.pixels.empty() &&
+               cone_sides(claim_.traced.scene(), claim_.frame.depth_model, claim_.traced.far(),
+                          triangle, p.x, p.y)
+                   .outside;
     }
 
     /// Whether the claim follows from what may be drawn at the pixel. `cause`: what it is then
@@ -313,7 +323,7 @@ private:
             return false;
         if (!sides_of(claim_.traced.tracer(), drawn).faces_light())
             return claim == Visibility::shadowed;
-        const ConeSides cone = cone_sides(drawn, truth);
+        const ConeSides cone = cone_sides_around(drawn, truth);
         if (cone.outside && claim == Visibility::shadowed) return true;
         if (!cone.inside) return false;
         if (receives_[drawn] == 0) return claim == Visibility::lit;
@@ -337,14 +347,10 @@ private:
         return may_gape(claim_.traced.scene(), std::move(triangles), around.rays);
     }
 
-    struct ConeSides {
-        bool inside = false;
-        bool outside = false;
-    };
     /// Where a spot's light may be: of the rays that see the triangle, or of all where none does.
-    ConeSides cone_sides(std::uint32_t triangle, std::span<const RayTruth> truth) const {
-        ConeSides own;
-        ConeSides all;
+    ConeSides cone_sides_around(std::uint32_t triangle, std::span<const RayTruth> truth) const {
+        ConeSides own{false, false};
+        ConeSides all{false, false};
         for (const RayTruth& t : truth) {
             for (ConeSides* sides : {&own, &all})
                 if (sides == &all || t.triangle == triangle)

@@ -228,22 +228,28 @@ bool CoarseCount::may_hold(std::uint32_t read, const Counting& counting) const {
 Finding finding_by_all_faces(const CountedClaim& judged, PixelPlace p, const CoarseCount& count,
                              const Finding& so_far) {
     const std::uint32_t read = judged.read_back(p);
-    if (!count.is_coarse || !count.may_be_seen || !count.may_hold(read, judged.counting()))
-        return so_far;
+    const std::uint32_t shown = judged.frame.triangle.at(p.x, p.y);
+    const bool is_displaced =
+        count.is_coarse && count.may_be_seen && count.may_hold(read, judged.counting());
+    if (!is_displaced && !so_far.evidence_in_band) return so_far;
+    const Visibility claim = judged.frame.claim.at(p.x, p.y);
     const Image<std::uint8_t>& cones = judged.truth().in_cone;
     const bool in_cone = cones.pixels.empty() || cones.at(p.x, p.y) != 0;
-    const auto follows = [&](bool cone) {
-        return claim_of(judged, read, judged.frame.triangle.at(p.x, p.y), cone) ==
-               judged.frame.claim.at(p.x, p.y);
-    };
+    // Without a displaced face, this is no explanation: it was looked for already.
+    if (claim_of(judged, read, shown, in_cone) == claim)
+        return is_displaced ? Finding{true, {Cause::precision, {}}} : so_far;
     // Of a displaced surface nobody knows which point is shown.
-    const auto cone_is_unknown = [&] {
-        return !cones.pixels.empty() &&
-               (!judged.surface_as_true(p) ||
-                cone_may_pass(judged.traced.scene(), judged.frame.depth_model, judged.traced.far(),
-                              judged.frame.triangle.at(p.x, p.y), p.x, p.y));
+    const bool is_anywhere = is_displaced && !judged.surface_as_true(p) && !cones.pixels.empty();
+    const auto follows_from = [&](std::uint32_t triangle) {
+        if (triangle == no_triangle) return claim == Visibility::background;
+        const ConeSides cone = is_anywhere
+                                   ? ConeSides{true, true}
+                                   : cone_sides(judged.traced.scene(), judged.frame.depth_model,
+                                                judged.traced.far(), triangle, p.x, p.y);
+        return (cone.inside && claim_of(judged, read, triangle, true) == claim) ||
+               (cone.outside && claim_of(judged, read, triangle, false) == claim);
     };
-    if (follows(in_cone) || (follows(!in_cone) && cone_is_unknown()))
+    if (follows_from(shown) || std::ranges::any_of(count.tied, follows_from))
         return {true, {Cause::precision, {}}};
     return so_far;
 }
@@ -270,6 +276,7 @@ std::vector<CoarseCount> coarse_counts(const CountedClaim& judged,
         CoarseCount& count = counts.emplace_back();
         count.is_coarse = surfaces[i].is_coarse || sums[i].is_coarse;
         count.may_be_seen = surfaces[i].may_be_seen;
+        count.tied = surfaces[i].tied;
         count.counter = {start, start, start};
         count.counter += sums[i].counted;
         if (!is_closed) continue;

@@ -25,8 +25,9 @@ struct CoarseCount {
     /// (driver/shown_pixel.h), or a dark cap at infinity may come out in front of what is shown.
     /// Where there is none, the pixel's neighbourhood tells more.
     bool is_coarse = false;
-    bool may_be_seen = true; ///< what the pixel shows may be what is seen there
-    StepSums counter;        ///< before it wraps
+    bool may_be_seen = true;           ///< what the pixel shows may be what is seen there
+    StepSums counter;                  ///< before it wraps
+    std::vector<std::uint32_t> tied{}; ///< as SurfaceChance has them
 
     /// Whether a buffer may hold `read` then.
     bool may_hold(std::uint32_t read, const Counting& counting) const;
@@ -38,8 +39,10 @@ std::vector<CoarseCount> coarse_counts(const CountedClaim& judged,
                                        std::span<const PixelPlace> places,
                                        std::span<const double> reach);
 
-/// What a pixel's count tells: the claim must follow from a counter that the faces may lead to.
-/// `so_far`: what else was found, which stays where this explains nothing.
+/// What a pixel's count tells: the claim must follow from a counter that the faces may lead to, or
+/// from the one that was explained already: by another triangle of the same depth, or by a spot's
+/// cone, whose side the surface's interpolated place does not tell. `so_far`: what else was found,
+/// which stays where this explains nothing.
 Finding finding_by_all_faces(const CountedClaim& judged, PixelPlace p, const CoarseCount& count,
                              const Finding& so_far);
 

@@ -178,18 +178,35 @@ std::vector<std::int32_t> PixelFaces::possible_starts() const {
     return all;
 }
 
-std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample, int move) const {
-    const double near = depths_.clip_depth(scene_.camera.near, move);
-    const double far = std::isfinite(depths_.clip_far()) ? depths_.clip_depth(far_, move)
-                                                         : std::numeric_limits<double>::infinity();
+std::array<ClipDepths, 3> PixelFaces::clip_depths() const {
+    const bool clips = std::isfinite(depths_.clip_far());
+    const auto moved = [&](double depth, int by) {
+        return clips ? depths_.clip_depth(depth, by) : std::numeric_limits<double>::infinity();
+    };
+    const ClipDepths own{scene_.camera.near, moved(far_, -1), moved(far_, 0), moved(far_, 1)};
+    std::array<ClipDepths, 3> all{own, own, own};
+    for (const int k : {1, 2}) {
+        const int move = k == 1 ? -1 : 1;
+        ClipDepths& clip = all[static_cast<std::size_t>(k)];
+        clip.near = depths_.clip_depth(scene_.camera.near, move);
+        clip.nearest_far = clip.far = clip.furthest_far = moved(far_, move);
+        clip.moved = true;
+    }
+    return all;
+}
+
+std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample,
+                                                  const ClipDepths& clip) const {
     std::vector<CandidateFace> found;
     for (const Crossing& crossing : sample.crossings) {
         const Counting::Caster caster = counting().caster(crossing.triangle);
         const bool pass = caster.test == Counting::Test::depth_pass;
         if (crossing.part == Crossing::Part::light_cap && !caster.light_cap) continue;
         if (crossing.part == Crossing::Part::dark_cap && !caster.dark_cap) continue;
-        if (!frame_.depth_model.clamp && crossing.depth < near) continue;
-        if (!pass && crossing.depth >= far) continue;
+        if (!frame_.depth_model.clamp && crossing.depth < clip.near) continue;
+        if (!pass && crossing.depth >= clip.furthest_far) continue;
+        const bool is_cut = !pass && crossing.depth >= clip.far;
+        const bool maybe_cut = !pass && crossing.depth >= clip.nearest_far;
         const bool behind = is_never_in_front(crossing);
         const DepthRange range = depths_.face(crossing, sample.direction);
         // What is seen through a gap between surfaces is seen through the same gap between their
@@ -199,8 +216,9 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample, int move
         const bool maybe_behind = behind || range.upper >= shown_range_.lower;
         if (!(pass ? maybe_front : maybe_behind)) continue;
         const bool in_front = !behind && crossing.depth < sample.depth;
-        const bool certain = !(maybe_front && maybe_behind) && !is_displaced_cap(crossing, range);
-        found.push_back({crossing, in_front == pass, certain});
+        const bool certain =
+            !(maybe_front && maybe_behind) && !maybe_cut && !is_displaced_cap(crossing, range);
+        found.push_back({crossing, in_front == pass && !is_cut, certain});
     }
     return found;
 }

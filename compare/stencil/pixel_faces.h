@@ -10,6 +10,7 @@
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -46,6 +47,16 @@ struct CandidateFace {
     bool certain = false;   ///< whatever depths are rounded to, and wherever it is displaced to
 };
 
+/// View depths of the planes that clip. Each face is clipped by roundings of its own: between the
+/// nearest and the furthest depth of the far plane it may be cut or not.
+struct ClipDepths {
+    double near = 0;
+    double nearest_far = 0; ///< these are infinite where no far plane clips
+    double far = 0;
+    double furthest_far = 0;
+    bool moved = false; ///< they are not the planes' own
+};
+
 /// How many steps a count may be lower or higher.
 struct StepRange {
     std::int64_t least = 0;
@@ -63,9 +74,11 @@ public:
     /// `sample`.
     bool take(const glm::dvec3& direction, const RayTruth& truth, Sample& sample) const;
 
+    /// Where the clipping planes may lie: their own depths, both nearer, both further.
+    std::array<ClipDepths, 3> clip_depths() const;
     /// The sample's faces that are drawn, neither clipped nor on the wrong side of the surface for
-    /// certain. `move`: of the clipping planes, see FaceDepths::clip_depth.
-    std::vector<CandidateFace> candidates(const Sample& sample, int move) const;
+    /// certain.
+    std::vector<CandidateFace> candidates(const Sample& sample, const ClipDepths& clip) const;
     /// What the dark caps at infinity add to the count.
     std::int64_t dark_caps(const Sample& sample) const;
     /// Shadow depth where the sample's ray meets the near plane.

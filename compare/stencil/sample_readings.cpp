@@ -26,10 +26,10 @@ std::vector<CountOfSum> counts_with_uncertain(const std::vector<CandidateFace>& 
 }
 
 /// Readings with the clipping planes moved.
-void add_clipped(const PixelFaces& pixel, const Sample& sample, int move,
+void add_clipped(const PixelFaces& pixel, const Sample& sample, const ClipDepths& clip,
                  std::vector<Reading>& readings) {
     const Counting& counting = pixel.counting();
-    const std::vector<CandidateFace> faces = pixel.candidates(sample, move);
+    const std::vector<CandidateFace> faces = pixel.candidates(sample, clip);
     const std::int64_t last = pixel.dark_caps(sample);
     const std::int32_t start =
         start_of(counting, pixel.volumes().counted_at_eye, pixel.depth_at_near(sample));
@@ -37,11 +37,11 @@ void add_clipped(const PixelFaces& pixel, const Sample& sample, int move,
     const CountOfSum nominal = nominal_count(faces, start, last, counting);
     const auto add = [&](const CountOfSum& found) {
         const std::int64_t off = found.sum - nominal.sum;
-        const bool rounded = sample.moved || move != 0 || found != nominal;
+        const bool rounded = sample.moved || clip.moved || found != nominal;
         readings.push_back({found.count, sample.ideal + off, sample.in_cone, rounded,
                             sample.direction, sample.depth, off});
     };
-    if (move == 0) add(nominal);
+    if (!clip.moved) add(nominal);
     for (const std::int32_t other : pixel.starts())
         for (const CountOfSum& found : counts_with_uncertain(faces, other, last, counting))
             add(found);
@@ -50,7 +50,7 @@ void add_clipped(const PixelFaces& pixel, const Sample& sample, int move,
 } // namespace
 
 void add_sample(const PixelFaces& pixel, const Sample& sample, std::vector<Reading>& readings) {
-    for (const int move : {0, -1, 1}) add_clipped(pixel, sample, move, readings);
+    for (const ClipDepths& clip : pixel.clip_depths()) add_clipped(pixel, sample, clip, readings);
     sort_out(readings);
     // In its plane the faces of a flat volume may come in any order, with the surface among them:
     // each one that is entered is left again, and in between the count is one more or less.

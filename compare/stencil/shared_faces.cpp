@@ -4,7 +4,7 @@ namespace shadowproof {
 
 SharedFaces faces_of_sample(const PixelFaces& pixel, const Sample& sample) {
     SharedFaces faces;
-    for (const CandidateFace& face : pixel.candidates(sample, 0)) {
+    for (const CandidateFace& face : pixel.candidates(sample, pixel.clip_depths().front())) {
         if (face.certain && !face.nominally) continue;
         const Crossing& crossing = face.crossing;
         const FaceKey key{crossing.part, crossing.triangle, crossing.is_side() ? crossing.edge : 0,
