@@ -95,6 +95,10 @@ constexpr std::array rules{
     index("meshes/*/primitives/*/indices", "/accessors"),
     index("meshes/*/primitives/*/material", "/materials"),
     whole("meshes/*/primitives/*/mode", 0, 6),
+    index("meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView!",
+          "/bufferViews"),
+    whole("meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/attributes!/{}", 0,
+          0x7fffffff),
     index("skins/*/joints!/*", "/nodes"),
     index("skins/*/inverseBindMatrices", "/accessors"),
     whole("animations/*/channels!/*/sampler!", 0, 0x7fffffff),
@@ -119,6 +123,22 @@ constexpr std::array rules{
     whole("bufferViews/*/byteLength!", 1, limits.bytes),
     whole("bufferViews/*/byteOffset", 0, limits.bytes),
     whole("bufferViews/*/byteStride", 4, 252),
+    index("bufferViews/*/extensions/EXT_meshopt_compression/buffer!", "/buffers"),
+    whole("bufferViews/*/extensions/EXT_meshopt_compression/byteOffset", 0, limits.bytes),
+    whole("bufferViews/*/extensions/EXT_meshopt_compression/byteLength!", 1, limits.bytes),
+    whole("bufferViews/*/extensions/EXT_meshopt_compression/byteStride!", 1, 256),
+    whole("bufferViews/*/extensions/EXT_meshopt_compression/count!", 1, 0xffffffffU),
+    Rule{"bufferViews/*/extensions/EXT_meshopt_compression/mode!"},
+    Rule{"bufferViews/*/extensions/EXT_meshopt_compression/filter"},
+    Rule{"buffers/*/extensions/EXT_meshopt_compression/fallback", Kind::boolean},
+    index("bufferViews/*/extensions/KHR_meshopt_compression/buffer!", "/buffers"),
+    whole("bufferViews/*/extensions/KHR_meshopt_compression/byteOffset", 0, limits.bytes),
+    whole("bufferViews/*/extensions/KHR_meshopt_compression/byteLength!", 1, limits.bytes),
+    whole("bufferViews/*/extensions/KHR_meshopt_compression/byteStride!", 1, 256),
+    whole("bufferViews/*/extensions/KHR_meshopt_compression/count!", 1, 0xffffffffU),
+    Rule{"bufferViews/*/extensions/KHR_meshopt_compression/mode!"},
+    Rule{"bufferViews/*/extensions/KHR_meshopt_compression/filter"},
+    Rule{"buffers/*/extensions/KHR_meshopt_compression/fallback", Kind::boolean},
     whole("buffers/*/byteLength!", 1, 1ULL << 53U),
     Rule{"buffers/*/uri"},
 };
@@ -317,6 +337,11 @@ void check_transforms(const Place& root, const json& document) {
                     .refuse(fmt::format("has both \"matrix\" and \"{}\"", key), "keep one");
 }
 
+/// Whether Draco's stream takes the place of a primitive's buffer views.
+bool is_compressed(const json& primitive) {
+    return primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"));
+}
+
 /// tinygltf does not load index accessors that have no buffer view, and does not say which.
 void check_indices(const Place& root, const json& document) {
     const auto meshes = document.find("meshes");
@@ -324,7 +349,7 @@ void check_indices(const Place& root, const json& document) {
         const auto& primitives = (*meshes)[i]["primitives"];
         for (std::size_t k = 0; k < primitives.size(); ++k) {
             const auto indices = primitives[k].find("indices");
-            if (indices == primitives[k].end()) continue;
+            if (indices == primitives[k].end() || is_compressed(primitives[k])) continue;
             if (!document["accessors"][indices->get<std::size_t>()].contains("bufferView"))
                 (root / "meshes" / i / "primitives" / k / "indices")
                     .refuse("names an accessor without a buffer view", "give it one");
@@ -335,7 +360,11 @@ void check_indices(const Place& root, const json& document) {
 } // namespace
 
 bool is_evaluated(std::string_view extension) {
-    return extension == "KHR_lights_punctual" || extension == "KHR_mesh_quantization";
+    constexpr std::array evaluated{
+        "KHR_lights_punctual",     "KHR_mesh_quantization",   "KHR_draco_mesh_compression",
+        "EXT_meshopt_compression", "KHR_meshopt_compression",
+    };
+    return std::find(evaluated.begin(), evaluated.end(), extension) != evaluated.end();
 }
 
 void check_json(const Place& root, json& document) {
