@@ -24,6 +24,17 @@ void note_extensions(const Document& document, Scene& scene) {
             scene.notes.push_back(fmt::format("the extension {} is not evaluated", name));
 }
 
+/// Every primitive has its own material; what a variant would give it is not looked at.
+void note_variants(const Document& document, Scene& scene) {
+    const auto found = document.model.extensions.find("KHR_materials_variants");
+    if (found == document.model.extensions.end()) return;
+    const std::size_t variants =
+        found->second.Has("variants") ? found->second.Get("variants").ArrayLen() : 0;
+    scene.notes.push_back(fmt::format(
+        "of {} material variants none is chosen: each primitive has its default material",
+        variants));
+}
+
 /// extras.shadowproof.KEY, an array of cause names, at the root of the file; none where there is
 /// no such array.
 std::optional<std::vector<Cause>> read_causes(const Document& document, const std::string& key) {
@@ -65,8 +76,9 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     scene.name = file.stem().string();
     scene.file = file;
     note_extensions(document, scene);
+    note_variants(document, scene);
     read_provokes(document, request, scene);
-    NodeGraph graph = read_nodes(document);
+    NodeGraph graph = read_nodes(document, scene.notes);
     AccessorReader reader(document);
     pose_nodes(reader, request.time, graph, scene.notes);
     place_nodes(graph);

@@ -102,6 +102,7 @@ std::vector<Carrier> find_lights(const Document& document, const NodeGraph& grap
     const Place lights = document.root() / "extensions" / extension / "lights";
     std::vector<Carrier> carriers;
     for (const std::size_t node : graph.in_scene) {
+        if (!graph.nodes[node].visible) continue; // hides lights, but no cameras
         const tinygltf::ExtensionMap& extensions = document.model.nodes[node].extensions;
         const auto found = extensions.find(extension);
         if (found == extensions.end()) continue;
@@ -152,6 +153,15 @@ Light read_light(const Document& document, const NodeGraph& graph, const Carrier
     return light;
 }
 
+/// A range is where a light's intensity is cut off to save time; nothing physical ends there.
+void note_range(const Document& document, const Carrier& carrier, Scene& scene) {
+    const double range = document.model.lights[carrier.index].range;
+    if (range > 0)
+        scene.notes.push_back(fmt::format("{}/range of {:g} is not evaluated: the light shines on "
+                                          "without end",
+                                          carrier.place.pointer(), range));
+}
+
 } // namespace
 
 Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
@@ -186,6 +196,7 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
         light.choice = is_told_by_name ? light.name : std::to_string(number);
     }
     if (lights.empty()) add_default_light(scene);
+    if (!lights.empty()) note_range(document, lights[scene.light], scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));
