@@ -1,5 +1,6 @@
 #include "scenes/load/gltf/gltf.h"
 
+#include "scenes/load/common/default_floor.h"
 #include "scenes/load/gltf/check.h"
 #include "scenes/load/gltf/mesh.h"
 #include "scenes/load/gltf/pose.h"
@@ -54,12 +55,13 @@ std::optional<std::vector<Cause>> read_causes(const Document& document, const st
 }
 
 /// `provokesWide`: causes that a picture may show in addition where it is wider than high.
-void read_provokes(const Document& document, const SceneRequest& request, Scene& scene) {
+/// After choose_camera.
+void read_provokes(const Document& document, Scene& scene) {
     const auto provokes = read_causes(document, "provokes");
     scene.declares_provokes = provokes.has_value();
     scene.provokes = provokes.value_or(std::vector<Cause>());
     const auto wide = read_causes(document, "provokesWide");
-    if (wide && request.width > request.height) scene.may_provoke = *wide;
+    if (wide && scene.camera.width > scene.camera.height) scene.may_provoke = *wide;
 }
 
 /// Each note once, in the order in which they came.
@@ -77,7 +79,6 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     scene.file = file;
     note_extensions(document, scene);
     note_variants(document, scene);
-    read_provokes(document, request, scene);
     NodeGraph graph = read_nodes(document, scene.notes);
     AccessorReader reader(document);
     pose_nodes(reader, request.time, graph, scene.notes);
@@ -85,6 +86,8 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     bake_meshes(reader, graph, scene);
     scene.camera = choose_camera(document, graph, request, scene);
     choose_light(document, graph, request, scene);
+    if (request.floor && scene.default_framing) add_default_floor(scene);
+    read_provokes(document, scene);
     drop_repeated(scene.notes);
     return scene;
 }

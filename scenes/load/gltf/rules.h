@@ -79,6 +79,7 @@ inline constexpr std::array rules{
     Rule{"cameras/*/name"},
     Rule{"cameras/*/type!"},
     Rule{"cameras/*/perspective/yfov!", Kind::number},
+    Rule{"cameras/*/perspective/aspectRatio", Kind::positive}, // tinygltf uses 0 for none
     Rule{"cameras/*/perspective/znear!", Kind::positive},
     Rule{"cameras/*/perspective/zfar", Kind::positive}, // tinygltf uses 0 for none
     Rule{"materials/*/name"},
