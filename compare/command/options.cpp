@@ -1,6 +1,7 @@
 #include "compare/command/options.h"
 
 #include "scenes/available_memory.h"
+#include "scenes/nearest_name.h"
 
 #include <fmt/format.h>
 
@@ -62,10 +63,12 @@ std::string technique_names() {
 
 const Technique* parse_technique(const std::string& name) {
     const Technique* technique = find_technique(name);
+    std::vector<std::string> names;
+    for (const Technique& each : all_techniques()) names.emplace_back(each.name);
     if (technique == nullptr)
-        throw CLI::ValidationError(
-            "--technique",
-            fmt::format("there is no technique '{}'; there are {}", name, technique_names()));
+        throw CLI::ValidationError("--technique",
+                                   fmt::format("there is no technique '{}'{}; there are {}", name,
+                                               did_you_mean(name, names), technique_names()));
     return technique;
 }
 
