@@ -3,8 +3,11 @@
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/signals.h"
 #include "compare/command/process/standard_output.h"
+#include "raster/gl/context.h"
+#include "reference/trace/instruction_set.h"
 #include "reference/trace/trace.h"
-#include "scenes/nearest_name.h"
+#include "scenes/error.h"
+#include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +44,24 @@ constexpr const char* footer =
     "  2  wrong usage\n"
     "  3  could not run: unreadable scene, no OpenGL, a blank or NaN render\n";
 
+/// OpenGL's driver, or why there is none.
+std::string driver_in_words() {
+    try {
+        const DriverInfo driver = Gpu(GlPlatform::osmesa).driver();
+        return fmt::format("{}, {}", driver.version, driver.renderer);
+    } catch (const Error& error) {
+        return fmt::format("none ({})", error.what());
+    }
+}
+
+/// What the results of a run depend on.
+std::string versions() {
+    choose_instruction_set();
+    return fmt::format("shadowproof {}\nEmbree {}\nOpenGL {}\ninstruction set {}",
+                       SHADOWPROOF_VERSION, embree_version(), driver_in_words(),
+                       instruction_set_in_use());
+}
+
 /// For the first word of the command line that looks like a flag and is none of the command's.
 std::string flag_that_was_meant(const CLI::App& command, int argc, char** argv) {
     std::vector<std::string> flags{"--help"};
@@ -58,9 +79,7 @@ std::string flag_that_was_meant(const CLI::App& command, int argc, char** argv) 
 int run(int argc, char** argv) {
     CLI::App app(description, "shadowproof");
     app.require_subcommand(1);
-    app.set_version_flag("--version", [] {
-        return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
-    });
+    app.set_version_flag("--version", versions);
     const std::vector<Work> works{
         add_verify(app), add_check(app), add_render(app), add_explain(app), add_stress(app),
         add_bench(app),  add_list(app),  add_report(app), add_merge(app),   add_normal_map(app)};

@@ -1,7 +1,7 @@
 #include "compare/command/options.h"
 
 #include "scenes/available_memory.h"
-#include "scenes/nearest_name.h"
+#include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
 

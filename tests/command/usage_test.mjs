@@ -50,6 +50,15 @@ test('a scene that is not there ends with 3 and names the bundled ones', () => {
   assert.match(run.err, /ordinary/);
 });
 
+test('--version names what results depend on: Embree, Mesa and the instruction set', () => {
+  const run = shadowproof(['--version'], { env: { SHADOWPROOF_INSTRUCTION_SET: 'sse4' } });
+  assert.equal(run.code, 0, run.err);
+  assert.match(run.out, /^shadowproof \d+\.\d+\.\d+\nEmbree \d.*\nOpenGL .*Mesa.*llvmpipe.*\ninstruction set SSE4\n$/);
+  const unknown = shadowproof(['--version'], { env: { SHADOWPROOF_INSTRUCTION_SET: 'mmx' } });
+  assert.equal(unknown.code, 3);
+  assert.match(unknown.err, /"mmx" is not known/);
+});
+
 test('a scene that is nearly the name of a bundled one is asked about', () => {
   const run = shadowproof(['verify', 'ordnary']);
   assert.equal(run.code, 3);

@@ -1,4 +1,4 @@
-#include "scenes/nearest_name.h"
+#include "scenes/load/common/nearest_name.h"
 
 #include <algorithm>
 
