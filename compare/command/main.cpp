@@ -3,6 +3,7 @@
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/signals.h"
 #include "compare/command/process/standard_output.h"
+#include "compare/command/wrapped.h"
 #include "raster/gl/context.h"
 #include "reference/trace/instruction_set.h"
 #include "reference/trace/trace.h"
@@ -95,7 +96,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {
         std::ostringstream words;
         const int code = app.exit(success, words, words);
-        print(words.str());
+        print(wrapped(words.str(), 80));
         return code;
     } catch (const CLI::ParseError& error) {
         const std::vector<CLI::App*> chosen = app.get_subcommands();

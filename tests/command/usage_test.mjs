@@ -50,6 +50,16 @@ test('a scene that is not there ends with 3 and names the bundled ones', () => {
   assert.match(run.err, /ordinary/);
 });
 
+for (const command of ['', 'verify', 'check', 'render', 'explain', 'stress', 'bench', 'list', 'report', 'merge',
+                       'normal-map'])
+  test(`help fits 80 columns: ${command || 'all of it'}`, () => {
+    const run = shadowproof([command, '--help'].filter(Boolean));
+    assert.equal(run.code, 0, run.err);
+    const lines = run.out.split('\n');
+    assert.ok(lines.length > 5);
+    for (const line of lines) assert.ok(line.length <= 80, line);
+  });
+
 test('--version names what results depend on: Embree, Mesa and the instruction set', () => {
   const run = shadowproof(['--version'], { env: { SHADOWPROOF_INSTRUCTION_SET: 'sse4' } });
   assert.equal(run.code, 0, run.err);
