@@ -2,9 +2,9 @@
 
 #include "scenes/error.h"
 #include "scenes/load/admission.h"
+#include "scenes/load/common/nearest_name.h"
 #include "scenes/load/gltf/gltf.h"
 #include "scenes/load/md2/md2.h"
-#include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
 

@@ -164,8 +164,7 @@ const std::vector<Breakage> breakages{
      " /meshes/0/primitives/0/mode", "7"},
     {"no_triangles", [](json& g) { g["meshes"][0]["primitives"][0]["mode"] = 0; }, "",
      "no triangle"},
-    {"required_extension",
-     [](json& g) { g["extensionsRequired"] = {"KHR_implicit_shapes"}; },
+    {"required_extension", [](json& g) { g["extensionsRequired"] = {"KHR_implicit_shapes"}; },
      " /extensionsRequired/0", "KHR_implicit_shapes"},
     {"unknown_cause",
      [](json& g) {
