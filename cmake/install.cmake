@@ -8,7 +8,8 @@ set(scenes_folder ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes)
 install(TARGETS shadowproof EXPORT shadowproof RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS shadowproof_scenes shadowproof_reference shadowproof_raster shadowproof_compare
     EXPORT shadowproof ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS shadowproof_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/shadowproof)
+install(TARGETS shadowproof_draco shadowproof_openimageio
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/shadowproof)
 install(EXPORT shadowproof NAMESPACE shadowproof:: DESTINATION ${package_folder}
     FILE shadowproof-targets.cmake)
 foreach(room scenes reference raster compare)

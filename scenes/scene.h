@@ -119,6 +119,7 @@ struct Scene {
     std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
     std::vector<Cause> may_provoke; ///< extras.shadowproof.mayProvoke: at some picture sizes
     bool declares_provokes = false; ///< whether the file says what it provokes
+    bool default_framing = false;   ///< camera or light are not the file's (default_view.h)
     std::vector<std::string> notes; ///< for the console: defaults taken, things not evaluated
 };
 

@@ -323,11 +323,13 @@ int explain(const ExplainOptions& options, int watcher) {
     return all_ran ? exit_passed : exit_could_not;
 }
 
-/// The pixel must lie in the picture, whichever of the two flags stands first. A scene under stress
-/// may have a picture of another shape.
+/// The pixel must lie in the picture, whichever of the two flags stands first. Scenes under stress,
+/// and files whose camera has an aspect ratio, have pictures of another shape.
 void check_inside(const ExplainOptions& options) {
     const PictureSize& size = options.picture.size;
-    if (options.picture.stress || (options.pixel.x < size.width && options.pixel.y < size.height))
+    const bool has_that_size = options.picture.size_given || is_bundled(options.scene);
+    if (options.picture.stress || !has_that_size ||
+        (options.pixel.x < size.width && options.pixel.y < size.height))
         return;
     throw CLI::ValidationError("--pixel", outside(options.pixel, size.width, size.height));
 }

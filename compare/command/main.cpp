@@ -3,11 +3,17 @@
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/signals.h"
 #include "compare/command/process/standard_output.h"
+#include "compare/command/wrapped.h"
+#include "raster/gl/context.h"
+#include "reference/trace/instruction_set.h"
 #include "reference/trace/trace.h"
+#include "scenes/error.h"
+#include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 
@@ -39,18 +45,50 @@ constexpr const char* footer =
     "  2  wrong usage\n"
     "  3  could not run: unreadable scene, no OpenGL, a blank or NaN render\n";
 
+/// OpenGL's driver, or why there is none.
+std::string driver_in_words() {
+    try {
+        const DriverInfo driver = Gpu(GlPlatform::osmesa).driver();
+        return fmt::format("{}, {}", driver.version, driver.renderer);
+    } catch (const Error& error) {
+        return fmt::format("none ({})", error.what());
+    }
+}
+
+/// What the results of a run depend on.
+std::string versions() {
+    choose_instruction_set();
+    return fmt::format("shadowproof {}\nEmbree {}\nOpenGL {}\ninstruction set {}",
+                       SHADOWPROOF_VERSION, embree_version(), driver_in_words(),
+                       instruction_set_in_use());
+}
+
+/// For the first word of the command line that looks like a flag and is none of the command's.
+std::string flag_that_was_meant(const CLI::App& command, int argc, char** argv) {
+    std::vector<std::string> flags{"--help"};
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word(argv[i]);
+        const std::string flag(word.substr(0, word.find('=')));
+        if (!flag.starts_with("--") || std::ranges::count(flags, flag) > 0) continue;
+        return did_you_mean(flag, flags);
+    }
+    return {};
+}
+
 int run(int argc, char** argv) {
     CLI::App app(description, "shadowproof");
     app.require_subcommand(1);
-    app.set_version_flag("--version", [] {
-        return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
-    });
+    app.set_version_flag("--version", versions);
     const std::vector<Work> works{
         add_verify(app), add_check(app), add_render(app), add_explain(app), add_stress(app),
         add_bench(app),  add_list(app),  add_report(app), add_merge(app),   add_normal_map(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
     for (const CLI::App* command : commands)
         offered += (offered.empty() ? "" : ", ") + command->get_name();
     try {
@@ -58,18 +96,19 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {
         std::ostringstream words;
         const int code = app.exit(success, words, words);
-        print(words.str());
+        print(wrapped(words.str(), 80));
         return code;
     } catch (const CLI::ParseError& error) {
         const std::vector<CLI::App*> chosen = app.get_subcommands();
         const std::string_view first = argc > 1 ? argv[1] : "";
         if (!chosen.empty()) {
-            complain(error.what());
+            complain(error.what() + flag_that_was_meant(*chosen.front(), argc, argv));
             std::cerr << "See shadowproof " << chosen.front()->get_name() << " --help.\n";
         } else if (first.empty() || first.front() == '-') {
             complain(fmt::format("{}; there are {}", error.what(), offered));
         } else {
-            complain(fmt::format("there is no command '{}'; there are {}", first, offered));
+            complain(fmt::format("there is no command '{}'{}; there are {}", first,
+                                 did_you_mean(first, names), offered));
         }
         return exit_usage;
     }

@@ -1,6 +1,7 @@
 #include "compare/command/options.h"
 
 #include "scenes/available_memory.h"
+#include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
 
@@ -62,10 +63,12 @@ std::string technique_names() {
 
 const Technique* parse_technique(const std::string& name) {
     const Technique* technique = find_technique(name);
+    std::vector<std::string> names;
+    for (const Technique& each : all_techniques()) names.emplace_back(each.name);
     if (technique == nullptr)
-        throw CLI::ValidationError(
-            "--technique",
-            fmt::format("there is no technique '{}'; there are {}", name, technique_names()));
+        throw CLI::ValidationError("--technique",
+                                   fmt::format("there is no technique '{}'{}; there are {}", name,
+                                               did_you_mean(name, names), technique_names()));
     return technique;
 }
 
@@ -187,9 +190,11 @@ void add_volume_flags(CLI::App& command, VolumeSettings& settings) {
 SceneRequest SceneOptions::request() const {
     return {.camera = camera,
             .light = light,
+            .floor = floor.value_or(true),
             .time = time,
             .width = size.width,
             .height = size.height,
+            .camera_aspect = !size_given,
             .stress = stress,
             .memory = memory};
 }
@@ -223,8 +228,14 @@ void add_scenes_argument(CLI::App& command, std::vector<std::string>& scenes) {
 void add_scene_flags(CLI::App& command, SceneOptions& options) {
     command
         .add_option_function<std::string>(
-            "--size", [&](const std::string& text) { options.size = parse_size(text); },
-            "Picture size in pixels (512x512)")
+            "--size",
+            [&](const std::string& text) {
+                options.size = parse_size(text);
+                options.size_given = true;
+            },
+            "Picture size in pixels (512x512; where the camera has an aspect ratio, as wide as "
+            "that "
+            "at 512 high)")
         ->type_name("WxH");
     command.add_option("--camera", options.camera, "Camera, by name or index (the first)")
         ->type_name("CAMERA");
@@ -232,6 +243,10 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
         .add_option("--light", options.light,
                     "Light, by name or index (verify: each in turn, others: the first)")
         ->type_name("LIGHT");
+    command
+        .add_option("--floor", options.floor,
+                    "A floor under a model without camera or light (yes; check: no)")
+        ->type_name("yes|no");
     command
         .add_option_function<std::string>(
             "--time",
@@ -331,10 +346,12 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
         words.push_back(value);
     };
     const PictureSize ordinary;
-    if (scene.size.width != ordinary.width || scene.size.height != ordinary.height)
+    if (scene.size_given || scene.size.width != ordinary.width ||
+        scene.size.height != ordinary.height)
         add("--size", fmt::format("{}x{}", scene.size.width, scene.size.height));
     if (scene.camera) add("--camera", *scene.camera);
     if (scene.light) add("--light", *scene.light);
+    if (scene.floor) add("--floor", *scene.floor ? "yes" : "no");
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
     if (scene.stress) add("--stress", words_of(*scene.stress));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");

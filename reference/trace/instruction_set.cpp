@@ -61,6 +61,11 @@ void choose_instruction_set() {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
+std::string instruction_set_in_use() {
+    const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+    return hwy::TargetName(usable & -usable); // the lowest bit is the best one's
+}
+
 std::string embree_instruction_set() {
     const InstructionSet* set = chosen();
     return set != nullptr ? fmt::format(",isa={}", set->embree) : "";

@@ -11,6 +11,9 @@ namespace shadowproof {
 /// where it names an unknown one, or one that this processor does not have.
 void choose_instruction_set();
 
+/// The name of the one that is used: "AVX2". After choose_instruction_set.
+std::string instruction_set_in_use();
+
 /// The same as a setting of Embree's device: ",isa=avx2"; empty where none was selected.
 std::string embree_instruction_set();
 

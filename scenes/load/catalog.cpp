@@ -2,6 +2,7 @@
 
 #include "scenes/error.h"
 #include "scenes/load/admission.h"
+#include "scenes/load/common/nearest_name.h"
 #include "scenes/load/gltf/gltf.h"
 #include "scenes/load/md2/md2.h"
 
@@ -89,6 +90,12 @@ bool holds_scenes(const std::filesystem::path& folder) {
     return !folder.empty() && std::filesystem::exists(folder / "ordinary.gltf", failure);
 }
 
+std::vector<std::string> bundled_names() {
+    std::vector<std::string> names;
+    for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);
+    return names;
+}
+
 std::string listed_names() {
     std::string names;
     for (const BundledScene& scene : bundled_scenes())
@@ -130,7 +137,8 @@ Scene read_scene(const std::string& name_or_path, const SceneRequest& request) {
     if (!std::filesystem::exists(name_or_path, failure))
         throw Error(name_or_path,
                     failure ? fmt::format("cannot be reached ({})", failure.message())
-                            : "is neither a bundled scene nor a file",
+                            : "is neither a bundled scene nor a file" +
+                                  did_you_mean(name_or_path, bundled_names()),
                     "use a path to .gltf, .glb or .md2, or one of " + listed_names());
     return is_md2(name_or_path) ? load_md2(name_or_path, request)
                                 : load_gltf(name_or_path, request);

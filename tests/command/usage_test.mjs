@@ -10,6 +10,9 @@ const wrongUsage = [
   [['inspect', 'ordinary', 'x.png'], /no command 'inspect'; there are verify, check, render, explain/],
   [['--nonsense'], /there are verify/],
   [['verify', '--technique', 'zmaybe'], /no technique 'zmaybe'; there are zpass, zfail/],
+  [['verify', '--technique', 'zfial'], /no technique 'zfial' \(did you mean zfail\?\); there are zpass/],
+  [['verify', '--techniqe', 'zfail'], /not expected.*\(did you mean --technique\?\)/],
+  [['verfy', 'ordinary'], /no command 'verfy' \(did you mean verify\?\); there are verify/],
   [['verify', '--technique', ''], /technique/],
   [['verify', '--size', '512'], /WIDTHxHEIGHT/],
   [['verify', '--size', '0x512'], /WIDTHxHEIGHT/],
@@ -45,6 +48,31 @@ test('a scene that is not there ends with 3 and names the bundled ones', () => {
   assert.equal(run.code, 3);
   assert.match(run.err, /nowhere\.gltf/);
   assert.match(run.err, /ordinary/);
+});
+
+for (const command of ['', 'verify', 'check', 'render', 'explain', 'stress', 'bench', 'list', 'report', 'merge',
+                       'normal-map'])
+  test(`help fits 80 columns: ${command || 'all of it'}`, () => {
+    const run = shadowproof([command, '--help'].filter(Boolean));
+    assert.equal(run.code, 0, run.err);
+    const lines = run.out.split('\n');
+    assert.ok(lines.length > 5);
+    for (const line of lines) assert.ok(line.length <= 80, line);
+  });
+
+test('--version names what results depend on: Embree, Mesa and the instruction set', () => {
+  const run = shadowproof(['--version'], { env: { SHADOWPROOF_INSTRUCTION_SET: 'sse4' } });
+  assert.equal(run.code, 0, run.err);
+  assert.match(run.out, /^shadowproof \d+\.\d+\.\d+\nEmbree \d.*\nOpenGL .*Mesa.*llvmpipe.*\ninstruction set SSE4\n$/);
+  const unknown = shadowproof(['--version'], { env: { SHADOWPROOF_INSTRUCTION_SET: 'mmx' } });
+  assert.equal(unknown.code, 3);
+  assert.match(unknown.err, /"mmx" is not known/);
+});
+
+test('a scene that is nearly the name of a bundled one is asked about', () => {
+  const run = shadowproof(['verify', 'ordnary']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /ordnary: is neither .* \(did you mean ordinary\?\)/);
 });
 
 test('a file that is no glTF ends with 3 and one sentence', () => {

@@ -70,6 +70,7 @@ std::vector<Axis> axes() {
                  SceneRequest request = options.scene.request();
                  request.width = side;
                  request.height = side;
+                 request.camera_aspect = false;
                  return std::vector{load_scene(named_scene(options), request)};
              }},
             {"triangles",

@@ -230,6 +230,9 @@ SceneResult check_pictures(const CheckWork& work) {
     require_picture(budget, pictures.size.width, pictures.size.height, Workload::comparison);
     SceneOptions view = options.view;
     view.size = pictures.size;
+    view.size_given = true;
+    // Other renderers draw what is in the file.
+    view.floor = view.floor.value_or(false);
     console.progress(options.scene + ": reading");
     const Scene scene = work.pieces.step(options.scene + ": reading",
                                          [&] { return load_scene(options.scene, view.request()); });

@@ -1,36 +1,40 @@
 #include "scenes/load/common/default_view.h"
 
-#include "scenes/error.h"
+#include "scenes/load/common/bounding_sphere.h"
+#include "scenes/load/common/room.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 namespace shadowproof {
 
 namespace {
 
-struct Sphere {
-    glm::dvec3 centre{0, 0, 0};
-    double radius = 0;
-};
+/// In a room: half way from its middle to what is above it.
+glm::dvec3 place_within(const Scene& scene) {
+    const glm::dvec3 middle = bounding_sphere(scene).centre;
+    const std::optional<FirstHit> above = first_hit(scene, middle, {0, 1, 0});
+    return middle + glm::dvec3(0, above ? above->distance / 2 : 0, 0);
+}
 
-/// Around the bounding box's centre; the radius reaches the furthest vertex.
-Sphere bounding_sphere(const Scene& scene) {
-    glm::dvec3 low = scene.positions.front();
-    glm::dvec3 high = low;
-    for (const glm::dvec3 position : scene.positions) {
-        low = glm::min(low, position);
-        high = glm::max(high, position);
-    }
-    Sphere sphere{low * 0.5 + high * 0.5, 0};
-    for (const glm::dvec3 position : scene.positions)
-        sphere.radius = std::max(sphere.radius, glm::distance(sphere.centre, position));
-    if (!(sphere.radius > 0))
-        throw Error(scene.file.string(), "all vertices lie at one point, so nothing can be framed",
-                    "add a camera and a light");
-    return sphere;
+/// Horizontal and unit; along x where v is upright.
+glm::dvec3 levelled(const glm::dvec3& v) {
+    const glm::dvec3 level(v.x, 0, v.z);
+    const double length = glm::length(level);
+    return length > 0 && std::isfinite(length) ? level / length : glm::dvec3(1, 0, 0);
+}
+
+/// Above, to the left of the camera and a little towards it: the shadow falls to the right, where
+/// the model does not hide it.
+glm::dvec3 place_outside(const Scene& scene) {
+    const Sphere sphere = bounding_sphere(scene);
+    const glm::dvec3 toward_light =
+        glm::normalize(glm::dvec3(0, 1, 0) - 0.7 * levelled(scene.camera.right) -
+                       0.25 * levelled(scene.camera.forward));
+    return sphere.centre + 3 * sphere.radius * toward_light;
 }
 
 } // namespace
@@ -43,6 +47,7 @@ bool orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
 }
 
 Camera default_camera(const SceneRequest& request, Scene& scene) {
+    scene.default_framing = true;
     scene.notes.push_back("no camera in the file: default framing from the front, right and "
                           "above, 45 degrees, no far plane");
     const Sphere sphere = bounding_sphere(scene);
@@ -60,14 +65,14 @@ Camera default_camera(const SceneRequest& request, Scene& scene) {
 }
 
 void add_default_light(Scene& scene) {
-    scene.notes.push_back("no light in the file: a point light above and to the left of the "
-                          "camera");
-    const Sphere sphere = bounding_sphere(scene);
-    const glm::dvec3 toward_light =
-        glm::normalize(scene.camera.up - 0.5 * scene.camera.right - 0.6 * scene.camera.forward);
+    scene.default_framing = true;
+    const bool within = is_room(scene);
+    scene.notes.push_back(
+        within ? "no light in the file, whose surfaces look inwards: a point light in their middle"
+               : "no light in the file: a point light above and to the left of the camera");
     Light light;
     light.name = "default";
-    light.position = sphere.centre + 3 * sphere.radius * toward_light;
+    light.position = within ? place_within(scene) : place_outside(scene);
     scene.lights.push_back(light);
 }
 

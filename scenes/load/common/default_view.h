@@ -1,5 +1,6 @@
 // The camera and the light of a scene whose file has none. Needs the scene's positions; notes in
-// scene.notes what was chosen.
+// scene.notes what was chosen,
+// and sets scene.default_framing.
 #pragma once
 
 #include "scenes/load/common/scene_request.h"
@@ -13,7 +14,7 @@ namespace shadowproof {
 Camera default_camera(const SceneRequest& request, Scene& scene);
 
 /// A point light above and to the left of the camera, three radii of the bounding sphere from its
-/// centre. Needs scene.camera.
+/// centre; in a room (room.h), half way from its middle to the ceiling. Needs scene.camera.
 void add_default_light(Scene& scene);
 
 /// Sets right, up and forward from a view direction and some up direction; false where they are

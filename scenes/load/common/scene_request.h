@@ -15,11 +15,14 @@ struct SceneRequest {
     std::optional<std::string> light;  ///< name or index of a light; else the first
     bool every_light = false;          ///< all lights are judged, each by itself: no note then says
                                        ///< that the first was taken
+    bool floor = false;                ///< under a model without camera or light (default_floor.h)
     double time = 0;                   ///< seconds: animations, skins and morphs are posed here
     int width = 512;                   ///< pixels
     int height = 512;                  ///< pixels
-    std::optional<Stress> stress{};    ///< takes the scene there once it is read
-    MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
+    bool camera_aspect = false;     ///< the picture is as wide as the camera's aspect ratio says,
+                                    ///< where it says one, rather than `width`
+    std::optional<Stress> stress{}; ///< takes the scene there once it is read
+    MemoryBudget memory{};          ///< of the run: files that need more to be read are refused
 };
 
 } // namespace shadowproof

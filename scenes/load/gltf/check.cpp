@@ -1,6 +1,6 @@
 #include "scenes/load/gltf/check.h"
 
-#include "scenes/load/gltf/file.h"
+#include "scenes/load/gltf/rules.h"
 
 #include <fmt/format.h>
 
@@ -14,140 +14,6 @@ namespace shadowproof::gltf {
 namespace {
 
 using nlohmann::json;
-
-enum class Kind : std::uint8_t {
-    text,
-    boolean,
-    number,
-    positive,       ///< a number above 0
-    numbers,        ///< an array of `most` numbers
-    whole,          ///< an integer from `least` to `most`
-    index,          ///< into `array`
-    component_type, ///< as tinygltf::GetComponentSizeInBytes knows them, but what glTF has not
-    accessor_type,
-};
-
-/// What the values at `path` are. In a path, * stands for every element of an array and {} for
-/// every member of an object; "name!" must be there, "name?" counts only where it is an object.
-struct Rule {
-    const char* path;
-    Kind kind = Kind::text;
-    std::uint64_t least = 0;
-    std::uint64_t most = 0;
-    const char* array = "";
-};
-
-constexpr Rule index(const char* path, const char* array) {
-    return {path, Kind::index, 0, 0xffffffffU, array};
-}
-constexpr Rule whole(const char* path, std::uint64_t least, std::uint64_t most) {
-    return {path, Kind::whole, least, most, ""};
-}
-constexpr Rule numbers(const char* path, std::uint64_t count) {
-    return {path, Kind::numbers, count, count, ""};
-}
-
-/// Checked first, as another version or an extension may break the other rules.
-constexpr std::array rules_of_the_head{
-    Rule{"asset!/version!"},
-    Rule{"extensionsUsed/*"},
-    Rule{"extensionsRequired/*"},
-};
-
-constexpr std::array rules{
-    Rule{"extras?/shadowproof/provokes/*"},
-    Rule{"extras?/shadowproof/provokesWide/*"},
-    index("scene", "/scenes"),
-    index("scenes/*/nodes/*", "/nodes"),
-    Rule{"nodes/*/name"},
-    Rule{"nodes/*/extras?/shadowproof/casts", Kind::boolean},
-    Rule{"nodes/*/extras?/shadowproof/receives", Kind::boolean},
-    index("nodes/*/mesh", "/meshes"),
-    index("nodes/*/skin", "/skins"),
-    index("nodes/*/camera", "/cameras"),
-    index("nodes/*/children/*", "/nodes"),
-    numbers("nodes/*/matrix", 16),
-    numbers("nodes/*/translation", 3),
-    numbers("nodes/*/rotation", 4),
-    numbers("nodes/*/scale", 3),
-    Rule{"nodes/*/weights/*", Kind::number},
-    index("nodes/*/extensions/KHR_lights_punctual/light!",
-          "/extensions/KHR_lights_punctual/lights"),
-    Rule{"extensions/KHR_lights_punctual/lights/*/name"},
-    Rule{"extensions/KHR_lights_punctual/lights/*/type!"},
-    numbers("extensions/KHR_lights_punctual/lights/*/color", 3),
-    Rule{"extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
-    Rule{"extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
-    Rule{"extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
-    Rule{"cameras/*/name"},
-    Rule{"cameras/*/type!"},
-    Rule{"cameras/*/perspective/yfov!", Kind::number},
-    Rule{"cameras/*/perspective/znear!", Kind::positive},
-    Rule{"cameras/*/perspective/zfar", Kind::positive}, // tinygltf uses 0 for none
-    Rule{"materials/*/name"},
-    Rule{"materials/*/alphaMode"},
-    Rule{"materials/*/doubleSided", Kind::boolean},
-    whole("materials/*/normalTexture/index", 0, 0x7fffffff),
-    Rule{"meshes/*/name"},
-    Rule{"meshes/*/weights/*", Kind::number},
-    index("meshes/*/primitives!/*/attributes!/{}", "/accessors"),
-    index("meshes/*/primitives/*/targets/*/{}", "/accessors"),
-    index("meshes/*/primitives/*/indices", "/accessors"),
-    index("meshes/*/primitives/*/material", "/materials"),
-    whole("meshes/*/primitives/*/mode", 0, 6),
-    index("skins/*/joints!/*", "/nodes"),
-    index("skins/*/inverseBindMatrices", "/accessors"),
-    whole("animations/*/channels!/*/sampler!", 0, 0x7fffffff),
-    index("animations/*/channels/*/target!/node", "/nodes"),
-    Rule{"animations/*/channels/*/target/path!"},
-    index("animations/*/samplers!/*/input!", "/accessors"),
-    index("animations/*/samplers/*/output!", "/accessors"),
-    Rule{"animations/*/samplers/*/interpolation"},
-    whole("accessors/*/count!", 1, 0xffffffffU),
-    Rule{"accessors/*/type!", Kind::accessor_type},
-    Rule{"accessors/*/componentType!", Kind::component_type},
-    Rule{"accessors/*/normalized", Kind::boolean},
-    index("accessors/*/bufferView", "/bufferViews"),
-    whole("accessors/*/byteOffset", 0, limits.bytes),
-    whole("accessors/*/sparse/count!", 1, 0x7fffffff),
-    index("accessors/*/sparse/indices!/bufferView!", "/bufferViews"),
-    whole("accessors/*/sparse/indices/byteOffset", 0, limits.bytes),
-    Rule{"accessors/*/sparse/indices/componentType!", Kind::component_type},
-    index("accessors/*/sparse/values!/bufferView!", "/bufferViews"),
-    whole("accessors/*/sparse/values/byteOffset", 0, limits.bytes),
-    index("bufferViews/*/buffer!", "/buffers"),
-    whole("bufferViews/*/byteLength!", 1, limits.bytes),
-    whole("bufferViews/*/byteOffset", 0, limits.bytes),
-    whole("bufferViews/*/byteStride", 4, 252),
-    whole("buffers/*/byteLength!", 1, 1ULL << 53U),
-    Rule{"buffers/*/uri"},
-};
-
-/// Checked only where surfaces are lit by bump maps; otherwise textures are not read.
-constexpr std::array rules_of_lighting{
-    numbers("extras?/shadowproof/ambient", 3),
-    Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},
-    index("extras?/shadowproof/environment/faces!/*", "/textures"),
-    numbers("materials/*/pbrMetallicRoughness/baseColorFactor", 4),
-    index("materials/*/pbrMetallicRoughness/baseColorTexture/index!", "/textures"),
-    whole("materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", 0, 0x7fffffff),
-    index("materials/*/normalTexture/index!", "/textures"),
-    whole("materials/*/normalTexture/texCoord", 0, 0x7fffffff),
-    Rule{"materials/*/normalTexture/scale", Kind::number},
-    index("materials/*/extras?/shadowproof/height/index!", "/textures"),
-    whole("materials/*/extras?/shadowproof/height/texCoord", 0, 0x7fffffff),
-    Rule{"materials/*/extras?/shadowproof/height/scale", Kind::number},
-    Rule{"materials/*/extras?/shadowproof/glossInAlpha", Kind::boolean},
-    numbers("materials/*/extras?/shadowproof/specular", 3),
-    numbers("materials/*/extras?/shadowproof/reflectance", 3),
-    index("textures/*/sampler", "/samplers"),
-    index("textures/*/source", "/images"),
-    whole("samplers/*/magFilter", 0, 0xffff),
-    whole("samplers/*/wrapS", 0, 0xffff),
-    whole("samplers/*/wrapT", 0, 0xffff),
-    index("images/*/bufferView", "/bufferViews"),
-    Rule{"images/*/uri"},
-};
 
 void require(bool holds, const json& value, const Place& place, const char* kind) {
     if (!holds)
@@ -286,7 +152,8 @@ private:
 /// Whether an extension changes only the look of a surface: then the notes say that it is ignored.
 bool is_only_look(std::string_view extension) {
     return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
-           extension == "EXT_texture_webp" || extension == "KHR_xmp_json_ld";
+           extension.starts_with("EXT_texture_") || extension == "MSFT_texture_dds" ||
+           extension == "KHR_xmp_json_ld";
 }
 
 void check_version(const Place& root, const json& document) {
@@ -317,6 +184,11 @@ void check_transforms(const Place& root, const json& document) {
                     .refuse(fmt::format("has both \"matrix\" and \"{}\"", key), "keep one");
 }
 
+/// Whether Draco's stream takes the place of a primitive's buffer views.
+bool is_compressed(const json& primitive) {
+    return primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"));
+}
+
 /// tinygltf does not load index accessors that have no buffer view, and does not say which.
 void check_indices(const Place& root, const json& document) {
     const auto meshes = document.find("meshes");
@@ -324,7 +196,7 @@ void check_indices(const Place& root, const json& document) {
         const auto& primitives = (*meshes)[i]["primitives"];
         for (std::size_t k = 0; k < primitives.size(); ++k) {
             const auto indices = primitives[k].find("indices");
-            if (indices == primitives[k].end()) continue;
+            if (indices == primitives[k].end() || is_compressed(primitives[k])) continue;
             if (!document["accessors"][indices->get<std::size_t>()].contains("bufferView"))
                 (root / "meshes" / i / "primitives" / k / "indices")
                     .refuse("names an accessor without a buffer view", "give it one");
@@ -335,7 +207,12 @@ void check_indices(const Place& root, const json& document) {
 } // namespace
 
 bool is_evaluated(std::string_view extension) {
-    return extension == "KHR_lights_punctual" || extension == "KHR_mesh_quantization";
+    constexpr std::array evaluated{
+        "EXT_mesh_gpu_instancing",    "KHR_node_visibility",     "KHR_texture_transform",
+        "KHR_materials_variants",     "KHR_lights_punctual",     "KHR_mesh_quantization",
+        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression",
+    };
+    return std::find(evaluated.begin(), evaluated.end(), extension) != evaluated.end();
 }
 
 void check_json(const Place& root, json& document) {

@@ -2,6 +2,7 @@
 
 #include "scenes/load/common/file_bytes.h"
 #include "scenes/load/gltf/check.h"
+#include "scenes/load/gltf/compressed.h"
 #include "scenes/load/gltf/glb.h"
 #include "scenes/load/gltf/memory.h"
 
@@ -53,6 +54,7 @@ struct BufferFiles {
         std::string uri; ///< empty: the GLB chunk
         std::uint64_t length = 0;
         Place place;
+        bool is_placeholder = false; ///< nothing is read
     };
     std::filesystem::path folder;
     std::optional<std::span<const unsigned char>> binary;
@@ -69,6 +71,7 @@ void require_length(std::uint64_t available, const BufferFiles::Buffer& buffer) 
 
 /// Exactly byteLength bytes, because tinygltf takes neither more nor fewer.
 FileBytes read_buffer(const BufferFiles& files, const BufferFiles::Buffer& buffer) {
+    if (buffer.is_placeholder) return FileBytes(buffer.length);
     if (buffer.uri.empty()) {
         require_length(files.binary->size(), buffer);
         const auto first = files.binary->first(buffer.length);
@@ -92,18 +95,20 @@ std::string trimmed_data_uri(const std::string& uri, const BufferFiles::Buffer& 
 /// Replaces the buffers' URIs in the JSON by "0", "1" and so on, for which tinygltf calls
 /// read_buffer. By itself tinygltf reads whatever they name, and replaces each + of a file's name
 /// by a space.
-void take_buffers(const Place& root, json& document, BufferFiles& files) {
+void take_buffers(const Place& root, json& document, const std::vector<bool>& placeholders,
+                  BufferFiles& files) {
     const std::size_t count = document.contains("buffers") ? document["buffers"].size() : 0;
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < count; ++i) {
         json& item = document["buffers"][i];
-        BufferFiles::Buffer buffer{item.value("uri", ""), item["byteLength"], root / "buffers" / i};
+        BufferFiles::Buffer buffer{item.value("uri", ""), item["byteLength"], root / "buffers" / i,
+                                   placeholders[i]};
         total += buffer.length;
         if (buffer.length > limits.bytes || total > limits.bytes)
             (buffer.place / "byteLength")
                 .refuse(fmt::format("brings the buffers above {} bytes", limits.bytes),
                         "split the asset");
-        if (!item.contains("uri") && (i > 0 || !files.binary))
+        if (!item.contains("uri") && !buffer.is_placeholder && (i > 0 || !files.binary))
             buffer.place.refuse("has no uri and there is no GLB chunk for it", "add the uri");
         if (item.contains("uri") && buffer.uri.empty())
             (buffer.place / "uri").refuse("is empty", "name a file");
@@ -194,6 +199,7 @@ Document read_document(const std::filesystem::path& file, const MemoryBudget& bu
     JsonCounts counts;
     json parsed = parse_json(root, chunks.json, memory, counts);
     check_json(root, parsed);
+    const Compressed compressed = take_compressed(root, parsed, chunks.binary.has_value());
     BufferFiles files{document.folder, chunks.binary, {}, memory};
     // Data URIs exist once more in the trimmed copy, in the JSON that is written for tinygltf, and
     // (twice, while they grow) in what it reads of it.
@@ -201,7 +207,7 @@ Document read_document(const std::filesystem::path& file, const MemoryBudget& bu
                                             "reading its JSON", "move the bulk into .bin buffers"});
     memory.keep({model_bytes(parsed, counts), root.where(), "its nodes, meshes and accessors",
                  "split the asset"});
-    take_buffers(root, parsed, files);
+    take_buffers(root, parsed, compressed.placeholders, files);
     std::uint64_t buffers = 0;
     for (const BufferFiles::Buffer& buffer : files.buffers) buffers += buffer.length;
     memory.keep({buffers, (root / "buffers").where(), "its buffers", "split the asset"});
@@ -210,6 +216,7 @@ Document read_document(const std::filesystem::path& file, const MemoryBudget& bu
     document.look = take_look(parsed);
     make_digestible(parsed);
     document.model = parse_model(root, parsed, files);
+    decompress(root, compressed, document.model, memory);
     document.extras = parsed.value("extras", json());
     return document;
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace shadowproof::gltf {
@@ -36,13 +38,44 @@ bool has_bump_map(const json& material) {
 std::vector<bool> materials_in_scene(const Document& document, const NodeGraph& graph) {
     std::vector<bool> used(document.model.materials.size(), false);
     for (const std::size_t node : graph.in_scene) {
-        const int mesh = document.model.nodes[node].mesh;
-        if (mesh < 0) continue;
+        if (!has_visible_mesh(document, graph, node)) continue;
         for (const tinygltf::Primitive& primitive :
-             document.model.meshes[as_index(mesh)].primitives)
+             document.model.meshes[as_index(document.model.nodes[node].mesh)].primitives)
             if (primitive.material >= 0) used[as_index(primitive.material)] = true;
     }
     return used;
+}
+
+/// Whether a texture has no image but one in a format that another extension allows.
+bool is_unread(const json& look, const json& index) {
+    const json& textures = find(look, {"textures"});
+    if (!index.is_number_unsigned() || !textures.is_array() || index >= textures.size())
+        return false; // check_lighting tells of it
+    const json& texture = textures[index.get<std::size_t>()];
+    if (!texture.is_object() || texture.contains("source")) return false;
+    const auto has = [&](const char* extension) {
+        return !find(texture, {"extensions", extension}).is_null();
+    };
+    return has("EXT_texture_webp") || has("KHR_texture_basisu") || has("EXT_texture_avif") ||
+           has("MSFT_texture_dds");
+}
+
+/// The first texture that lighting needs and that is not read; empty where there is none.
+std::string unread_texture(const Document& document, const std::vector<bool>& used) {
+    const json& look = document.look;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        const json& material = look["materials"][i];
+        const Place place = document.root() / "materials" / i;
+        const json& decal = find(material, {"pbrMetallicRoughness", "baseColorTexture", "index"});
+        if (is_unread(look, decal))
+            return (place / "pbrMetallicRoughness" / "baseColorTexture").pointer();
+        if (is_unread(look, find(material, {"normalTexture", "index"})))
+            return (place / "normalTexture").pointer();
+        if (is_unread(look, find(height_of(material), {"index"})))
+            return (place / "extras" / "shadowproof" / "height").pointer();
+    }
+    return {};
 }
 
 /// Numbers of 0 and more, as colours are.
@@ -66,6 +99,22 @@ struct Source {
     bool has_environment = false; ///< of the file
 };
 
+/// v of a texture runs down, so a rotation that looks counter-clockwise takes u to u cos, -u sin.
+Coordinates read_coordinates(const json& texture) {
+    Coordinates coordinates{texture.value("texCoord", std::size_t{0})};
+    const json& ours = find(texture, {"extensions", "KHR_texture_transform"});
+    if (ours.is_null()) return coordinates;
+    coordinates.set = ours.value("texCoord", coordinates.set);
+    const auto offset = ours.value("offset", std::array{0.0, 0.0});
+    const auto scale = ours.value("scale", std::array{1.0, 1.0});
+    const double angle = ours.value("rotation", 0.0); // radians
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    coordinates.transform = glm::dmat3(c * scale[0], -s * scale[0], 0, s * scale[1], c * scale[1],
+                                       0, offset[0], offset[1], 1);
+    return coordinates;
+}
+
 void read_look(const Source& source) {
     const json& base = find(source.value, {"pbrMetallicRoughness", "baseColorFactor"});
     const Place place = source.place / "pbrMetallicRoughness";
@@ -74,7 +123,7 @@ void read_look(const Source& source) {
     if (!decal.is_null()) {
         source.material.decal = source.textures.read(place / "baseColorTexture" / "index",
                                                      decal["index"], Encoding::srgb);
-        source.sets.decal = decal.value("texCoord", std::size_t{0});
+        source.sets.decal = read_coordinates(decal);
     }
     const json& ours = find(source.value, {"extras", "shadowproof"});
     const Place extras = source.place / "extras" / "shadowproof";
@@ -105,7 +154,7 @@ void read_bump_map(const Source& source) {
     source.material.bump = is_height ? Bump::height_field : Bump::normal_map;
     source.material.bump_scale = map.value("scale", 1.0);
     source.material.bump_map = source.textures.read(place / "index", map["index"], Encoding::plain);
-    source.sets.bump = map.value("texCoord", std::size_t{0});
+    source.sets.bump = read_coordinates(map);
 }
 
 /// What lighting does not evaluate although glTF has it.
@@ -172,6 +221,13 @@ Materials read_materials(const Document& document, const NodeGraph& graph, Scene
         materials.bump_lit =
             materials.bump_lit || (used[i] && has_bump_map(document.look["materials"][i]));
     if (!materials.bump_lit) return materials;
+    if (const std::string unread = unread_texture(document, used); !unread.empty()) {
+        materials.bump_lit = false;
+        scene.notes.push_back(unread +
+                              " is in a format that is not read: no surface is lit by bump "
+                              "maps, and visibility alone is judged");
+        return materials;
+    }
     json look = document.look;
     check_lighting(document.root(), look);
     read_scene_extras(document, look, scene);

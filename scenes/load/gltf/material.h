@@ -6,14 +6,22 @@
 #include "scenes/scene.h"
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <vector>
 
 namespace shadowproof::gltf {
 
-/// The texture coordinate sets that a material's textures name.
+/// Where a texture finds its coordinates: a set of the mesh, and what KHR_texture_transform makes
+/// of it.
+struct Coordinates {
+    std::size_t set = 0;
+    glm::dmat3 transform{1.0}; ///< of (u, v, 1)
+};
+
+/// The coordinates of a material's textures.
 struct CoordinateSets {
-    std::size_t decal = 0;
-    std::size_t bump = 0;
+    Coordinates decal;
+    Coordinates bump;
 };
 
 /// What else is read of the materials, by index into Scene::materials.
@@ -22,9 +30,10 @@ struct Materials {
     std::vector<CoordinateSets> sets;
 };
 
-/// Fills scene.materials (those of the file, followed by the default one, glTF 2.0, section
-/// 3.7.2.1) and, where bump_lit, scene.textures, ambient, inverse_square and environment. Throws
-/// Error.
+/// Where a texture that lighting needs is in a format that is not read (WebP, KTX2), no surface is
+/// lit by bump maps, and scene.notes says why. Fills scene.materials (those of the file, followed
+/// by the default one, glTF 2.0, section 3.7.2.1) and, where bump_lit, scene.textures, ambient,
+/// inverse_square and environment. Throws Error.
 Materials read_materials(const Document& document, const NodeGraph& graph, Scene& scene);
 
 } // namespace shadowproof::gltf

@@ -1,6 +1,7 @@
 #include "scenes/load/gltf/mesh.h"
 
 #include "scenes/load/gltf/attribute.h"
+#include "scenes/load/gltf/instances.h"
 #include "scenes/load/gltf/material.h"
 #include "scenes/load/gltf/surface.h"
 
@@ -45,6 +46,7 @@ struct Placement {
     std::string name;
     std::vector<double> weights;
     std::optional<Skin> skin;
+    glm::dmat4 world_from_mesh{1.0}; ///< unless there is a skin
 };
 
 Placement find_placement(AccessorReader& reader, const NodeGraph& graph, std::size_t index) {
@@ -58,7 +60,8 @@ Placement find_placement(AccessorReader& reader, const NodeGraph& graph, std::si
                         document.root() / "meshes" / mesh_index,
                         node.name,
                         node.weights.empty() ? mesh.weights : node.weights,
-                        std::nullopt};
+                        std::nullopt,
+                        node.world_from_node};
     if (placement.name.empty()) placement.name = mesh.name;
     if (placement.name.empty()) placement.name = node.place.pointer();
     if (source.skin >= 0) placement.skin = read_skin(reader, graph, as_index(source.skin));
@@ -73,7 +76,7 @@ std::vector<glm::vec3> world_positions(const Placement& placement, const Part& p
     for (std::size_t i = 0; i < local.count; ++i) {
         const glm::dvec4 point(local.vec3(i), 1);
         const glm::dvec3 placed = influences ? deform(*placement.skin, *influences, i, point)
-                                             : glm::dvec3(placement.node.world_from_node * point);
+                                             : glm::dvec3(placement.world_from_mesh * point);
         world[i] = glm::vec3(placed);
         if (!std::isfinite(world[i].x) || !std::isfinite(world[i].y) || !std::isfinite(world[i].z))
             (part.place / "attributes" / position.name)
@@ -118,7 +121,7 @@ void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
 }
 
 bool is_mirrored(const Placement& placement) {
-    return !placement.skin && glm::determinant(glm::dmat3(placement.node.world_from_node)) < 0;
+    return !placement.skin && glm::determinant(glm::dmat3(placement.world_from_mesh)) < 0;
 }
 
 void note_leftover(Scene& scene, const Place& primitive, std::size_t vertices,
@@ -177,7 +180,7 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
                                                                 : scene.materials.size() - 1);
     if (materials.bump_lit)
         append_surfaces(reader,
-                        {part, placement.weights, local, triangles, placement.node.world_from_node,
+                        {part, placement.weights, local, triangles, placement.world_from_mesh,
                          placement.skin, influences, mirrored},
                         scene.materials[material], materials.sets[material], scene);
     if (mirrored)
@@ -196,12 +199,18 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
 void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
     const Materials materials = read_materials(reader.document(), graph, scene);
     for (const std::size_t node : graph.in_scene) {
-        if (reader.document().model.nodes[node].mesh < 0) continue;
-        const Placement placement = find_placement(reader, graph, node);
-        for (std::size_t i = 0; i < placement.mesh.primitives.size(); ++i)
-            bake_primitive(reader, placement,
-                           {placement.place / "primitives" / i, placement.mesh.primitives[i]},
-                           materials, scene);
+        if (!has_visible_mesh(reader.document(), graph, node)) continue;
+        Placement placement = find_placement(reader, graph, node);
+        const std::string name = placement.name;
+        const std::vector<glm::dmat4> instances = read_instances(reader, node);
+        for (std::size_t instance = 0; instance < instances.size(); ++instance) {
+            placement.world_from_mesh = placement.node.world_from_node * instances[instance];
+            if (instances.size() > 1) placement.name = fmt::format("{} [{}]", name, instance);
+            for (std::size_t i = 0; i < placement.mesh.primitives.size(); ++i)
+                bake_primitive(reader, placement,
+                               {placement.place / "primitives" / i, placement.mesh.primitives[i]},
+                               materials, scene);
+        }
     }
     if (scene.triangles.empty())
         reader.document().root().refuse("holds no triangle in its scene",

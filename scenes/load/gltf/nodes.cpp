@@ -19,19 +19,18 @@ glm::dmat4 read_matrix(const Place& place, const std::vector<double>& values) {
     return matrix;
 }
 
-/// glTF requires a unit quaternion (x, y, z, w); exporters round it, so it is normalised.
-glm::dquat read_rotation(const Place& place, const std::vector<double>& q) {
-    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-    if (!(length > 0) || !std::isfinite(length))
-        place.refuse("has no direction", "write a unit quaternion");
-    return {q[3] / length, q[0] / length, q[1] / length, q[2] / length};
-}
-
 /// extras.shadowproof's boolean of that name.
 std::optional<bool> read_flag(const tinygltf::Node& source, const char* name) {
     const char* const ours = "shadowproof";
     if (!source.extras.Has(ours) || !source.extras.Get(ours).Has(name)) return std::nullopt;
     return source.extras.Get(ours).Get(name).Get<bool>();
+}
+
+/// Whether KHR_node_visibility leaves it visible by itself.
+bool read_visibility(const tinygltf::Node& source) {
+    const auto found = source.extensions.find("KHR_node_visibility");
+    return found == source.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
 }
 
 /// In tinygltf what the file does not give is empty.
@@ -40,11 +39,12 @@ Node read_node(const Place& place, const tinygltf::Node& source) {
     if (!source.matrix.empty()) node.matrix = read_matrix(place / "matrix", source.matrix);
     if (!source.translation.empty()) node.translation = glm::make_vec3(source.translation.data());
     if (!source.rotation.empty())
-        node.rotation = read_rotation(place / "rotation", source.rotation);
+        node.rotation = unit_rotation(place / "rotation", source.rotation);
     if (!source.scale.empty()) node.scale = glm::make_vec3(source.scale.data());
     node.weights = source.weights;
     node.casts = read_flag(source, "casts");
     node.receives = read_flag(source, "receives");
+    node.visible = read_visibility(source);
     for (const int child : source.children) node.children.push_back(as_index(child));
     return node;
 }
@@ -95,10 +95,13 @@ std::vector<std::size_t> order_nodes(const NodeGraph& graph,
         "is below itself: its ancestors form a cycle", "break the cycle");
 }
 
-/// A node without these flags takes them from its nearest ancestor that has them.
+/// A node without these flags takes them from its nearest ancestor that has them; one below a
+/// hidden node is hidden.
 void pass_flags_on(NodeGraph& graph) {
     for (const std::size_t parent : graph.order) {
         Node& node = graph.nodes[parent];
+        for (const std::size_t child : node.children)
+            graph.nodes[child].visible = graph.nodes[child].visible && node.visible;
         for (std::optional<bool> Node::*flag : {&Node::casts, &Node::receives}) {
             node.*flag = (node.*flag).value_or(true);
             for (const std::size_t child : node.children) {
@@ -109,9 +112,20 @@ void pass_flags_on(NodeGraph& graph) {
     }
 }
 
-/// Nodes without a parent, as the chosen scene lists them; without scenes all of them.
-std::vector<std::size_t> scene_roots(const Document& document,
-                                     const std::vector<std::size_t>& parents) {
+/// One flag per node: some node above it is listed.
+std::vector<bool> nodes_below(const NodeGraph& graph, const std::vector<bool>& listed) {
+    std::vector<bool> below(listed.size(), false);
+    for (const std::size_t node : graph.order)
+        for (const std::size_t child : graph.nodes[node].children)
+            below[child] = below[node] || listed[node];
+    return below;
+}
+
+/// What the chosen scene lists, but what is below other nodes of the list; without scenes, all
+/// nodes that have no parent.
+std::vector<std::size_t> scene_roots(const Document& document, const NodeGraph& graph,
+                                     const std::vector<std::size_t>& parents,
+                                     std::vector<std::string>& notes) {
     std::vector<std::size_t> roots;
     if (document.model.scenes.empty()) {
         for (std::size_t i = 0; i < parents.size(); ++i)
@@ -119,19 +133,32 @@ std::vector<std::size_t> scene_roots(const Document& document,
         return roots;
     }
     const std::size_t scene = as_index(std::max(document.model.defaultScene, 0));
+    const Place place = document.root() / "scenes" / scene / "nodes";
     std::vector<bool> listed(parents.size(), false);
     for (const int listed_node : document.model.scenes[scene].nodes) {
         const std::size_t node = as_index(listed_node);
-        const Place place = document.root() / "scenes" / scene / "nodes" / roots.size();
-        if (parents[node] != none)
-            place.refuse(
-                fmt::format("names node {}, which is a child of node {}", node, parents[node]),
-                "list root nodes only");
-        if (listed[node]) place.refuse(fmt::format("names node {} again", node), "list it once");
+        if (listed[node])
+            (place / roots.size()).refuse(fmt::format("names node {} again", node), "list it once");
         listed[node] = true;
         roots.push_back(node);
     }
+    const auto children = std::count_if(roots.begin(), roots.end(),
+                                        [&](std::size_t node) { return parents[node] != none; });
+    if (children > 0)
+        notes.push_back(fmt::format("{}: {} of its nodes are children of others, and stand where "
+                                    "those place them; glTF allows roots only",
+                                    place.pointer(), children));
+    const std::vector<bool> below = nodes_below(graph, listed);
+    std::erase_if(roots, [&](std::size_t node) { return below[node]; });
     return roots;
+}
+
+void note_hidden(const NodeGraph& graph, std::vector<std::string>& notes) {
+    const auto hidden = std::count_if(graph.in_scene.begin(), graph.in_scene.end(),
+                                      [&](std::size_t node) { return !graph.nodes[node].visible; });
+    if (hidden > 0)
+        notes.push_back(
+            fmt::format("nodes that KHR_node_visibility hides are left out: {}", hidden));
 }
 
 bool is_finite(const glm::dmat4& matrix) {
@@ -139,6 +166,15 @@ bool is_finite(const glm::dmat4& matrix) {
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(matrix[column][row])) return false;
     return true;
+}
+
+} // namespace
+
+glm::dquat unit_rotation(const Place& place, const std::vector<double>& q) {
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    if (!(length > 0) || !std::isfinite(length))
+        place.refuse("has no direction", "write a unit quaternion");
+    return {q[3] / length, q[0] / length, q[1] / length, q[2] / length};
 }
 
 glm::dmat4 local_transform(const Node& node) {
@@ -149,16 +185,15 @@ glm::dmat4 local_transform(const Node& node) {
     return matrix;
 }
 
-} // namespace
-
-NodeGraph read_nodes(const Document& document) {
+NodeGraph read_nodes(const Document& document, std::vector<std::string>& notes) {
     NodeGraph graph;
     for (const tinygltf::Node& node : document.model.nodes)
         graph.nodes.push_back(read_node(document.root() / "nodes" / graph.nodes.size(), node));
     const std::vector<std::size_t> parents = find_parents(graph);
     graph.order = order_nodes(graph, parents);
     pass_flags_on(graph);
-    graph.in_scene = descend(graph, scene_roots(document, parents));
+    graph.in_scene = descend(graph, scene_roots(document, graph, parents, notes));
+    note_hidden(graph, notes);
     return graph;
 }
 

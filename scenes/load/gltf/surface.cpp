@@ -73,8 +73,9 @@ void read_normals(AccessorReader& reader, const PosedPart& posed, Local& local) 
 }
 
 std::vector<glm::vec2> read_coordinates(AccessorReader& reader, const PosedPart& posed,
-                                        const Local& local, std::size_t set, const char* what) {
-    const Attribute wanted = coordinates(set);
+                                        const Local& local, const Coordinates& from,
+                                        const char* what) {
+    const Attribute wanted = coordinates(from.set);
     if (!has_attribute(posed.part, wanted))
         (posed.part.place / "attributes")
             .refuse(fmt::format("\"{}\" is missing", wanted.name),
@@ -84,12 +85,12 @@ std::vector<glm::vec2> read_coordinates(AccessorReader& reader, const PosedPart&
     std::vector<glm::vec2> at;
     at.reserve(local.vertices.size());
     for (const std::uint32_t vertex : local.vertices) {
-        at.emplace_back(static_cast<float>(given.values[2 * vertex]),
-                        static_cast<float>(given.values[2 * vertex + 1]));
-        if (!std::isfinite(at.back().x) || !std::isfinite(at.back().y)) // as morphed
+        at.emplace_back(from.transform *
+                        glm::dvec3(given.values[2 * vertex], given.values[2 * vertex + 1], 1));
+        if (!std::isfinite(at.back().x) || !std::isfinite(at.back().y)) // as morphed and placed
             (posed.part.place / "attributes" / wanted.name)
                 .refuse(fmt::format("vertex {} has coordinates that are not finite", vertex),
-                        "scale its displacements down");
+                        "scale its displacements or its texture's transform down");
     }
     return at;
 }

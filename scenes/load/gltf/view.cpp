@@ -67,8 +67,25 @@ std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& gra
     return carriers;
 }
 
+/// Pixels: as the request has it, or by the camera's aspect ratio.
+int picture_width(const Place& perspective, double aspect, const SceneRequest& request,
+                  std::vector<std::string>& notes) {
+    if (!request.camera_aspect || !(aspect > 0)) return request.width; // 0: there is none
+    const double width = std::round(aspect * request.height);
+    if (!(width >= 1 && width <= largest_side))
+        (perspective / "aspectRatio")
+            .refuse(fmt::format("{:g} makes a picture of {:g}x{} pixels", aspect, width,
+                                request.height),
+                    "give its size by --size");
+    if (width != request.width)
+        notes.push_back(fmt::format("{:g}x{} pixels: the camera's aspect ratio is {:.4g} "
+                                    "(--size for another picture)",
+                                    width, request.height, aspect));
+    return static_cast<int>(width);
+}
+
 Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
-                   const SceneRequest& request) {
+                   const SceneRequest& request, std::vector<std::string>& notes) {
     const tinygltf::Camera& source = document.model.cameras[carrier.index];
     if (source.type != "perspective")
         carrier.place.refuse("is an orthographic camera, which is not evaluated",
@@ -79,7 +96,7 @@ Camera read_camera(const Document& document, const NodeGraph& graph, const Carri
         (place / "yfov")
             .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
     Camera camera;
-    camera.width = request.width;
+    camera.width = picture_width(place, perspective.aspectRatio, request, notes);
     camera.height = request.height;
     camera.tan_half_height = std::tan(perspective.yfov / 2);
     camera.near = perspective.znear;
@@ -102,6 +119,7 @@ std::vector<Carrier> find_lights(const Document& document, const NodeGraph& grap
     const Place lights = document.root() / "extensions" / extension / "lights";
     std::vector<Carrier> carriers;
     for (const std::size_t node : graph.in_scene) {
+        if (!graph.nodes[node].visible) continue; // hides lights, but no cameras
         const tinygltf::ExtensionMap& extensions = document.model.nodes[node].extensions;
         const auto found = extensions.find(extension);
         if (found == extensions.end()) continue;
@@ -152,6 +170,15 @@ Light read_light(const Document& document, const NodeGraph& graph, const Carrier
     return light;
 }
 
+/// A range is where a light's intensity is cut off to save time; nothing physical ends there.
+void note_range(const Document& document, const Carrier& carrier, Scene& scene) {
+    const double range = document.model.lights[carrier.index].range;
+    if (range > 0)
+        scene.notes.push_back(fmt::format("{}/range of {:g} is not evaluated: the light shines on "
+                                          "without end",
+                                          carrier.place.pointer(), range));
+}
+
 } // namespace
 
 Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
@@ -160,17 +187,19 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
     if (request.camera)
         return read_camera(
             document, graph,
-            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request);
+            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request,
+            scene.notes);
     if (cameras.empty()) return default_camera(request, scene);
     const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
         return document.model.cameras[carrier.index].type == "perspective";
     });
-    if (first == cameras.end()) return read_camera(document, graph, cameras.front(), request);
+    if (first == cameras.end())
+        return read_camera(document, graph, cameras.front(), request, scene.notes);
     if (first != cameras.begin())
         scene.notes.push_back(fmt::format(
             "orthographic cameras are not evaluated: {} is used",
             described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
-    return read_camera(document, graph, *first, request);
+    return read_camera(document, graph, *first, request, scene.notes);
 }
 
 void choose_light(const Document& document, const NodeGraph& graph, const SceneRequest& request,
@@ -186,6 +215,7 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
         light.choice = is_told_by_name ? light.name : std::to_string(number);
     }
     if (lights.empty()) add_default_light(scene);
+    if (!lights.empty()) note_range(document, lights[scene.light], scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));

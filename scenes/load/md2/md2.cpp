@@ -2,6 +2,7 @@
 
 #include "scenes/error.h"
 #include "scenes/limits.h"
+#include "scenes/load/common/default_floor.h"
 #include "scenes/load/common/default_view.h"
 #include "scenes/load/common/file_bytes.h"
 #include "scenes/load/md2/md2_file.h"
@@ -167,6 +168,7 @@ Scene load_md2(const std::filesystem::path& file, const SceneRequest& request) {
     if (scene.materials[0].bump != Bump::none) append_surfaces(model, positions, memory, scene);
     scene.camera = default_camera(request, scene);
     add_default_light(scene);
+    if (request.floor) add_default_floor(scene);
     return scene;
 }
 

@@ -83,6 +83,12 @@ json everything() {
         {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"translation", {1, 2, 3}}});
     gltf["nodes"].push_back({{"mesh", 1}, {"children", {1, 2}}});
     gltf["scenes"][0]["nodes"] = {0, 3};
+    json& extensions = gltf["nodes"].back()["extensions"];
+    extensions["KHR_node_visibility"]["visible"] = true;
+    extensions["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        add_positions(gltf, {{0, 0, 0}, {2, 0, 0}});
+    gltf["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.5, 0}}, {"rotation", 1}, {"scale", {2, 2}}, {"texCoord", 0}};
     gltf["cameras"] = json::array(
         {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 9}}}}});
     gltf["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}}});
