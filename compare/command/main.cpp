@@ -26,6 +26,7 @@ constexpr const char* footer =
     "  shadowproof verify                              every bundled scene, report in report/\n"
     "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
     "  shadowproof check my.glb mine.png --unlit off.png   the picture that your renderer made\n"
+    "  shadowproof export-view my.glb --engine three   its camera and light, for three.js\n"
     "  shadowproof stress near_plane                   where each technique starts to fail\n"
     "  shadowproof bench ordinary --quick              error against run time\n"
     "  shadowproof explain near_plane --pixel 229,103  why one pixel is what it is\n"
@@ -45,9 +46,10 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", [] {
         return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
     });
-    const std::vector<Work> works{
-        add_verify(app), add_check(app), add_render(app), add_explain(app), add_stress(app),
-        add_bench(app),  add_list(app),  add_report(app), add_merge(app),   add_normal_map(app)};
+    const std::vector<Work> works{add_verify(app),      add_check(app),     add_render(app),
+                                  add_explain(app),     add_stress(app),    add_bench(app),
+                                  add_export_view(app), add_list(app),      add_report(app),
+                                  add_merge(app),       add_normal_map(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;

@@ -36,6 +36,7 @@ struct SceneOptions {
     std::optional<std::string> camera;
     std::optional<std::string> light;
     double time = 0; ///< seconds
+    ViewOverride view{};
     std::optional<Stress> stress;
     int threads = 0; ///< 0: one per core
     MemoryBudget memory{};

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 bool is_default_picture(const Report& report) {
     const auto& words = report.arguments;
     return std::none_of(words.begin(), words.end(), [](const std::string& word) {
-        return word == "--size" || word == "--camera" || word == "--light" || word == "--time";
+        return word == "--size" || word == "--camera" || word == "--light" || word == "--time" ||
+               word == "--camera-matrix" || word == "--light-position" || word == "--fov";
     });
 }
 

@@ -268,7 +268,8 @@ double try_scene(const Run& run, const std::string& argument) {
             if (!scene) {
                 setup.console.progress(fmt::format("{}: reading", result.name));
                 SceneRequest request = setup.options.scene.request();
-                request.every_light = !request.light;
+                // A position that is given is of one light.
+                request.every_light = !request.light && !request.view.light_position;
                 scene = setup.pieces.step(result.name + ": reading",
                                           [&] { return load_scene(argument, request); });
                 none_suits = techniques_for(setup.options, *scene).empty();

@@ -4,10 +4,21 @@
 #include "scenes/memory_budget.h"
 #include "scenes/stress/parameter.h"
 
+#include <array>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
 namespace shadowproof {
+
+/// What stands in place of the file's view: as a renderer has it that was not given the file's.
+struct ViewOverride {
+    /// The camera's node, column by column as glTF and OpenGL write matrices: it looks down its -z,
+    /// with its y up. In the file's axes and units.
+    std::optional<std::array<double, 16>> camera_matrix{};
+    std::optional<glm::dvec3> light_position{};     ///< of the light that is judged; file's units
+    std::optional<double> vertical_field_of_view{}; ///< radians, between 0 and pi
+};
 
 /// What to take from a file that offers several.
 struct SceneRequest {
@@ -18,6 +29,7 @@ struct SceneRequest {
     double time = 0;                   ///< seconds: animations, skins and morphs are posed here
     int width = 512;                   ///< pixels
     int height = 512;                  ///< pixels
+    ViewOverride view{};               ///< taken once the file is read, before the stress
     std::optional<Stress> stress{};    ///< takes the scene there once it is read
     MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
 };
