@@ -1,6 +1,6 @@
 # cmake --install: the command, the libraries with their headers in the folders of the house, the
 # bundled scenes, and a CMake package: find_package(shadowproof), targets shadowproof::compare and
-# shadowproof::shadowproof, function shadowproof_add_test.
+# shadowproof::shadowproof, functions shadowproof_add_test and shadowproof_add_check.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/shadowproof)
 set(scenes_folder ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes)
@@ -39,4 +39,5 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/shadowproof-config-version.
     COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/shadowproof-config.cmake
     ${CMAKE_BINARY_DIR}/shadowproof-config-version.cmake
-    cmake/shadowproof_add_test.cmake DESTINATION ${package_folder})
+    cmake/shadowproof_add_check.cmake cmake/shadowproof_add_test.cmake
+    cmake/shadowproof_call.cmake DESTINATION ${package_folder})

@@ -12,6 +12,7 @@ Work add_bench(CLI::App& app);       ///< bench/bench.cpp
 Work add_stress(CLI::App& app);      ///< stress/stress.cpp
 Work add_render(CLI::App& app);      ///< render.cpp
 Work add_explain(CLI::App& app);     ///< explain.cpp
+Work add_accept(CLI::App& app);      ///< accept.cpp
 Work add_export_view(CLI::App& app); ///< view/export_view.cpp
 Work add_list(CLI::App& app);        ///< list.cpp
 Work add_report(CLI::App& app);      ///< report.cpp

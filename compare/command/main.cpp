@@ -33,6 +33,7 @@ constexpr const char* footer =
     "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
     "  shadowproof normal-map height.png -o normal.png a height field as a normal map\n"
     "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
+    "  shadowproof accept report -o accepted.json      what was reviewed, as a baseline\n"
     "\nExit codes:\n"
     "  0  every technique agrees with the truth, or fails as was predicted\n"
     "  1  a defect, an unexplained pixel, a cell above --timeout, or a scene that stopped\n"
@@ -46,10 +47,10 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", [] {
         return fmt::format("shadowproof {}\nEmbree {}", SHADOWPROOF_VERSION, embree_version());
     });
-    const std::vector<Work> works{add_verify(app),      add_check(app),     add_render(app),
-                                  add_explain(app),     add_stress(app),    add_bench(app),
-                                  add_export_view(app), add_list(app),      add_report(app),
-                                  add_merge(app),       add_normal_map(app)};
+    const std::vector<Work> works{add_verify(app),  add_check(app),       add_render(app),
+                                  add_explain(app), add_stress(app),      add_bench(app),
+                                  add_list(app),    add_report(app),      add_merge(app),
+                                  add_accept(app),  add_export_view(app), add_normal_map(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;

@@ -15,13 +15,23 @@ void hypothesis(const JsonPlace& place) {
                    {"words", text}});
 }
 
+void control(const JsonPlace& place) {
+    object(place, {{"control", some_text},
+                   {"words", text},
+                   {"changed", count},
+                   {"wrong", count},
+                   {"caught", boolean},
+                   {"why_not", some_text, Need::optional}});
+}
+
 } // namespace
 
 void check_picture_results(const JsonPlace& cell) {
     object(cell, {{"falsely_lit", count},
                   {"falsely_shadowed", count},
                   {"undecidable", count},
-                  {"diagnosis", list_of<hypothesis>, Need::optional}});
+                  {"diagnosis", list_of<hypothesis>, Need::optional},
+                  {"controls", list_of<control>, Need::optional}});
 }
 
 } // namespace shadowproof

@@ -29,6 +29,10 @@ std::string_view outcome_name(const Cell& cell);
 /// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
 std::string cause_counts(const CausePixels& causes);
 
+/// "1,173 wrong pixels excused: zpass is known for near_plane": those that do not fail a cell
+/// because technique and scene excuse their causes. Empty where there are none.
+std::string excused_words(const Cell& cell, const Gate& gate);
+
 /// Why a cell fails or could not run: "edge 31, near_plane 1,173; first (212,340) near_plane; ...",
 /// without how to reproduce it.
 std::string why_it_fails(const Cell& cell, const Gate& gate);

@@ -76,8 +76,9 @@ test('a square of lit pixels that is dark is counted, and named by its first pix
   assert.match(out, /reproduce: shadowproof check ordinary square\.png --unlit off\.png --size 200x200\n/);
 });
 
-const claimOf = (scene, technique) => {
-  const run = shadowproof(['verify', scene, ...size, '--technique', technique, '--out', 'claims', '-q']);
+const claimOf = (scene, technique, ...settings) => {
+  const run = shadowproof(['verify', scene, ...size, '--technique', technique, ...settings,
+                           '--out', 'claims', '-q']);
   assert.ok(run.code <= 1, run.err);
   const png = readPng(path(`claims/${scene}/${technique}/claim.png`));
   return { ...png, at: (x, y) => png.at(x, y)[0] };
@@ -97,6 +98,88 @@ for (const [scene, technique, hypothesis] of [
     assert.ok(best.explained >= 0.95 * wrong, `${best.explained} of ${wrong}`);
     assert.ok(best.contradicted <= 0.001 * 200 * 200, `${best.contradicted}`);
   });
+
+/** What the first hypothesis says of a picture of a technique's claim; it must explain nearly all. */
+function diagnosed(scene, technique, ...settings) {
+  const image = picture('claim.png', claimOf(scene, technique, ...settings), (value) => shade[value]);
+  const { code, out, cells: [cell] } = checked(scene, image);
+  assert.equal(code, 1, out);
+  const [best] = cell.diagnosis;
+  assert.ok(best, out);
+  assert.ok(best.explained >= 0.95 * (cell.falsely_lit + cell.falsely_shadowed), out);
+  assert.ok(best.contradicted <= 0.001 * 200 * 200, out);
+  return best;
+}
+
+for (const [scene, texels, bias] of [['ordinary', 128, 0.15], ['ordinary', 256, 0.3],
+                                     ['cube_edge', 64, 0.15]])
+  test(`a cube map of ${texels} texels on ${scene} is told by its resolution and its bias`, () => {
+    const { hypothesis, parameters } = diagnosed(scene, 'cube_map_six_pass', '--map-size', `${texels}`,
+                                                 '--map-bias', `${bias}`);
+    assert.equal(hypothesis, 'shadow_map');
+    assert.equal(parameters.resolution, texels);
+    assert.ok(Math.abs(parameters.bias - bias) <= 0.02 * bias, `${parameters.bias}`);
+    assert.deepEqual(Object.keys(parameters), ['resolution', 'bias']);
+  });
+
+test('rays that miss what is close are told, and how close', () => {
+  const { hypothesis, parameters } = diagnosed('ordinary', 'traced_epsilon', '--ray-epsilon', '0.2');
+  assert.equal(hypothesis, 'ray_epsilon');
+  assert.ok(Math.abs(parameters.epsilon - 0.2) < 0.02, `${parameters.epsilon}`);
+});
+
+test('a mesh that is not drawn, and one that throws no shadow, are told from each other', () => {
+  const gltf = JSON.parse(readFileSync(join(process.env.SHADOWPROOF_SCENES, 'ordinary.gltf'), 'utf8'));
+  const torus = gltf.nodes.find(({ name }) => name === 'torus');
+  const firstOf = (file) => {
+    const run = shadowproof(['render', file, ...size, '-o', 'changed.png', '-q']);
+    assert.equal(run.code, 0, run.err);
+    const png = readPng(path('changed.png'));
+    const image = picture('changed.png', { ...png, at: (x, y) => png.at(x, y)[0] },
+                          (value) => shade[value]);
+    const { out, cells: [cell] } = checked('ordinary', image);
+    assert.ok(cell.diagnosis.length > 0, out);
+    return cell.diagnosis[0].words;
+  };
+  torus.extras = { shadowproof: { casts: false } };
+  writeFileSync(path('no_caster.gltf'), JSON.stringify(gltf));
+  assert.equal(firstOf('no_caster.gltf'), 'torus throws no shadow');
+  delete torus.mesh;
+  writeFileSync(path('no_mesh.gltf'), JSON.stringify(gltf));
+  assert.equal(firstOf('no_mesh.gltf'), 'torus is not drawn');
+});
+
+test('controls are caught, or it is said why not; the picture is judged as without them', () => {
+  const truth = truthOf('ordinary');
+  const good = picture('good.png', truth, (value) => shade[value]);
+  const { code, out, cells: [cell] } = checked('ordinary', good, '--controls');
+  assert.equal(code, 0, out);
+  const named = (control) => cell.controls.filter((one) => one.control === control);
+  assert.deepEqual(named('caster_missing').map(({ words, caught }) => [words.split(' ')[0], caught]),
+                   [['floor', false], ['box', true], ['torus', true], ['ball', true]]);
+  assert.equal(named('caster_missing')[0].why_not, 'no shadow that it throws alone is in this view');
+  assert.deepEqual(named('light_moved').map(({ caught }) => caught), [true, true, true]);
+  const [one, two, five] = named('light_moved').map(({ wrong }) => wrong);
+  assert.ok(one < two && two < five);
+  for (const control of ['range', 'shadow_shifted', 'triangle_missing'])
+    assert.equal(named(control).length, 1, control);
+  assert.match(out, /control: caught: box throws no shadow, by [\d,]+ pixels/);
+  assert.match(out, /controls: \d+ of 1\d caught; the smallest: /);
+  const { cells: [without] } = checked('ordinary', good);
+  assert.equal(without.controls, undefined);
+});
+
+test('a control that lies where the picture tells nothing is not caught, and that is why', () => {
+  const truth = truthOf('ordinary');
+  // The lower half is of one colour.
+  const half = picture('half.png', truth, (value, x, y) => y < 100 ? shade[value] : 60);
+  const off = picture('off.png', truth, (value, x, y) => y < 100 ? (value ? 60 : 20) : 60);
+  const { cells: [cell] } = checked('ordinary', half, '--unlit', off, '--controls', '--no-diagnosis');
+  for (const { caught, changed, wrong, why_not } of cell.controls) {
+    assert.ok(wrong <= changed);
+    assert.equal(why_not === undefined, caught);
+  }
+});
 
 test('a picture without shadows, and one that ends them at a distance, are told by name', () => {
   const truth = truthOf('ordinary');

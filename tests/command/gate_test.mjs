@@ -46,6 +46,13 @@ test('a cause that is allowed passes the gate, one pixel more than allowed does 
   assert.deepEqual(resultsOf('report/results.json').allow, ['far_plane', 'edge']);
 });
 
+test('what is excused is said, with what the technique is known for', () => {
+  const words = /^  [\d,]+ wrong pixels excused: zpass is known for near_plane$/m;
+  assert.match(shadowproof(zpass).out, words);
+  for (const more of [['--gate', 'differences'], ['-q']])
+    assert.doesNotMatch(shadowproof([...zpass, ...more]).out, /excused/);
+});
+
 test('edges need no allowance, and a run that gives one is told so', () => {
   const note = /^note: --allow edge changes nothing/m;
   assert.match(shadowproof([...zpass, '--allow', 'edge=5']).out, note);

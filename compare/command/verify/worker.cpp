@@ -101,18 +101,6 @@ void announce(Console& console, const SceneResult& result) {
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
 
-/// Two files may have one stem: the second is "stem-2", in the results and in the report.
-std::string unique_name(const Run& run, const std::string& wanted) {
-    SceneResult named;
-    named.name = wanted;
-    const auto is_taken = [&](const SceneResult& other) {
-        return folder_of(other) == folder_of(named);
-    };
-    for (int number = 2; std::ranges::any_of(run.scenes, is_taken); ++number)
-        named.name = fmt::format("{}-{}", wanted, number);
-    return named.name;
-}
-
 /// Column widths of one scene's cell lines.
 ColumnWidths widths_of(const TechniqueOptions& techniques, const std::string& scene) {
     ColumnWidths widths{.technique = 0, .scene = static_cast<int>(scene.size()), .verdict = 0};
@@ -129,9 +117,7 @@ void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& ce
     const Gate& gate = setup.options.gate.gate;
     setup.console.cell(scene, cell, widths_of(setup.options.technique, scene.name),
                        fails(cell, gate));
-    if (cell.since) setup.console.line("  since the baseline: " + words_of(*cell.since));
-    const std::string allowed = cause_counts(pixels_allowed(cell, gate));
-    if (cell.error.empty() && !allowed.empty()) setup.console.line("  allowed: " + allowed);
+    setup.console.cell_details(cell, gate);
 }
 
 /// Plans and traces the chosen light of a scene; the truth lies in the result.
@@ -143,7 +129,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     result.light = chosen_light(scene);
     result.name = scene.name;
     if (result.one_of_many) result.name += "-" + result.light.choice;
-    result.name = unique_name(run, result.name);
+    result.name = unique_name(run.scenes, result.name);
     describe(result, scene);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
@@ -240,7 +226,7 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
     } catch (const Error& error) {
         result.error = error.what();
     }
-    result.name = unique_name(run, result.name);
+    result.name = unique_name(run.scenes, result.name);
     if (!run.setup.pieces.catching_up()) complain(result.error);
     return false;
 }
