@@ -29,6 +29,7 @@ install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md docs/stress-claims.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES docs/recipes/three.mjs DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
 install(FILES docs/results/near_plane.svg docs/results/thin_caster.svg docs/results/idle_casters.svg
     docs/results/walking_figure.svg DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/results)
 

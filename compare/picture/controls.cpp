@@ -1,6 +1,6 @@
 #include "compare/picture/controls.h"
 
-#include "compare/picture/hypotheses.h"
+#include "compare/picture/light_view.h"
 #include "scenes/camera.h"
 
 #include <fmt/format.h>
@@ -139,7 +139,7 @@ std::vector<Control> controls_of(const TracedScene& traced) {
         controls.push_back(
             {"bias",
              fmt::format("shadow rays miss what is closer than {:.3g}", 0.01 * shadowed.median),
-             lit_within_bias(traced, 0.01 * shadowed.median)});
+             lit_within(traced, {}, 0.01 * shadowed.median)});
     if (kind != Light::Kind::directional && shadowed.furthest > 0)
         controls.push_back(
             {"range", fmt::format("shadows end {:.4g} from the light", 0.9 * shadowed.furthest),

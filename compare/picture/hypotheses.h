@@ -21,8 +21,4 @@ void try_length(Trial& trial, const VolumeCounts& counts);     ///< short_volume
 void try_range(Trial& trial);      ///< shadow_map, cut at its range
 void try_light_view(Trial& trial); ///< shadow_map of texels with a bias, ray_epsilon
 
-/// Lit but where the light sees something that is closer to it by more than the bias. For a point
-/// light.
-Predict lit_within_bias(const TracedScene& traced, double bias);
-
 } // namespace shadowproof

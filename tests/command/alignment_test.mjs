@@ -10,8 +10,8 @@ import { scratch, shadowproof } from './shadowproof.mjs';
 const size = 240;
 const shade = { 0: 20, 64: 60, 255: 190 };
 
-function truthOf(scene, ...more) {
-  const run = shadowproof(['render', scene, '--size', `${size}x${size}`, ...more, '-o', 'truth.png', '-q']);
+function truthOf(scene, more = [], side = size) {
+  const run = shadowproof(['render', scene, '--size', `${side}x${side}`, ...more, '-o', 'truth.png', '-q']);
   assert.equal(run.code, 0, run.err);
   const png = readPng(join(scratch, 'truth.png'));
   return { ...png, at: (x, y) => png.at(x, y)[0] };
@@ -39,7 +39,7 @@ for (const scene of ['ordinary', 'near_plane', 'eye_inside', 'spot']) {
 }
 
 test('half a pixel is named, with the way that the picture went', () => {
-  const fine = truthOf('ordinary', '--size', `${4 * size}x${4 * size}`);
+  const fine = truthOf('ordinary', [], 4 * size);
   // 4 x + 3 has its centre at x + 0.875: three eighths to the right of the pixel's centre.
   refused(checked('ordinary', (x, y) => shade[fine.at(4 * x + 3, 4 * y + 3)]),
           /is shifted by about half a pixel to the left up: /);
@@ -58,7 +58,7 @@ for (const scene of ['ordinary', 'near_plane'])
   for (const factor of [0.95, 1.05])
     test(`a field of view ${factor} times that of ${scene} is fitted`, () => {
       const degrees = factor * yfovOf(scene);
-      const truth = truthOf(scene, '--fov', String(degrees));
+      const truth = truthOf(scene, ['--fov', String(degrees)]);
       const run = checked(scene, (x, y) => shade[truth.at(x, y)]);
       refused(run, /has a field of view of/);
       const found = numberIn(run, /has a field of view of ([\d.]+) degrees/);
@@ -73,7 +73,7 @@ test('a camera that is turned is told by how much, and about what', () => {
   // Right and back, turned to the left about up.
   const turned = matrix.map((m, i) => i < 3 ? Math.cos(angle) * m - Math.sin(angle) * matrix[i + 8]
     : i >= 8 && i < 11 ? Math.cos(angle) * m + Math.sin(angle) * matrix[i - 8] : m);
-  const truth = truthOf('ordinary', '--camera-matrix', turned.join());
+  const truth = truthOf('ordinary', ['--camera-matrix', turned.join()]);
   const run = checked('ordinary', (x, y) => shade[truth.at(x, y)]);
   refused(run, /turned by/);
   const found = numberIn(run, /turned by ([-\d.]+) degrees about its up axis/);

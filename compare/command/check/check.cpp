@@ -164,9 +164,10 @@ Work add_check(CLI::App& app) {
     const auto options = std::make_shared<CheckOptions>();
     add_scene_argument(*command, options->scenes.emplace_back());
     command
-        ->add_option("IMAGE", options->pictures,
-                     "Pictures of that view: .png, .jpg or .exr, all of one size; with --renderer, "
-                     "more scenes")
+        ->add_option(
+            "IMAGE", options->pictures,
+            "Pictures of that view: .png, .jpg, .exr or .hdr, all of one size; with --renderer, "
+            "more scenes")
         ->check(not_empty());
     add_picture_flags(*command, *options);
     add_renderer_flags(*command, *options);

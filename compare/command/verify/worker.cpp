@@ -147,8 +147,11 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
         result.notes.push_back(note);
         run.setup.console.line("  note: " + note);
     };
-    if (const std::optional<std::string> note = note_if_nothing_is_seen(result.truth))
-        add_note(*note);
+    refuse_blank_truth(result.name, result.truth);
+    if (const std::optional<std::string> note = note_if_one_class_is_seen(result.truth)) {
+        result.notes.push_back(*note);
+        run.setup.console.heading("  note: " + *note);
+    }
     if (options.witness > 0) {
         run.setup.console.progress(fmt::format("{}: asking the witness", result.name));
         const Agreement agreement =
