@@ -63,6 +63,10 @@ void consider_map(Trial& trial, const LightView& view, double bias) {
         parameters.emplace_back(front ? "culls_front" : "culls_back", 1);
         words += front ? ", of back faces" : ", of front faces";
     }
+    if (view.inset > 0) {
+        parameters.emplace_back("inset", view.inset);
+        words += ", whose faces are asked as if a texel narrower";
+    }
     if (view.range < infinity) {
         parameters.emplace_back("range", view.range);
         words += fmt::format(", range {:.4g}", view.range);
@@ -118,31 +122,34 @@ void try_range(Trial& trial) {
 
 void try_light_view(Trial& trial) {
     if (chosen_light(trial.scene()).kind != Light::Kind::point) return;
-    double range = infinity;
-    if (const Parameters* found = trial.best_of("shadow_map")) range = found->front().second;
     constexpr int smallest = 64; // texels: engines offer powers of two
     constexpr int largest = 8192;
     std::optional<BestBias> best;
     LightView best_view;
+    const auto look = [&](const Tracer& tracer, const LightView& view) {
+        const auto found = best_bias(trial, excesses(trial.traced(), tracer, view, trial.sample()));
+        if (!found || (best && found->score <= best->score)) return;
+        best = found;
+        best_view = view;
+    };
     using Culled = LightView::Culled;
     for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
         const Scene from_light = seen_from_light(trial.scene(), culled);
         if (from_light.triangles.empty()) return;
         const Tracer tracer(from_light, trial.traced().tracer().threads());
-        for (const double reach : {infinity, range}) {
-            if (reach == range && range == infinity) continue;
-            for (int texels = smallest; texels <= largest; texels *= 2) {
-                const LightView view{culled, texels, reach};
-                const auto found =
-                    best_bias(trial, excesses(trial.traced(), tracer, view, trial.sample()));
-                if (!found || (best && found->score <= best->score)) continue;
-                best = found;
-                best_view = view;
-            }
-        }
+        for (const int inset : {0, 1})
+            for (int texels = smallest; texels <= largest; texels *= 2)
+                look(tracer, {.culled = culled, .texels = texels, .inset = inset});
         if (culled == Culled::none) try_epsilon(trial, tracer);
     }
-    if (best) consider_map(trial, best_view, best->bias);
+    if (!best) return;
+    if (const Parameters* found = trial.best_of("shadow_map")) { // the range alone
+        const Scene from_light = seen_from_light(trial.scene(), best_view.culled);
+        LightView ended = best_view;
+        ended.range = found->front().second;
+        look(Tracer(from_light, trial.traced().tracer().threads()), ended);
+    }
+    consider_map(trial, best_view, best->bias);
 }
 
 } // namespace shadowproof

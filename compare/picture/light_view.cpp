@@ -13,14 +13,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Towards the middle of the texel that holds the direction, on a cube whose faces lie across the
 /// axes: all cube maps are divided so, whichever way a face is turned.
-glm::dvec3 through_texel(const glm::dvec3& direction, int texels) {
+glm::dvec3 through_texel(const glm::dvec3& direction, const LightView& view) {
+    const int texels = view.texels;
     if (texels == 0) return direction;
+    const double narrower = 1 - static_cast<double>(view.inset) / texels;
     const glm::dvec3 size = glm::abs(direction);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
     glm::dvec3 through = direction / size[axis];
     for (int k = 0; k < 3; ++k)
         if (k != axis) {
-            const double texel = std::floor((through[k] + 1) / 2 * texels);
+            const double texel = std::floor((narrower * through[k] + 1) / 2 * texels);
             through[k] = 2 * (std::min(texel, texels - 1.0) + 0.5) / texels - 1;
         }
     return size[axis] * through;
@@ -56,7 +58,7 @@ std::vector<double> excesses(const TracedScene& traced, const Tracer& light_trac
             const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
             if (!faces_light(traced, i)) return;
             ways.push_back(seen_point(traced, x, y) - light);
-            directions.push_back(through_texel(ways.back(), view.texels));
+            directions.push_back(through_texel(ways.back(), view));
         });
     const std::vector<SeenSurface> seen = see_rays(light_tracer, directions);
     std::vector<double> excess(ways.size(), -infinity);

@@ -15,6 +15,9 @@ struct LightView {
     enum class Culled : std::uint8_t { none, front, back };
     Culled culled = Culled::none;
     int texels = 0; ///< along each side of a cube's faces; 0: as finely as floats do
+    /// Texels by which faces are taken for narrower when they are asked, so that no neighbour of
+    /// what is asked lies on another face: where the faces lie side by side in one picture.
+    int inset = 0;
     double range = std::numeric_limits<double>::infinity(); ///< nothing is shadowed further away
 };
 

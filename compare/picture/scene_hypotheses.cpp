@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -130,8 +131,9 @@ void try_one_sided(Trial& trial) {
                        }));
 }
 
-/// Steps along the axes that halve where none is better, from a tenth of the light's distance to
-/// what is seen; or, of a directional one, of its direction.
+/// Steps to what is seen and across that halve where none is better: across, shadows move; towards
+/// it they only grow. The first are a tenth of the light's distance; or, of a directional one, of
+/// its direction.
 void try_moved_light(Trial& trial) {
     const Scene& scene = trial.scene();
     const Light& light = chosen_light(scene);
@@ -141,23 +143,30 @@ void try_moved_light(Trial& trial) {
     const double depth = std::min(depths.pixels[middle], trial.traced().far());
     const glm::dvec3 point = scene.camera.eye + depth * scene.camera.forward;
     const bool directional = light.kind == Light::Kind::directional;
-    double step = directional ? 0.1 : 0.1 * glm::distance(point, light.position);
+    const glm::dvec3 way = directional ? light.direction : point - light.position;
+    if (!(glm::length(way) > 0)) return;
+    const glm::dvec3 towards = glm::normalize(way);
+    const glm::dvec3 hint = std::abs(towards.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
+    const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
+    double step = 0.1 * glm::length(way);
     glm::dvec3 by(0);
     std::int64_t score = 0;
-    constexpr int rounds = 10;
+    constexpr int rounds =
+        20; // of six predictions at most; steps end below a thousandth of the way
     for (int round = 0; round < rounds; ++round) {
-        glm::dvec3 better = by;
-        for (int axis = 0; axis < 3; ++axis)
+        bool better = false;
+        for (const glm::dvec3& axis : axes)
             for (const double sign : {-1.0, 1.0}) {
-                glm::dvec3 tried = by;
-                tried[axis] += sign * step;
+                const glm::dvec3 tried = by + sign * step * axis;
                 const std::int64_t found = trial.fit(with_light_moved(trial, tried)).score();
                 if (found <= score) continue;
                 score = found;
-                better = tried;
+                by = tried;
+                better = true;
+                break;
             }
-        if (better == by) step /= 2;
-        by = better;
+        if (!better) step /= 2;
     }
     if (score > 0)
         trial.consider(

@@ -82,12 +82,16 @@ void Trial::search(const Parametric& family, double from, double to) {
     constexpr int refinements = 4;
     constexpr int bisections = 14;
     double best_value = from;
+    double last_value = from; // up to which the score is the same
     std::int64_t best_score = 0;
     const auto look = [&](double value) {
         const Fit found = fit(family.predict(value));
         if (found.score() > best_score) {
             best_score = found.score();
-            best_value = value;
+            best_value = last_value = value;
+        } else if (found.score() == best_score) {
+            best_value = std::min(best_value, value);
+            last_value = std::max(last_value, value);
         }
         return found;
     };
@@ -107,12 +111,14 @@ void Trial::search(const Parametric& family, double from, double to) {
     }
     for (int round = 0; round < refinements && best_score > 0; ++round) {
         ratio = std::pow(ratio, 1.0 / 3);
-        const double middle = best_value;
+        const double middle = std::sqrt(best_value * last_value);
         for (const int step : {-2, -1, 1, 2}) look(middle * std::pow(ratio, step));
     }
-    if (best_score > 0)
-        consider(family.hypothesis, {{family.parameter, best_value}}, family.words(best_value),
-                 family.predict(best_value));
+    if (best_score <= 0) return;
+    // The middle of what fits equally well.
+    const double value = std::sqrt(best_value * last_value);
+    consider(family.hypothesis, {{family.parameter, value}}, family.words(value),
+             family.predict(value));
 }
 
 bool Trial::is_settled() const {

@@ -27,6 +27,16 @@ for (const scene of ['ordinary', 'sun', 'spot'])
     assert.ok(existsSync(join(scratch, `checked/rendered/${scene}/unlit.png`)));
   });
 
+test('the map of three.js is named: its size, and that it holds back faces, side by side', () => {
+  for (const texels of [256, 512]) {
+    const { cell: { diagnosis: [best] }, wrong } = checked('overlapping', { MAP_SIZE: `${texels}` });
+    assert.equal(best.hypothesis, 'shadow_map');
+    const { resolution, culls_front, inset } = best.parameters;
+    assert.deepEqual([resolution, culls_front, inset], [texels, 1, 1]);
+    assert.ok(best.explained > 0.9 * wrong, `${best.explained} of ${wrong}`);
+  }
+});
+
 test('a coarser map of three.js is worse', () => {
   assert.ok(checked('ordinary', { MAP_SIZE: '128' }).wrong > 2 * checked('ordinary').wrong);
 });
