@@ -6,11 +6,11 @@
 
 namespace shadowproof {
 
-std::vector<Diagnosis> diagnose(const TracedScene& traced, const Frame& frame,
-                                const Image<std::uint8_t>& cause) {
+Diagnosed diagnose(const TracedScene& traced, const Frame& frame,
+                   const Image<std::uint8_t>& cause) {
     constexpr std::size_t most = 5;
     Trial trial(traced, frame, cause);
-    if (trial.wrong() == 0) return {};
+    if (trial.wrong() == 0) return {{}, Image<std::uint8_t>(cause.width, cause.height)};
     const VolumeCounts counts(traced);
     using Try = std::function<void()>;
     // The cheap ones first: what explains all and contradicts nothing needs no rival.

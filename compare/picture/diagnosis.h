@@ -23,10 +23,15 @@ struct Diagnosis {
     std::string words;              ///< "the shadow of `lamp` is missing"
 };
 
-/// Hypotheses that explain more wrong pixels than they contradict right ones, best first, five at
-/// most. `frame`: of family "picture"; `cause`: Comparison::cause. None where no pixel is wrong but
-/// at edges.
-std::vector<Diagnosis> diagnose(const TracedScene& traced, const Frame& frame,
-                                const Image<std::uint8_t>& cause);
+struct Diagnosed {
+    /// Those that explain more wrong pixels than they contradict right ones, best first.
+    std::vector<Diagnosis> hypotheses;
+    /// 1 where a pixel is wrong and the first hypothesis does not explain it.
+    Image<std::uint8_t> left;
+};
+
+/// `frame`: of family "picture"; `cause`: Comparison::cause. Five hypotheses at most, none where no
+/// pixel is wrong but at edges.
+Diagnosed diagnose(const TracedScene& traced, const Frame& frame, const Image<std::uint8_t>& cause);
 
 } // namespace shadowproof

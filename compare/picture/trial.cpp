@@ -136,26 +136,31 @@ const Parameters* Trial::best_of(const std::string& hypothesis) const {
     return best == nullptr ? nullptr : &best->diagnosis.parameters;
 }
 
-std::vector<Diagnosis> Trial::best(std::size_t most) {
-    std::stable_sort(
-        considered_.begin(), considered_.end(),
-        [](const Considered& a, const Considered& b) { return a.fit.score() > b.fit.score(); });
+Diagnosed Trial::best(std::size_t most) {
+    const auto sort = [&] {
+        std::stable_sort(
+            considered_.begin(), considered_.end(),
+            [](const Considered& a, const Considered& b) { return a.fit.score() > b.fit.score(); });
+    };
+    sort();
     if (considered_.size() > most) considered_.resize(most);
     const std::vector<Patch> all = all_patches(picture_.width, picture_.height);
-    std::vector<Diagnosis> found;
     for (Considered& each : considered_) {
-        const Fit fit = fit_in(all, each.predict);
-        each.diagnosis.explained = fit.explained;
-        each.diagnosis.contradicted = fit.contradicted;
-        if (fit.score() > 0) found.push_back(std::move(each.diagnosis));
+        each.fit = fit_in(all, each.predict);
+        each.diagnosis.explained = each.fit.explained;
+        each.diagnosis.contradicted = each.fit.contradicted;
     }
-    std::stable_sort(found.begin(), found.end(), [](const Diagnosis& a, const Diagnosis& b) {
-        const auto score = [](const Diagnosis& each) {
-            return static_cast<std::int64_t>(each.explained) -
-                   static_cast<std::int64_t>(each.contradicted);
-        };
-        return score(a) > score(b);
-    });
+    sort();
+    std::erase_if(considered_, [](const Considered& each) { return each.fit.score() <= 0; });
+    Diagnosed found;
+    for (const Considered& each : considered_) found.hypotheses.push_back(each.diagnosis);
+    if (!considered_.empty()) considered_.front().predict(all, picture_);
+    found.left = Image<std::uint8_t>(picture_.width, picture_.height);
+    for (int y = 0; y < picture_.height; ++y)
+        for (int x = 0; x < picture_.width; ++x)
+            found.left.at(x, y) =
+                is_wrong(x, y) && picture_.at(x, y) != frame_.claim.at(x, y) ? 1 : 0;
+    picture_ = traced_.truth().visibility;
     return found;
 }
 

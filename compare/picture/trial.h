@@ -60,8 +60,8 @@ public:
     bool is_settled() const;
     /// The parameters of the best hypothesis so far by that name; null where there is none.
     const Parameters* best_of(const std::string& hypothesis) const;
-    /// The best, by the whole picture.
-    std::vector<Diagnosis> best(std::size_t most);
+    /// The best, by the whole picture, and the wrong pixels that the first of them leaves.
+    Diagnosed best(std::size_t most);
 
 private:
     struct Considered {

@@ -191,6 +191,31 @@ test('a picture without shadows, and one that ends them at a distance, are told 
   assert.equal(none.cells[0].falsely_shadowed, 0);
 });
 
+test('what no hypothesis explains is told by its largest regions, with caster and receiver', () => {
+  const truth = truthOf('ordinary');
+  const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+  const [left, top] = litSquare(truth);
+  // A square in the light that is dark, and one in a shadow, of the ball or the torus, that is lit.
+  let hole;
+  for (let y = 0; y < 196 && !hole; ++y)
+    for (let x = 0; x < 196 && !hole; ++x)
+      if ([0, 1, 2, 3, 4, 5].every((dy) => [0, 1, 2, 3, 4, 5].every((dx) =>
+        truth.at(x + dx, y + dy) === shadowed))) hole = [x, y];
+  const image = picture('holes.png', truth, (value, x, y) =>
+    x >= left && x < left + 8 && y >= top && y < top + 8 ? shade[shadowed]
+      : x >= hole[0] && x < hole[0] + 6 && y >= hole[1] && y < hole[1] + 6 ? shade[lit] : shade[value]);
+  const { out, cells: [cell] } = checked('ordinary', image, '--unlit', off, '--no-diagnosis');
+  const dark = cell.regions.find(({ caster }) => caster === '');
+  assert.deepEqual([dark.pixels, dark.left, dark.top, dark.right, dark.bottom],
+                   [64, left, top, left + 7, top + 7]);
+  assert.match(dark.words, /is shadowed where nothing is between it and the light/);
+  assert.match(out, /  left: 64 pixels from /);
+  for (const { caster, words } of cell.regions.filter((region) => region.caster !== ''))
+    assert.ok(words.includes(`the shadow of ${caster} on `), words);
+  const right = checked('ordinary', picture('right.png', truth, (value) => shade[value]));
+  assert.equal(right.cells[0].regions, undefined);
+});
+
 test('an antialiased picture differs at edges alone, and a shifted one does not pass', () => {
   const fine = truthOf('ordinary', ['--size', '400x400']);
   const mean = (x, y) => [0, 1, 2, 3].reduce(

@@ -10,6 +10,7 @@
 #include "compare/memory.h"
 #include "compare/picture/alignment.h"
 #include "compare/picture/diagnosis.h"
+#include "compare/picture/regions.h"
 #include "compare/picture/shadow_classes.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
@@ -57,6 +58,30 @@ nlohmann::ordered_json diagnosis_json(const std::vector<Diagnosis>& diagnoses) {
     return list;
 }
 
+nlohmann::ordered_json regions_json(const std::vector<WrongRegion>& regions) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const WrongRegion& region : regions)
+        list.push_back({{"pixels", region.pixels},
+                        {"left", region.left},
+                        {"top", region.top},
+                        {"right", region.right},
+                        {"bottom", region.bottom},
+                        {"receiver", region.receiver},
+                        {"caster", region.caster},
+                        {"words", region.words}});
+    return list;
+}
+
+/// 1 where a pixel is wrong.
+Image<std::uint8_t> wrong_pixels(const Comparison& comparison) {
+    Image<std::uint8_t> wrong(comparison.cause.width, comparison.cause.height);
+    std::transform(comparison.cause.pixels.begin(), comparison.cause.pixels.end(),
+                   wrong.pixels.begin(), [](std::uint8_t cause) {
+                       return cause == static_cast<std::uint8_t>(Cause::unexplained) ? 1 : 0;
+                   });
+    return wrong;
+}
+
 /// A picture's cell before it is judged.
 Cell begin_cell(const CheckOptions& options, const SceneInputs& inputs, std::size_t i,
                 const PictureSize& size, const std::vector<Cell>& cells) {
@@ -87,16 +112,17 @@ Cell begin_cell(const CheckOptions& options, const SceneInputs& inputs, std::siz
 struct Judged {
     Cell cell{};
     std::vector<std::string> said{};     ///< a line per diagnosis
+    std::vector<std::string> rest{};     ///< a line per region that is left
     std::vector<std::string> controls{}; ///< lines on negative controls
 };
 
-SHADOWPROOF_SEND_ALL(Judged, cell, said, controls)
+SHADOWPROOF_SEND_ALL(Judged, cell, said, rest, controls)
 
 /// No wrong pixel of a picture is excused.
 void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
                    const TracedScene& traced, std::size_t i, const Pictures& pictures,
                    Console& console, Judged& judged) {
-    auto& [cell, said, controls] = judged;
+    auto& [cell, said, rest, controls] = judged;
     try {
         if (options.alignment && inputs.mask.empty()) {
             console.progress(cell.technique + ": alignment");
@@ -110,13 +136,17 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
         const std::unique_ptr<Judge> family = judge_of(traced, cell.frame);
         cell.comparison = classify(traced, cell.frame, *family);
         cell.verdict = judge(traced.scene(), {}, {}, cell.comparison);
-        std::vector<Diagnosis> diagnoses;
+        Diagnosed diagnosed{{}, wrong_pixels(cell.comparison)};
         if (options.diagnosis) {
             console.progress(cell.technique + ": diagnosis");
-            diagnoses = diagnose(traced, cell.frame, cell.comparison.cause);
+            diagnosed = diagnose(traced, cell.frame, cell.comparison.cause);
         }
+        constexpr std::size_t most_regions = 3;
+        const std::vector<WrongRegion> regions =
+            largest_regions(traced, cell.frame, diagnosed.left, most_regions);
         auto results = nlohmann::ordered_json::parse(cell.comparison.summary.results);
-        results["diagnosis"] = diagnosis_json(diagnoses);
+        results["diagnosis"] = diagnosis_json(diagnosed.hypotheses);
+        if (!regions.empty()) results["regions"] = regions_json(regions);
         if (options.controls) {
             console.progress(cell.technique + ": negative controls");
             const auto outcomes = run_controls(traced, cell.frame, options.gate.gate);
@@ -124,10 +154,11 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
             controls = controls_lines(outcomes);
         }
         cell.comparison.summary.results = results.dump();
-        for (const Diagnosis& each : diagnoses)
+        for (const Diagnosis& each : diagnosed.hypotheses)
             said.push_back(fmt::format("{}: {}: explains {} wrong pixels, contradicts {}",
                                        each.hypothesis, each.words, grouped(each.explained),
                                        grouped(each.contradicted)));
+        for (const WrongRegion& region : regions) rest.push_back(region.words);
     } catch (const Error& error) {
         cell.error = as_in_report(error.what(), inputs.work);
     }
@@ -213,6 +244,7 @@ SceneResult check_scene(const CheckWork& work) {
         console.cell(result, judged.cell, {}, fails(judged.cell, options.gate.gate));
         console.cell_details(judged.cell, options.gate.gate);
         for (const std::string& line : judged.said) console.always("  diagnosis: " + line);
+        for (const std::string& line : judged.rest) console.always("  left: " + line);
         for (const std::string& line : judged.controls) console.line("  " + line);
         result.cells.push_back(std::move(judged.cell));
     }

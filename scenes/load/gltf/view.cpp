@@ -67,8 +67,20 @@ std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& gra
     return carriers;
 }
 
+/// The camera's own aspect ratio is that of the picture it was made for: another picture shows more
+/// or less to the sides. They are the same where they differ by less than a pixel's width.
+void note_aspect(const Document& document, const Carrier& carrier, const SceneRequest& request,
+                 Scene& scene) {
+    const double own = document.model.cameras[carrier.index].perspective.aspectRatio;
+    if (!(own > 0) || std::abs(own * request.height - request.width) < 1) return;
+    scene.notes.push_back(fmt::format(
+        "the camera's aspect ratio is {:.4g}, the picture's {:.4g}: the field of view is kept from "
+        "top to bottom, as glTF says",
+        own, static_cast<double>(request.width) / request.height));
+}
+
 Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
-                   const SceneRequest& request) {
+                   const SceneRequest& request, Scene& scene) {
     const tinygltf::Camera& source = document.model.cameras[carrier.index];
     if (source.type != "perspective")
         carrier.place.refuse("is an orthographic camera, which is not evaluated",
@@ -78,6 +90,7 @@ Camera read_camera(const Document& document, const NodeGraph& graph, const Carri
     if (!(perspective.yfov > 0 && perspective.yfov < std::numbers::pi)) // radians
         (place / "yfov")
             .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
+    note_aspect(document, carrier, request, scene);
     Camera camera;
     camera.width = request.width;
     camera.height = request.height;
@@ -160,17 +173,19 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
     if (request.camera)
         return read_camera(
             document, graph,
-            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request);
+            cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request,
+            scene);
     if (cameras.empty()) return default_camera(request, scene);
     const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
         return document.model.cameras[carrier.index].type == "perspective";
     });
-    if (first == cameras.end()) return read_camera(document, graph, cameras.front(), request);
+    if (first == cameras.end())
+        return read_camera(document, graph, cameras.front(), request, scene);
     if (first != cameras.begin())
         scene.notes.push_back(fmt::format(
             "orthographic cameras are not evaluated: {} is used",
             described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
-    return read_camera(document, graph, *first, request);
+    return read_camera(document, graph, *first, request, scene);
 }
 
 void choose_light(const Document& document, const NodeGraph& graph, const SceneRequest& request,
