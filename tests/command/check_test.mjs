@@ -60,6 +60,23 @@ for (const scene of ['ordinary', 'near_plane', 'sun', 'spot', 'overlapping'])
     }
   });
 
+for (const [name, expose] of [
+  ['half the exposure', (value) => value / 2], ['more exposure', (value) => Math.min(255, 1.3 * value)],
+  ['linear light', (value) => 255 * (value / 255) ** 2.2],
+  ['some ambient light', (value) => 60 + 0.7 * value],
+  ['eight bits', (value) => Math.round(value)]])
+  test(`a right picture with ${name} agrees, alone and with its twin`, () => {
+    const truth = truthOf('ordinary');
+    const round = (value) => Math.round(257 * expose(value)) / 257;
+    const image = picture('exposed.png', truth, (value) => round(shade[value]));
+    const off = picture('off.png', truth, (value) => round(value ? 60 : 20));
+    for (const more of [[], ['--unlit', off]]) {
+      const { code, out, cells: [cell] } = checked('ordinary', image, ...more);
+      assert.equal(code, 0, out);
+      assert.equal(cell.undecidable, 0);
+    }
+  });
+
 test('a square of lit pixels that is dark is counted, and named by its first pixel', () => {
   const truth = truthOf('ordinary');
   const [left, top] = litSquare(truth);
