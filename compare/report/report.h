@@ -72,8 +72,13 @@ inline constexpr int results_format = 6;
 /// results.json of that schema.
 std::string to_json(const Report& report);
 /// JUnit XML: one suite per scene, one case per cell; valid by Ant's schema and by Jenkins'.
-/// `timestamp`: when the run began, "2024-01-31T23:59:59".
-std::string to_junit(const Report& report, const std::string& timestamp);
+/// `timestamp`: when the run began, "2024-01-31T23:59:59". `folder`: the report's, whose pictures
+/// of cells that fail are attached; empty: none are.
+std::string to_junit(const Report& report, const std::string& timestamp,
+                     const std::filesystem::path& folder = {});
+/// What CTest takes from a test's output and CDash shows beside it: the pictures of cells that
+/// fail.
+std::string to_ctest_measurements(const Report& report, const std::filesystem::path& folder);
 /// For GitHub Actions: a line `::error title=...::...` for each cell and scene that fails.
 std::string to_workflow_commands(const Report& report);
 /// For GitHub's step summary: the cells as a table in Markdown, failures first.
