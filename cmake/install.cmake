@@ -1,6 +1,6 @@
 # cmake --install: the command, the libraries with their headers in the folders of the house, the
 # bundled scenes, and a CMake package: find_package(shadowproof), targets shadowproof::compare and
-# shadowproof::shadowproof, function shadowproof_add_test.
+# shadowproof::shadowproof, functions shadowproof_add_test and shadowproof_add_check.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/shadowproof)
 set(scenes_folder ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes)
@@ -27,9 +27,10 @@ install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shad
 install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/check.md docs/ci.md docs/claims.md docs/families.md
     docs/house.md docs/how-it-decides.md docs/lighting.md docs/reliability.md
-    docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md docs/stress-claims.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
+    docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md docs/stress-claims.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES docs/recipes/three.mjs DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
 install(FILES docs/results/near_plane.svg docs/results/thin_caster.svg docs/results/idle_casters.svg
     docs/results/walking_figure.svg DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/results)
 
@@ -40,4 +41,5 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/shadowproof-config-version.
     COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/shadowproof-config.cmake
     ${CMAKE_BINARY_DIR}/shadowproof-config-version.cmake
-    cmake/shadowproof_add_test.cmake DESTINATION ${package_folder})
+    cmake/shadowproof_add_check.cmake cmake/shadowproof_add_test.cmake
+    cmake/shadowproof_call.cmake DESTINATION ${package_folder})

@@ -3,6 +3,8 @@
 #include "scenes/error.h"
 #include "scenes/scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -26,11 +28,18 @@ void refuse_blank(std::string_view technique, const GroundTruth& truth, const Fr
                     "see what the driver says, or try another with --gl");
 }
 
-std::optional<std::string> note_if_nothing_is_seen(const GroundTruth& truth) {
-    if (has_surfaces(truth)) return std::nullopt;
-    return "nothing is seen: every pixel is background, and agreement says little; turn or move "
-           "the "
-           "camera";
+void refuse_blank_truth(const std::string& scene, const GroundTruth& truth) {
+    if (!has_surfaces(truth))
+        throw Error(scene, "nothing is seen: every pixel is background, and agreement says nothing",
+                    "turn or move the camera, or name another one with --camera");
+}
+
+std::optional<std::string> note_if_one_class_is_seen(const GroundTruth& truth) {
+    const bool lit = truth.statistics.lit > 0;
+    if (!has_surfaces(truth) || (lit && truth.statistics.shadowed > 0)) return std::nullopt;
+    return fmt::format("no pixel is in {}: agreement says little; turn or move the camera or the "
+                       "light",
+                       lit ? "shadow" : "light");
 }
 
 } // namespace shadowproof

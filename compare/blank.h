@@ -17,8 +17,11 @@ namespace shadowproof {
 void refuse_blank(std::string_view technique, const GroundTruth& truth, const Frame& frame,
                   bool some_unexplained);
 
-/// A note for a scene without any surface in the picture, where every claim agrees; none if a
-/// surface is seen.
-std::optional<std::string> note_if_nothing_is_seen(const GroundTruth& truth);
+/// Throws Error naming the scene if its picture shows no surface: every claim would agree, and that
+/// would say nothing.
+void refuse_blank_truth(const std::string& scene, const GroundTruth& truth);
+
+/// A note for a picture without any shadow, or without any light; none if both are seen.
+std::optional<std::string> note_if_one_class_is_seen(const GroundTruth& truth);
 
 } // namespace shadowproof

@@ -17,6 +17,12 @@
 
 namespace shadowproof {
 
+/// A cause that a reviewer has accepted in a cell of the baseline, and why.
+struct Acceptance {
+    Cause cause = Cause::edge;
+    std::string reason;
+};
+
 /// One technique on one scene.
 struct Cell {
     std::string technique;
@@ -31,6 +37,7 @@ struct Cell {
     std::vector<std::string> left_out;            ///< what the technique omitted as not needed
     std::vector<Cause> excused;                   ///< causes found that technique and scene excuse
     std::optional<Since> since;                   ///< change since the same cell of a baseline
+    std::vector<Acceptance> accepted;             ///< in that cell of the baseline
     std::optional<FirstDifference> first_failing; ///< the first pixel that fails the gate
     Comparison comparison;
     std::string cause_map; ///< the comparison's causes, packed as in results.json

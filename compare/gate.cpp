@@ -21,6 +21,9 @@ constexpr auto index_of(Cause cause) {
 std::uint64_t pixels_against(const Cell& cell, const Gate& gate, Cause cause) {
     const std::uint64_t all = cell.comparison.causes[index_of(cause)];
     if (cause == Cause::edge) return 0;
+    const bool is_accepted = std::any_of(cell.accepted.begin(), cell.accepted.end(),
+                                         [&](const Acceptance& one) { return one.cause == cause; });
+    if (is_accepted && cell.since) return cell.since->causes[index_of(cause)];
     if (cause == Cause::unexplained) return all;
     if (gate.on == GateOn::differences)
         return cell.since ? cell.since->causes[index_of(cause)] : all;
@@ -62,7 +65,7 @@ CausePixels pixels_allowed(const Cell& cell, const Gate& gate) {
 }
 
 bool fails(const Cell& cell, const Gate& gate) {
-    if (!cell.error.empty() || !is_explained(cell.comparison)) return true;
+    if (!cell.error.empty() || !unexplained_evidence(cell.comparison).empty()) return true;
     const CausePixels pixels = pixels_that_fail(cell, gate);
     return std::any_of(pixels.begin(), pixels.end(), [](std::uint64_t n) { return n > 0; });
 }

@@ -32,12 +32,14 @@ constexpr const char* footer =
     "  shadowproof verify                              every bundled scene, report in report/\n"
     "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
     "  shadowproof check my.glb mine.png --unlit off.png   the picture that your renderer made\n"
+    "  shadowproof export-view my.glb --engine three   its camera and light, for three.js\n"
     "  shadowproof stress near_plane                   where each technique starts to fail\n"
     "  shadowproof bench ordinary --quick              error against run time\n"
     "  shadowproof explain near_plane --pixel 229,103  why one pixel is what it is\n"
     "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
     "  shadowproof normal-map height.png -o normal.png a height field as a normal map\n"
     "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
+    "  shadowproof accept report -o accepted.json      what was reviewed, as a baseline\n"
     "\nExit codes:\n"
     "  0  every technique agrees with the truth, or fails as was predicted\n"
     "  1  a defect, an unexplained pixel, a cell above --timeout, or a scene that stopped\n"
@@ -81,9 +83,10 @@ int run(int argc, char** argv) {
     CLI::App app(description, "shadowproof");
     app.require_subcommand(1);
     app.set_version_flag("--version", versions);
-    const std::vector<Work> works{
-        add_verify(app), add_check(app), add_render(app), add_explain(app), add_stress(app),
-        add_bench(app),  add_list(app),  add_report(app), add_merge(app),   add_normal_map(app)};
+    const std::vector<Work> works{add_verify(app),  add_check(app),       add_render(app),
+                                  add_explain(app), add_stress(app),      add_bench(app),
+                                  add_list(app),    add_report(app),      add_merge(app),
+                                  add_accept(app),  add_export_view(app), add_normal_map(app)};
     app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
     std::string offered;

@@ -1,5 +1,6 @@
 #include "compare/command/options.h"
 
+#include "compare/command/view_options.h"
 #include "scenes/available_memory.h"
 #include "scenes/load/common/nearest_name.h"
 
@@ -195,14 +196,15 @@ SceneRequest SceneOptions::request() const {
             .width = size.width,
             .height = size.height,
             .camera_aspect = !size_given,
+            .view = view,
             .stress = stress,
             .memory = memory};
 }
 
 bool SceneOptions::is_default() const {
     const PictureSize ordinary;
-    return !camera && !light && !stress && time == 0 && size.width == ordinary.width &&
-           size.height == ordinary.height;
+    return !camera && !light && !is_given(view) && !stress && time == 0 &&
+           size.width == ordinary.width && size.height == ordinary.height;
 }
 
 std::vector<const Technique*> TechniqueOptions::chosen() const {
@@ -259,6 +261,7 @@ void add_scene_flags(CLI::App& command, SceneOptions& options) {
             },
             "Seconds at which animations are posed (0)")
         ->type_name("T");
+    add_view_flags(command, options.view);
     command
         .add_option_function<std::string>(
             "--stress", [&](const std::string& text) { options.stress = parse_stress(text); },
@@ -353,6 +356,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (scene.light) add("--light", *scene.light);
     if (scene.floor) add("--floor", *scene.floor ? "yes" : "no");
     if (scene.time != 0) add("--time", fmt::format("{}", scene.time));
+    for (const std::string& word : settings(scene.view)) words.push_back(word);
     if (scene.stress) add("--stress", words_of(*scene.stress));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
     const LightingSettings& lighting = technique.asked.lighting;

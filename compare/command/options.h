@@ -36,7 +36,8 @@ struct SceneOptions {
     bool size_given = false; ///< otherwise a camera's aspect ratio decides about the width
     std::optional<std::string> camera;
     std::optional<std::string> light;
-    double time = 0;           ///< seconds
+    double time = 0; ///< seconds
+    ViewOverride view{};
     std::optional<bool> floor; ///< under a model without camera or light; by default there is one
     std::optional<Stress> stress;
     int threads = 0; ///< 0: one per core

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 bool is_default_picture(const Report& report) {
     const auto& words = report.arguments;
     return std::none_of(words.begin(), words.end(), [](const std::string& word) {
-        return word == "--size" || word == "--camera" || word == "--light" || word == "--time";
+        return word == "--size" || word == "--camera" || word == "--light" || word == "--time" ||
+               word == "--camera-matrix" || word == "--light-position" || word == "--fov";
     });
 }
 
@@ -100,7 +101,7 @@ void finish(ReportFolder& folder, Console& console, const Report& report,
     const std::optional<std::string> json = name_in_report(options.json, options.out);
     if (json && *json != results_name) folder.add_requested(*json, to_json(report));
     if (const std::optional<std::string> junit = name_in_report(options.junit, options.out))
-        folder.add_requested(*junit, to_junit(report, started));
+        folder.add_requested(*junit, to_junit(report, started, options.out));
     folder.finish(report);
     for (const std::string& note : folder.notes()) console.always(note);
 }
@@ -145,7 +146,8 @@ int conclude(Console& console, const Report& report, const OutputOptions& option
         return !file.empty() && !name_in_report(file, options.out);
     };
     if (lies_elsewhere(options.json)) write_file(options.json, to_json(report));
-    if (lies_elsewhere(options.junit)) write_file(options.junit, to_junit(report, started));
+    if (lies_elsewhere(options.junit))
+        write_file(options.junit, to_junit(report, started, options.out));
     if (report.baseline)
         for (const std::string& note : report.baseline->notes) console.line("baseline: " + note);
     conclude_reproducing(console, report);
@@ -153,6 +155,9 @@ int conclude(Console& console, const Report& report, const OutputOptions& option
         console.commands(to_workflow_commands(report));
         append_step_summary(report);
     }
+    // Set by CTest for the tests that it runs.
+    if (std::getenv("DASHBOARD_TEST_FROM_CTEST") != nullptr)
+        console.commands(to_ctest_measurements(report, options.out));
     console.always(fmt::format("{}; report in {}", outcome_words(report),
                                (fs::path(options.out) / "index.html").string()));
     return exit_code(report);

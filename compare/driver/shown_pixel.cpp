@@ -44,7 +44,7 @@ Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel) {
 }
 
 bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel) {
-    return covered.possible && !covered.certain && face.margin > pixel.reach;
+    return covered.possible && !covered.certain && face.margin > 2 * pixel.reach;
 }
 
 namespace {

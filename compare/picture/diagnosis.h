@@ -13,9 +13,9 @@
 namespace shadowproof {
 
 struct Diagnosis {
-    /// "no_shadow", "inverted", "other_light", "caster_missing", "receiver_missing",
-    /// "one_sided_casters", "zpass", "zfail_far", "short_volumes", "missing_cap",
-    /// "stencil_bits", "shadow_map" (cut at its range), "light_moved"
+    /// "no_shadow", "inverted", "other_light", "light_moved", "caster_missing",
+    /// "receiver_missing", "mesh_missing", "one_sided_casters", "zpass", "zfail_far",
+    /// "short_volumes", "missing_cap", "stencil_bits", "shadow_map", "ray_epsilon"
     std::string hypothesis;
     std::vector<std::pair<std::string, double>> parameters; ///< "range", 12
     std::uint64_t explained = 0;                            ///< wrong pixels that it predicts
@@ -23,10 +23,15 @@ struct Diagnosis {
     std::string words;              ///< "the shadow of `lamp` is missing"
 };
 
-/// Hypotheses that explain more wrong pixels than they contradict right ones, best first, five at
-/// most. `frame`: of family "picture"; `cause`: Comparison::cause. None where no pixel is wrong but
-/// at edges.
-std::vector<Diagnosis> diagnose(const TracedScene& traced, const Frame& frame,
-                                const Image<std::uint8_t>& cause);
+struct Diagnosed {
+    /// Those that explain more wrong pixels than they contradict right ones, best first.
+    std::vector<Diagnosis> hypotheses;
+    /// 1 where a pixel is wrong and the first hypothesis does not explain it.
+    Image<std::uint8_t> left;
+};
+
+/// `frame`: of family "picture"; `cause`: Comparison::cause. Five hypotheses at most, none where no
+/// pixel is wrong but at edges.
+Diagnosed diagnose(const TracedScene& traced, const Frame& frame, const Image<std::uint8_t>& cause);
 
 } // namespace shadowproof

@@ -1,5 +1,6 @@
 #include "compare/picture/shadow_classes.h"
 
+#include "compare/picture/surface_colors.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
 
@@ -14,16 +15,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// Groups of surfaces that the light meets at about one angle: the sine of it, in equal parts.
-constexpr int angle_groups = 24;
-
-glm::dvec3 color_at(const Picture& picture, std::size_t pixel) {
-    const auto channels = static_cast<std::size_t>(picture.channels);
-    const float* const values = picture.values.data() + pixel * channels;
-    if (channels < 3) return glm::dvec3(values[0]);
-    return {values[0], values[1], values[2]};
-}
 
 /// The picture's value at a pixel, less the twin's where there is one.
 class Values {
@@ -94,16 +85,9 @@ std::optional<Place> place_of(const TracedScene& traced, int x, int y) {
     if (triangle == no_triangle) return std::nullopt;
     const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
     const glm::dvec3 point = scene.camera.eye + traced.truth().depth.at(x, y) * direction;
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const glm::dvec3 to_light = glm::dvec3(light) - light.w * point;
-    const glm::dvec3 normal = glm::cross(corner(scene, triangle, 1) - corner(scene, triangle, 0),
-                                         corner(scene, triangle, 2) - corner(scene, triangle, 0));
-    const double sine =
-        std::abs(glm::dot(normal, to_light)) / (glm::length(normal) * glm::length(to_light));
     Place place;
     place.mesh = mesh_of(scene, triangle);
-    // Without a number where the point is the light, or the triangle has no area in double.
-    place.group = sine > 0 ? std::min(static_cast<int>(sine * angle_groups), angle_groups - 1) : 0;
+    place.group = angle_group(scene, triangle, point);
     place.faces_light = sides_of(traced.tracer(), triangle).faces_light();
     return place;
 }

@@ -29,6 +29,10 @@ std::string_view outcome_name(const Cell& cell);
 /// "edge 31, near_plane 1,173", in the order of all_causes; empty where nothing differs.
 std::string cause_counts(const CausePixels& causes);
 
+/// "1,173 wrong pixels excused: zpass is known for near_plane": those that do not fail a cell
+/// because technique and scene excuse their causes. Empty where there are none.
+std::string excused_words(const Cell& cell, const Gate& gate);
+
 /// Why a cell fails or could not run: "edge 31, near_plane 1,173; first (212,340) near_plane; ...",
 /// without how to reproduce it.
 std::string why_it_fails(const Cell& cell, const Gate& gate);
@@ -68,8 +72,13 @@ inline constexpr int results_format = 6;
 /// results.json of that schema.
 std::string to_json(const Report& report);
 /// JUnit XML: one suite per scene, one case per cell; valid by Ant's schema and by Jenkins'.
-/// `timestamp`: when the run began, "2024-01-31T23:59:59".
-std::string to_junit(const Report& report, const std::string& timestamp);
+/// `timestamp`: when the run began, "2024-01-31T23:59:59". `folder`: the report's, whose pictures
+/// of cells that fail are attached; empty: none are.
+std::string to_junit(const Report& report, const std::string& timestamp,
+                     const std::filesystem::path& folder = {});
+/// What CTest takes from a test's output and CDash shows beside it: the pictures of cells that
+/// fail.
+std::string to_ctest_measurements(const Report& report, const std::filesystem::path& folder);
 /// For GitHub Actions: a line `::error title=...::...` for each cell and scene that fails.
 std::string to_workflow_commands(const Report& report);
 /// For GitHub's step summary: the cells as a table in Markdown, failures first.

@@ -96,6 +96,8 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     }
     json["cause_map"] = cell.cause_map;
     if (cell.since) json["since"] = since_of(*cell.since);
+    for (const Acceptance& one : cell.accepted)
+        json["accepted"].push_back({{"cause", name_of(one.cause)}, {"reason", one.reason}});
     return json;
 }
 

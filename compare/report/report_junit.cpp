@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
 namespace shadowproof {
 
 namespace {
@@ -51,7 +54,21 @@ Outcome outcome_of(const Report& report, const SceneResult& scene, const Cell& c
             .reproduce = reproducing_command(report, scene, cell)};
 }
 
-Suite suite_of(const Report& report, const SceneResult& scene) {
+/// Of a cell that failed, the pictures that tell why: absolute, in the report's folder.
+std::vector<std::pair<std::string, std::string>> pictures_of(const Report& report,
+                                                             const SceneResult& scene,
+                                                             const Cell& cell,
+                                                             const std::filesystem::path& folder) {
+    std::vector<std::pair<std::string, std::string>> pictures;
+    if (folder.empty() || !cell.error.empty() || !fails(cell, report.gate)) return pictures;
+    for (const char* kind : {"claim", "difference", "cause"})
+        pictures.emplace_back(
+            kind, (std::filesystem::absolute(folder) / picture_path(scene, cell, kind)).string());
+    return pictures;
+}
+
+Suite suite_of(const Report& report, const SceneResult& scene,
+               const std::filesystem::path& folder) {
     Suite suite;
     // What concerns the whole scene is a case of its own.
     if (!scene.error.empty())
@@ -65,6 +82,9 @@ Suite suite_of(const Report& report, const SceneResult& scene) {
         add_case(suite, scene.name, cell.technique, cell.milliseconds / 1000,
                  outcome_of(report, scene, cell));
         suite.lines += cell_line(scene, cell) + "\n";
+        // As Jenkins' plugin for attachments and GitLab read them.
+        for (const auto& [kind, file] : pictures_of(report, scene, cell, folder))
+            suite.lines += fmt::format("[[ATTACHMENT|{}]]\n", file);
     }
     return suite;
 }
@@ -92,12 +112,13 @@ std::string properties_of(const Report& report, const SceneResult& scene) {
 
 } // namespace
 
-std::string to_junit(const Report& report, const std::string& timestamp) {
+std::string to_junit(const Report& report, const std::string& timestamp,
+                     const std::filesystem::path& folder) {
     // Ant's schema gives <testsuites> no attributes: readers add up the sums.
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
     int id = 0;
     for (const SceneResult& scene : report.scenes) {
-        const Suite suite = suite_of(report, scene);
+        const Suite suite = suite_of(report, scene, folder);
         xml += fmt::format("    <testsuite id=\"{}\" package=\"shadowproof\" name=\"{}\" "
                            "timestamp=\"{}\" hostname=\"localhost\" tests=\"{}\" failures=\"{}\" "
                            "errors=\"{}\" time=\"{:.6f}\">\n      <properties>\n{}"
@@ -108,6 +129,18 @@ std::string to_junit(const Report& report, const std::string& timestamp) {
                            escaped(suite.lines));
     }
     return xml + "</testsuites>\n";
+}
+
+std::string to_ctest_measurements(const Report& report, const std::filesystem::path& folder) {
+    std::string lines;
+    for (const SceneResult& scene : report.scenes)
+        for (const Cell& cell : scene.cells)
+            for (const auto& [kind, file] : pictures_of(report, scene, cell, folder))
+                lines +=
+                    fmt::format("<CTestMeasurementFile type=\"image/png\" name=\"{} on {}: {}\">"
+                                "{}</CTestMeasurementFile>\n",
+                                escaped(cell.technique), escaped(scene.name), kind, escaped(file));
+    return lines;
 }
 
 } // namespace shadowproof

@@ -24,6 +24,21 @@ std::string cause_counts(const CausePixels& causes) {
     return counts;
 }
 
+std::string excused_words(const Cell& cell, const Gate& gate) {
+    if (gate.on != GateOn::defects) return {};
+    std::uint64_t pixels = 0;
+    std::string names;
+    for (const Cause cause : cell.excused) {
+        const std::uint64_t found = cell.comparison.causes[static_cast<std::size_t>(cause)];
+        if (found == 0) continue;
+        pixels += found;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(cause));
+    }
+    if (pixels == 0) return {};
+    return fmt::format("{} excused: {} is known for {}", counted(pixels, "wrong pixel"),
+                       cell.technique, names);
+}
+
 std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths) {
     const std::string_view verdict = outcome_name(cell);
     std::string line = fmt::format("{:<{}}  {:<{}}  {:<{}}  ", cell.technique, widths.technique,

@@ -69,7 +69,18 @@ void note_scene(std::vector<std::string>& notes, const ResultsJson& was, const S
     }
 }
 
+/// What a picture's unexplained pixels are: its best hypothesis.
+std::string diagnosed(const ResultsJson& cell) {
+    const auto diagnosis = cell.find("diagnosis");
+    if (diagnosis == cell.end() || diagnosis->empty()) return {};
+    return words_of(diagnosis->front().at("hypothesis"));
+}
+
 } // namespace
+
+std::string accepted_name(const ResultsJson& cell, Cause cause) {
+    return cause == Cause::unexplained ? diagnosed(cell) : std::string(name_of(cause));
+}
 
 void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& cell) {
     const ResultsJson* was = find_scene(baseline, scene);
@@ -87,6 +98,11 @@ void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& c
                     "make the baseline anew");
     causes.pixels = *bytes;
     cell.since = changes_since(causes, cell.comparison.cause);
+    if (!baseline.json.contains("accepted")) return;
+    const ResultsJson& reasons = baseline.json["accepted"]["reasons"];
+    for (const CauseWords& words : all_causes)
+        if (const std::string name = accepted_name(*old, words.cause); reasons.contains(name))
+            cell.accepted.push_back({words.cause, reasons[name].get<std::string>()});
 }
 
 std::vector<std::string> notes_on(const ResultsFile& baseline, const Report& report) {

@@ -9,8 +9,12 @@
 
 namespace shadowproof {
 
-/// Sets Cell::since where the baseline has the same cell of the same content (equal digests).
-/// Throws Error naming the file where a cause map in it is damaged.
+/// What a cause in a cell is accepted by: its name; of a picture's unexplained pixels, that of its
+/// best hypothesis. Empty where there is none.
+std::string accepted_name(const ResultsJson& cell, Cause cause);
+
+/// Sets Cell::since, and Cell::accepted, where the baseline has the same cell of the same content
+/// (equal digests). Throws Error naming the file where a cause map in it is damaged.
 void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& cell);
 
 /// What could not be compared, and what differs besides pixels, one sentence each: another driver

@@ -114,6 +114,19 @@ void baseline(const JsonPlace& place) {
                    {"notes", list_of<text>, Need::optional}});
 }
 
+void reasons(const JsonPlace& place) {
+    require(place.value.is_object(), place, "an object");
+    for (const auto& [name, reason] : place.value.items()) some_text(place.at(name));
+}
+
+void accepted(const JsonPlace& place) {
+    object(place, {{"at", text}, {"reasons", reasons}});
+}
+
+void accepted_cause(const JsonPlace& place) {
+    object(place, {{"cause", cause}, {"reason", some_text}});
+}
+
 void truth_images(const JsonPlace& place) {
     object(place, {{"truth", text}, {"color", text, Need::optional}});
 }
@@ -185,7 +198,8 @@ void cell(const JsonPlace& place) {
                    {"color", color, Need::optional},
                    {"images", cell_images},
                    {"cause_map", some_text},
-                   {"since", since, Need::optional}});
+                   {"since", since, Need::optional},
+                   {"accepted", list_of<accepted_cause>, Need::optional}});
     // Of a family that a newer version knows, its own members are accepted as they are.
     const Family* const own = find_family(place.value.at("family").get<std::string>());
     if (own != nullptr && own->check_results != nullptr) own->check_results(place);
@@ -269,6 +283,7 @@ void check_results(const Json& results, const std::string& file) {
                    {"gate", gate},
                    {"allow", list_of<text>, Need::optional},
                    {"baseline", baseline, Need::optional},
+                   {"accepted", accepted, Need::optional},
                    {"passed", boolean},
                    {"ms", milliseconds},
                    {"report_ms", milliseconds},

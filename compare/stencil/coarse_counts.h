@@ -21,9 +21,9 @@ struct StepSums {
 };
 
 struct CoarseCount {
-    /// Some triangle or face that may cover the pixel, or not, may as well be drawn at another one
-    /// (driver/shown_pixel.h), or a dark cap at infinity may come out in front of what is shown.
-    /// Where there is none, the pixel's neighbourhood tells more.
+    /// Some triangle or face that may cover the pixel, or not, is off by more than the pixel's
+    /// neighbourhood is wide, or a dark cap at infinity may come out in front of what is shown.
+    /// Where there is none, the neighbourhood tells more.
     bool is_coarse = false;
     bool may_be_seen = true;           ///< what the pixel shows may be what is seen there
     StepSums counter;                  ///< before it wraps

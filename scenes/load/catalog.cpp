@@ -3,6 +3,7 @@
 #include "scenes/error.h"
 #include "scenes/load/admission.h"
 #include "scenes/load/common/nearest_name.h"
+#include "scenes/load/common/override_view.h"
 #include "scenes/load/gltf/gltf.h"
 #include "scenes/load/md2/md2.h"
 
@@ -148,6 +149,7 @@ Scene read_scene(const std::string& name_or_path, const SceneRequest& request) {
 
 Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
     Scene scene = read_scene(name_or_path, request);
+    override_view(request.view, scene);
     admit(scene);
     if (!request.stress) return scene;
     scene = stressed(std::move(scene), *request.stress);

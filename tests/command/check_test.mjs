@@ -60,6 +60,23 @@ for (const scene of ['ordinary', 'near_plane', 'sun', 'spot', 'overlapping'])
     }
   });
 
+for (const [name, expose] of [
+  ['half the exposure', (value) => value / 2], ['more exposure', (value) => Math.min(255, 1.3 * value)],
+  ['linear light', (value) => 255 * (value / 255) ** 2.2],
+  ['some ambient light', (value) => 60 + 0.7 * value],
+  ['eight bits', (value) => Math.round(value)]])
+  test(`a right picture with ${name} agrees, alone and with its twin`, () => {
+    const truth = truthOf('ordinary');
+    const round = (value) => Math.round(257 * expose(value)) / 257;
+    const image = picture('exposed.png', truth, (value) => round(shade[value]));
+    const off = picture('off.png', truth, (value) => round(value ? 60 : 20));
+    for (const more of [[], ['--unlit', off]]) {
+      const { code, out, cells: [cell] } = checked('ordinary', image, ...more);
+      assert.equal(code, 0, out);
+      assert.equal(cell.undecidable, 0);
+    }
+  });
+
 test('a square of lit pixels that is dark is counted, and named by its first pixel', () => {
   const truth = truthOf('ordinary');
   const [left, top] = litSquare(truth);
@@ -76,8 +93,9 @@ test('a square of lit pixels that is dark is counted, and named by its first pix
   assert.match(out, /reproduce: shadowproof check ordinary square\.png --unlit off\.png --size 200x200\n/);
 });
 
-const claimOf = (scene, technique) => {
-  const run = shadowproof(['verify', scene, ...size, '--technique', technique, '--out', 'claims', '-q']);
+const claimOf = (scene, technique, ...settings) => {
+  const run = shadowproof(['verify', scene, ...size, '--technique', technique, ...settings,
+                           '--out', 'claims', '-q']);
   assert.ok(run.code <= 1, run.err);
   const png = readPng(path(`claims/${scene}/${technique}/claim.png`));
   return { ...png, at: (x, y) => png.at(x, y)[0] };
@@ -98,6 +116,88 @@ for (const [scene, technique, hypothesis] of [
     assert.ok(best.contradicted <= 0.001 * 200 * 200, `${best.contradicted}`);
   });
 
+/** What the first hypothesis says of a picture of a technique's claim; it must explain nearly all. */
+function diagnosed(scene, technique, ...settings) {
+  const image = picture('claim.png', claimOf(scene, technique, ...settings), (value) => shade[value]);
+  const { code, out, cells: [cell] } = checked(scene, image);
+  assert.equal(code, 1, out);
+  const [best] = cell.diagnosis;
+  assert.ok(best, out);
+  assert.ok(best.explained >= 0.95 * (cell.falsely_lit + cell.falsely_shadowed), out);
+  assert.ok(best.contradicted <= 0.001 * 200 * 200, out);
+  return best;
+}
+
+for (const [scene, texels, bias] of [['ordinary', 128, 0.15], ['ordinary', 256, 0.3],
+                                     ['cube_edge', 64, 0.15]])
+  test(`a cube map of ${texels} texels on ${scene} is told by its resolution and its bias`, () => {
+    const { hypothesis, parameters } = diagnosed(scene, 'cube_map_six_pass', '--map-size', `${texels}`,
+                                                 '--map-bias', `${bias}`);
+    assert.equal(hypothesis, 'shadow_map');
+    assert.equal(parameters.resolution, texels);
+    assert.ok(Math.abs(parameters.bias - bias) <= 0.02 * bias, `${parameters.bias}`);
+    assert.deepEqual(Object.keys(parameters), ['resolution', 'bias']);
+  });
+
+test('rays that miss what is close are told, and how close', () => {
+  const { hypothesis, parameters } = diagnosed('ordinary', 'traced_epsilon', '--ray-epsilon', '0.2');
+  assert.equal(hypothesis, 'ray_epsilon');
+  assert.ok(Math.abs(parameters.epsilon - 0.2) < 0.02, `${parameters.epsilon}`);
+});
+
+test('a mesh that is not drawn, and one that throws no shadow, are told from each other', () => {
+  const gltf = JSON.parse(readFileSync(join(process.env.SHADOWPROOF_SCENES, 'ordinary.gltf'), 'utf8'));
+  const torus = gltf.nodes.find(({ name }) => name === 'torus');
+  const firstOf = (file) => {
+    const run = shadowproof(['render', file, ...size, '-o', 'changed.png', '-q']);
+    assert.equal(run.code, 0, run.err);
+    const png = readPng(path('changed.png'));
+    const image = picture('changed.png', { ...png, at: (x, y) => png.at(x, y)[0] },
+                          (value) => shade[value]);
+    const { out, cells: [cell] } = checked('ordinary', image);
+    assert.ok(cell.diagnosis.length > 0, out);
+    return cell.diagnosis[0].words;
+  };
+  torus.extras = { shadowproof: { casts: false } };
+  writeFileSync(path('no_caster.gltf'), JSON.stringify(gltf));
+  assert.equal(firstOf('no_caster.gltf'), 'torus throws no shadow');
+  delete torus.mesh;
+  writeFileSync(path('no_mesh.gltf'), JSON.stringify(gltf));
+  assert.equal(firstOf('no_mesh.gltf'), 'torus is not drawn');
+});
+
+test('controls are caught, or it is said why not; the picture is judged as without them', () => {
+  const truth = truthOf('ordinary');
+  const good = picture('good.png', truth, (value) => shade[value]);
+  const { code, out, cells: [cell] } = checked('ordinary', good, '--controls');
+  assert.equal(code, 0, out);
+  const named = (control) => cell.controls.filter((one) => one.control === control);
+  assert.deepEqual(named('caster_missing').map(({ words, caught }) => [words.split(' ')[0], caught]),
+                   [['floor', false], ['box', true], ['torus', true], ['ball', true]]);
+  assert.equal(named('caster_missing')[0].why_not, 'no shadow that it throws alone is in this view');
+  assert.deepEqual(named('light_moved').map(({ caught }) => caught), [true, true, true]);
+  const [one, two, five] = named('light_moved').map(({ wrong }) => wrong);
+  assert.ok(one < two && two < five);
+  for (const control of ['range', 'shadow_shifted', 'triangle_missing'])
+    assert.equal(named(control).length, 1, control);
+  assert.match(out, /control: caught: box throws no shadow, by [\d,]+ pixels/);
+  assert.match(out, /controls: \d+ of 1\d caught; the smallest: /);
+  const { cells: [without] } = checked('ordinary', good);
+  assert.equal(without.controls, undefined);
+});
+
+test('a control that lies where the picture tells nothing is not caught, and that is why', () => {
+  const truth = truthOf('ordinary');
+  // The lower half is of one colour.
+  const half = picture('half.png', truth, (value, x, y) => y < 100 ? shade[value] : 60);
+  const off = picture('off.png', truth, (value, x, y) => y < 100 ? (value ? 60 : 20) : 60);
+  const { cells: [cell] } = checked('ordinary', half, '--unlit', off, '--controls', '--no-diagnosis');
+  for (const { caught, changed, wrong, why_not } of cell.controls) {
+    assert.ok(wrong <= changed);
+    assert.equal(why_not === undefined, caught);
+  }
+});
+
 test('a picture without shadows, and one that ends them at a distance, are told by name', () => {
   const truth = truthOf('ordinary');
   const off = picture('off.png', truth, (value) => (value ? 60 : 20));
@@ -106,6 +206,31 @@ test('a picture without shadows, and one that ends them at a distance, are told 
   assert.equal(none.code, 1);
   assert.equal(none.cells[0].diagnosis[0].hypothesis, 'no_shadow');
   assert.equal(none.cells[0].falsely_shadowed, 0);
+});
+
+test('what no hypothesis explains is told by its largest regions, with caster and receiver', () => {
+  const truth = truthOf('ordinary');
+  const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+  const [left, top] = litSquare(truth);
+  // A square in the light that is dark, and one in a shadow, of the ball or the torus, that is lit.
+  let hole;
+  for (let y = 0; y < 196 && !hole; ++y)
+    for (let x = 0; x < 196 && !hole; ++x)
+      if ([0, 1, 2, 3, 4, 5].every((dy) => [0, 1, 2, 3, 4, 5].every((dx) =>
+        truth.at(x + dx, y + dy) === shadowed))) hole = [x, y];
+  const image = picture('holes.png', truth, (value, x, y) =>
+    x >= left && x < left + 8 && y >= top && y < top + 8 ? shade[shadowed]
+      : x >= hole[0] && x < hole[0] + 6 && y >= hole[1] && y < hole[1] + 6 ? shade[lit] : shade[value]);
+  const { out, cells: [cell] } = checked('ordinary', image, '--unlit', off, '--no-diagnosis');
+  const dark = cell.regions.find(({ caster }) => caster === '');
+  assert.deepEqual([dark.pixels, dark.left, dark.top, dark.right, dark.bottom],
+                   [64, left, top, left + 7, top + 7]);
+  assert.match(dark.words, /is shadowed where nothing is between it and the light/);
+  assert.match(out, /  left: 64 pixels from /);
+  for (const { caster, words } of cell.regions.filter((region) => region.caster !== ''))
+    assert.ok(words.includes(`the shadow of ${caster} on `), words);
+  const right = checked('ordinary', picture('right.png', truth, (value) => shade[value]));
+  assert.equal(right.cells[0].regions, undefined);
 });
 
 test('an antialiased picture differs at edges alone, and a shifted one does not pass', () => {
@@ -117,9 +242,9 @@ test('an antialiased picture differs at edges alone, and a shifted one does not 
   const smooth = checked('ordinary', picture('smooth.png', at, (_, x, y) => Math.round(mean(x, y))),
                          '--unlit', off);
   assert.equal(smooth.code, 0, smooth.out);
-  const moved = checked('ordinary', picture('moved.png', at, (_, x, y) =>
-    Math.round(mean(Math.min(x + 2, 199), y))), '--unlit', off);
-  assert.equal(moved.code, 1);
+  const moved = picture('moved.png', at, (_, x, y) => Math.round(mean(Math.min(x + 2, 199), y)));
+  assert.equal(checked('ordinary', moved, '--unlit', off).code, 3);
+  assert.equal(checked('ordinary', moved, '--unlit', off, '--no-alignment').code, 1);
 });
 
 test('several pictures of one scene make one report, which merges', () => {

@@ -46,6 +46,13 @@ test('a cause that is allowed passes the gate, one pixel more than allowed does 
   assert.deepEqual(resultsOf('report/results.json').allow, ['far_plane', 'edge']);
 });
 
+test('what is excused is said, with what the technique is known for', () => {
+  const words = /^  [\d,]+ wrong pixels excused: zpass is known for near_plane$/m;
+  assert.match(shadowproof(zpass).out, words);
+  for (const more of [['--gate', 'differences'], ['-q']])
+    assert.doesNotMatch(shadowproof([...zpass, ...more]).out, /excused/);
+});
+
 test('edges need no allowance, and a run that gives one is told so', () => {
   const note = /^note: --allow edge changes nothing/m;
   assert.match(shadowproof([...zpass, '--allow', 'edge=5']).out, note);
@@ -179,8 +186,24 @@ test('JUnit is valid by the schemas of Ant and Jenkins, and a damaged file is no
     assert.ok(!valid('damaged.xml', schema), schema);
   }
   assert.match(text, /<failure type="fails_as_predicted" message="[^"]*near_plane [\d,]+; first \(\d+,\d+\) near_plane/);
+  const attached = [...text.matchAll(/\[\[ATTACHMENT\|([^\]]*)\]\]/g)].map(([, file]) => file);
+  assert.ok(attached.some((file) => /near_plane\/zpass\/difference\.png$/.test(file)));
+  for (const file of attached) assert.ok(existsSync(file), file);
   const names = [...text.matchAll(/<testsuite [^>]* name="([^"]*)"/g)].map(([, name]) => name);
   assert.deepEqual(names, ['near_plane', 'near_plane-2', 'missing']);
+});
+
+test('under CTest the pictures of what fails are named for CDash, and elsewhere not', () => {
+  const args = [...zpass, '--gate', 'differences'];
+  const from = (env) => [...shadowproof(args, { env }).out.matchAll(
+    /^<CTestMeasurementFile type="image\/png" name="zpass on near_plane: (\w+)">(.*)<\/CTestMeasurementFile>$/gm)];
+  const named = from({ DASHBOARD_TEST_FROM_CTEST: '3.25.1' });
+  assert.deepEqual(named.map(([, kind]) => kind), ['claim', 'difference', 'cause']);
+  for (const [, , file] of named) assert.ok(existsSync(file), file);
+  const outside = { ...process.env };
+  delete outside.DASHBOARD_TEST_FROM_CTEST;
+  const plain = spawnSync(process.env.SHADOWPROOF, args, { cwd: scratch, encoding: 'utf8', env: outside });
+  assert.doesNotMatch(plain.stdout, /CTestMeasurementFile/);
 });
 
 test('outputs that cannot be written are refused before any work', () => {

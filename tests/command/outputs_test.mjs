@@ -22,7 +22,7 @@ test('list names every scene, technique and cause, alike as text and as JSON', (
 test('verify prints one line a cell, and what auto leaves out only into the results', () => {
   const { techniques } = JSON.parse(shadowproof(['list', '--json']).out);
   const run = shadowproof(['verify', 'near_plane', '--size', '64x64', '--json', 'lines.json']);
-  const lines = run.out.split('\n');
+  const lines = run.out.split('\n').filter((line) => !/ wrong pixels? excused: /.test(line));
   const cells = lines.slice(lines.findIndex((line) => line.startsWith('zpass '))).slice(0, -2);
   assert.deepEqual(cells.map((line) => line.match(/^(\S+) +near_plane  /)?.[1]),
                    techniques.filter(isForPointLights).map(({ name }) => name));

@@ -41,12 +41,16 @@ TEST(Blank, one_surface_is_enough_and_a_scene_of_background_may_be_blank) {
     EXPECT_NO_THROW(refuse_blank("zpass", truth_of(0, 0), frame_of(no_triangle), true));
 }
 
-TEST(Blank, a_picture_in_which_nothing_is_seen_is_noted_and_one_surface_is_enough) {
-    const std::optional<std::string> note = note_if_nothing_is_seen(truth_of(0, 0));
-    ASSERT_TRUE(note);
-    EXPECT_EQ(note->find("nothing is seen"), 0U);
-    EXPECT_FALSE(note_if_nothing_is_seen(truth_of(1, 0)));
-    EXPECT_FALSE(note_if_nothing_is_seen(truth_of(0, 1)));
+TEST(Blank, a_truth_in_which_nothing_is_seen_is_refused_and_one_surface_is_enough) {
+    EXPECT_THROW(refuse_blank_truth("hall", truth_of(0, 0)), Error);
+    EXPECT_NO_THROW(refuse_blank_truth("hall", truth_of(1, 0)));
+    EXPECT_NO_THROW(refuse_blank_truth("hall", truth_of(0, 1)));
+}
+
+TEST(Blank, a_truth_without_shadow_or_without_light_is_noted) {
+    EXPECT_NE(note_if_one_class_is_seen(truth_of(1, 0))->find("in shadow"), std::string::npos);
+    EXPECT_NE(note_if_one_class_is_seen(truth_of(0, 1))->find("in light"), std::string::npos);
+    EXPECT_FALSE(note_if_one_class_is_seen(truth_of(1, 1)));
 }
 
 } // namespace

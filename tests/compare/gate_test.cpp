@@ -47,6 +47,24 @@ TEST(Gate, a_cause_is_allowed_up_to_its_number_and_not_one_more) {
               pixels_that_fail(cell, defects));
 }
 
+TEST(Gate, of_an_accepted_cause_only_pixels_that_are_new_since_fail) {
+    for (const Gate& gate : {defects, differences}) {
+        Cell cell = cell_with(Verdict::defect);
+        cell.accepted = {{Cause::near_plane, "known"}};
+        EXPECT_TRUE(fails(cell, gate)); // there is no baseline that it was accepted in
+        cell.since.emplace();
+        EXPECT_FALSE(fails(cell, gate));
+        cell.since->causes[static_cast<std::size_t>(Cause::near_plane)] = 1;
+        EXPECT_TRUE(fails(cell, gate));
+    }
+    Cell unexplained = handmade_scene("x", Cause::unexplained, Verdict::defect).cells[0];
+    unexplained.since.emplace();
+    EXPECT_TRUE(fails(unexplained, defects));
+    unexplained.accepted = {{Cause::unexplained, "shadow_map: known"}};
+    unexplained.comparison.causes[static_cast<std::size_t>(Cause::near_plane)] = 0;
+    EXPECT_FALSE(fails(unexplained, defects));
+}
+
 TEST(Gate, unexplained_pixels_and_counters_fail_whatever_is_allowed) {
     Gate gate;
     for (const CauseWords& words : all_causes)

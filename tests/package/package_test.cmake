@@ -50,9 +50,9 @@ function(outside_project_builds_and_its_tests_pass)
     configure(0 ${WORK}/build)
     run(0 ${CMAKE_COMMAND} --build ${WORK}/build --config ${CONFIG})
     run(0 ${CTEST} --test-dir ${WORK}/build -C ${CONFIG} --output-on-failure)
-    expect_in("${output}" "0 tests failed out of 6")
+    expect_in("${output}" "0 tests failed out of 8")
     run(0 ${CTEST} --test-dir ${WORK}/build -C ${CONFIG} -N -L shadowproof)
-    expect_in("${output}" "Total Tests: 7")
+    expect_in("${output}" "Total Tests: 11")
 endfunction()
 
 # CTest is content with any failure; it has to be this one.
@@ -99,11 +99,22 @@ function(every_argument_reaches_the_command)
     command_of(a_model words)
     expect_same("${words}" "${PREFIX}/${BIN}/shadowproof;verify;${OUTSIDE}/models/dog.md2;\
 --out;${WORK}/build/shadowproof/a_model")
+    command_of(check_argument words)
+    expect_same("${words}" "${PREFIX}/${BIN}/shadowproof;check;${OUTSIDE}/scenes/court.glb;\
+--renderer;'my program' 'it'\\''s' '{out}';--name;mine;--size;96x64;--camera;1;--allow;near_plane=12;\
+--out;${WORK}/build/shadowproof/check_argument")
+    command_of(check_picture words)
+    expect_same("${words}" "${PREFIX}/${BIN}/shadowproof;check;${OUTSIDE}/scenes/court.glb;\
+${WORK}/build/mine.png;--unlit;${WORK}/build/off.png;--out;${WORK}/build/shadowproof/check_picture")
 endfunction()
 
 function(refuses CALL WORDS)
-    file(GLOB_RECURSE file ${PREFIX}/*/shadowproof_add_test.cmake)
-    run(refused ${CMAKE_COMMAND} -DFILE=${file} -DCALL=${CALL}
+    refuses_of(shadowproof_add_test "${CALL}" "${WORDS}")
+endfunction()
+
+function(refuses_of FUNCTION CALL WORDS)
+    file(GLOB_RECURSE file ${PREFIX}/*/${FUNCTION}.cmake)
+    run(refused ${CMAKE_COMMAND} -DFILE=${file} -DFUNCTION=${FUNCTION} -DCALL=${CALL}
         -P ${CMAKE_CURRENT_LIST_DIR}/wrong_call.cmake)
     expect_in("${output}" "${WORDS}")
 endfunction()
@@ -116,6 +127,11 @@ function(wrong_calls_are_refused_by_name)
     refuses("NAME one SCENE ordinary far_plane" "'far_plane' is not known; it takes")
     refuses("NAME one SCENE ordinary SIZE ALLOW" "no value follows ALLOW, SIZE; give one")
     refuses("NAME one SCENE ordinary GATE all" "GATE 'all' is not known; give defects or")
+    set(check shadowproof_add_check)
+    refuses_of(${check} "NAME one SCENE ordinary" "RENDERER or PICTURE is missing; write")
+    refuses_of(${check} "NAME one SCENE a b PICTURE c.png" "a PICTURE is of one SCENE; add a test")
+    refuses_of(${check} "NAME one SCENE a RENDERER b PICTURE c" "has a RENDERER and a PICTURE")
+    refuses_of(${check} "NAME one RENDERER b {out}" "shadowproof_add_check(one): SCENE is missing")
 endfunction()
 
 function(a_missing_dependency_is_named)

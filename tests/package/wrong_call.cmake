@@ -1,4 +1,4 @@
-# cmake -DFILE=shadowproof_add_test.cmake -DCALL=arguments -P wrong_call.cmake: a call that is
+# cmake -DFILE=shadowproof_add_test.cmake -DFUNCTION=name -DCALL=arguments -P wrong_call.cmake: a call that is
 # refused before any test is added, which a script cannot do.
 include(${FILE})
-cmake_language(EVAL CODE "shadowproof_add_test(${CALL})")
+cmake_language(EVAL CODE "${FUNCTION}(${CALL})")

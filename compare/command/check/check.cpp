@@ -1,18 +1,13 @@
-#include "compare/classify.h"
+#include "compare/command/check/check_scene.h"
+#include "compare/command/check/renderer.h"
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
 #include "compare/command/pieces/report_archive.h"
-#include "compare/command/pieces/supervisor.h"
+#include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
-#include "compare/families.h"
-#include "compare/memory.h"
-#include "compare/picture/diagnosis.h"
-#include "compare/picture/shadow_classes.h"
-#include "compare/results/baseline.h"
 #include "scenes/error.h"
-#include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
@@ -20,260 +15,58 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace shadowproof {
 
 namespace {
 
-struct CheckOptions {
-    std::string scene;
-    std::vector<std::string> pictures;
-    std::string mask; ///< empty: none
-    std::string unlit;
-    SceneOptions view;
-    bool with_size = false; ///< --size was given; else the pictures' own
-    GateOptions gate;
-    OutputOptions output;
-    bool diagnosis = true;
-    double timeout =
-        usual_timeout; ///< seconds for a picture, or for tracing the scene; 0: no limit
-};
-
-/// What is to be judged: the picture, or the mask that goes with it.
-const std::string& judged_file(const CheckOptions& options, std::size_t i) {
-    return options.mask.empty() ? options.pictures[i] : options.mask;
-}
-
-/// Its pixels stay in the account.
-Picture read(const std::string& file, MemoryAccount& memory) {
-    constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-    Picture picture = read_picture(file, {.memory = memory, .most_pixels = most_pixels});
-    memory.keep({picture.values.size() * sizeof(float), file, "its pixels",
-                 "check fewer pictures at once"});
-    return picture;
-}
-
-void require_size(const std::string& file, const Picture& picture, int width, int height) {
-    if (picture.width == width && picture.height == height) return;
-    throw Error(
-        file,
-        fmt::format("is {}x{}, where {}x{} belongs", picture.width, picture.height, width, height),
-        "render all pictures of a scene at one size, or check them one by one");
-}
-
-/// A name that a folder may have: the picture's own, but for other characters.
-std::string cell_name(const std::string& file, const std::vector<Cell>& cells) {
-    std::string stem = std::filesystem::path(file).stem().string();
-    for (char& c : stem) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                           (c >= '0' && c <= '9') || c == '-' || c == '_';
-        if (!plain) c = '_';
-    }
-    if (stem.empty()) stem = "picture";
-    std::string name = stem;
-    const auto is_taken = [&] {
-        return std::any_of(cells.begin(), cells.end(),
-                           [&](const Cell& cell) { return cell.technique == name; });
-    };
-    for (int number = 2; is_taken(); ++number) name = fmt::format("{}-{}", stem, number);
-    return name;
-}
-
-nlohmann::ordered_json diagnosis_json(const std::vector<Diagnosis>& diagnoses) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Diagnosis& each : diagnoses) {
-        nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-        for (const auto& [name, value] : each.parameters) parameters[name] = value;
-        list.push_back({{"hypothesis", each.hypothesis},
-                        {"parameters", parameters},
-                        {"explained", each.explained},
-                        {"contradicted", each.contradicted},
-                        {"words", each.words}});
-    }
-    return list;
-}
-
-/// A picture's cell before it is judged.
-Cell begin_cell(const CheckOptions& options, std::size_t i, const PictureSize& size,
-                const std::vector<Cell>& cells) {
-    Cell cell;
-    cell.technique = cell_name(options.pictures[i], cells);
-    cell.family = "picture";
-    cell.summary = "the picture " + options.pictures[i];
-    cell.command = {"check", options.scene, options.pictures[i]};
-    if (!options.mask.empty()) cell.command.insert(cell.command.end(), {"--mask", options.mask});
-    if (!options.unlit.empty()) cell.command.insert(cell.command.end(), {"--unlit", options.unlit});
-    SceneOptions view = options.view;
-    view.size = size;
-    for (const std::string& word : settings(view, {})) cell.command.push_back(word);
-    return cell;
-}
-
-/// The pictures that are judged, and the one without the light.
-struct Pictures {
-    std::vector<Picture> pictures{};
-    std::optional<Picture> twin{};
-    PictureSize size{};
-};
-
-Pictures read_pictures(const CheckOptions& options, MemoryAccount& memory, Console& console,
-                       Pieces& pieces) {
-    const auto read_one = [&](const std::string& file) {
-        console.progress(file + ": reading");
-        return pieces.step(file + ": reading", [&] { return read(file, memory); });
-    };
-    Pictures all;
-    for (std::size_t i = 0; i < options.pictures.size(); ++i)
-        all.pictures.push_back(read_one(judged_file(options, i)));
-    const PictureSize first{all.pictures.front().width, all.pictures.front().height};
-    all.size = options.with_size ? options.view.size : first;
-    const auto [width, height] = all.size;
-    for (std::size_t i = 0; i < all.pictures.size(); ++i)
-        require_size(judged_file(options, i), all.pictures[i], width, height);
-    if (options.unlit.empty()) return all;
-    all.twin = read_one(options.unlit);
-    require_size(options.unlit, *all.twin, width, height);
-    return all;
-}
-
-/// A picture that was judged.
-struct Judged {
-    Cell cell{};
-    std::vector<std::string> said{}; ///< a line per diagnosis
-};
-
-SHADOWPROOF_SEND_ALL(Judged, cell, said)
-
-/// No wrong pixel of a picture is excused.
-void judge_picture(const CheckOptions& options, const TracedScene& traced, std::size_t i,
-                   const Pictures& pictures, Console& console, Judged& judged) {
-    auto& [cell, said] = judged;
-    try {
-        cell.frame = read_shadows(traced, {options.pictures[i], options.mask, options.unlit},
-                                  pictures.pictures[i], pictures.twin);
-        const std::unique_ptr<Judge> family = judge_of(traced, cell.frame);
-        cell.comparison = classify(traced, cell.frame, *family);
-        cell.verdict = judge(traced.scene(), {}, {}, cell.comparison);
-        std::vector<Diagnosis> diagnoses;
-        if (options.diagnosis) {
-            console.progress(cell.technique + ": diagnosis");
-            diagnoses = diagnose(traced, cell.frame, cell.comparison.cause);
-        }
-        auto results = nlohmann::ordered_json::parse(cell.comparison.summary.results);
-        results["diagnosis"] = diagnosis_json(diagnoses);
-        cell.comparison.summary.results = results.dump();
-        for (const Diagnosis& each : diagnoses)
-            said.push_back(fmt::format("{}: {}: explains {} wrong pixels, contradicts {}",
-                                       each.hypothesis, each.words, grouped(each.explained),
-                                       grouped(each.contradicted)));
-    } catch (const Error& error) {
-        cell.error = error.what();
-    }
-}
-
-/// What a worker is given.
-struct CheckWork {
+/// What all scenes of a run share.
+struct Run {
     const CheckOptions& options;
     const std::optional<ResultsFile>& baseline;
     MemoryAccount& memory;
     Console& console;
     const ReportFolder& folder;
-    Pieces& pieces;
+    std::filesystem::path rendered; ///< where the renderer writes; empty: there is none
+    const std::vector<SceneResult>& done;
 };
 
-/// Judges a picture and writes what the report shows of it, as a piece. One that is lost has a cell
-/// that says so.
-Judged check_picture(const CheckWork& work, const TracedScene& traced, const SceneResult& result,
-                     const Pictures& pictures, std::size_t i) {
-    const CheckOptions& options = work.options;
-    const Cell begun = begin_cell(options, i, pictures.size, result.cells);
-    work.console.progress(begun.technique + ": judging");
-    try {
-        return work.pieces.piece(begun.technique, [&] {
-            Judged judged{.cell = begun};
-            judge_picture(options, traced, i, pictures, work.console, judged);
-            Cell& cell = judged.cell;
-            if (work.baseline && cell.error.empty()) compare_with(*work.baseline, result, cell);
-            if (cell.error.empty()) cell.first_failing = first_that_fails(cell, options.gate.gate);
-            work.console.progress(cell.technique + ": writing");
-            work.folder.add_cell(result, cell, options.view.threads);
-            return judged;
-        });
-    } catch (const LostPiece& lost) {
-        Judged judged{.cell = begun};
-        judged.cell.error = lost.what();
-        if (lost.loss == Loss::timed_out) judged.cell.verdict = Verdict::timed_out;
-        return judged;
-    }
+SceneResult judged_scene(const Run& run, const SceneInputs& inputs) {
+    return supervised({.timeout = run.options.timeout, .console = run.console},
+                      [&](Pieces& pieces) {
+                          return check_scene({run.options, inputs, run.baseline, run.memory,
+                                              run.console, run.folder, run.done, pieces});
+                      });
 }
 
-void announce(const CheckWork& work, const Scene& scene) {
-    const CheckOptions& options = work.options;
-    work.console.heading(scene.name);
-    for (const std::string& note : scene.notes) work.console.line("  note: " + note);
-    std::vector<std::string> inputs = options.pictures;
-    inputs.insert(inputs.end(), {options.mask, options.unlit});
-    for (const std::string& file : inputs)
-        if (const std::string kind = extension_of(file); kind == ".jpg" || kind == ".jpeg")
-            work.console.line(fmt::format("  note: {}: JPEG loses what tells light from shadow at "
-                                          "outlines; render a PNG or EXR",
-                                          file));
-}
-
-/// The work of a worker: the scene with a cell for each picture.
-SceneResult check_pictures(const CheckWork& work) {
-    const CheckOptions& options = work.options;
-    Console& console = work.console;
-    const Pictures pictures = read_pictures(options, work.memory, console, work.pieces);
-    const MemoryBudget budget = work.memory.left();
-    require_picture(budget, pictures.size.width, pictures.size.height, Workload::comparison);
-    SceneOptions view = options.view;
-    view.size = pictures.size;
-    view.size_given = true;
-    // Other renderers draw what is in the file.
-    view.floor = view.floor.value_or(false);
-    console.progress(options.scene + ": reading");
-    const Scene scene = work.pieces.step(options.scene + ": reading",
-                                         [&] { return load_scene(options.scene, view.request()); });
-    require_scene(budget, scene, Workload::comparison);
+/// A scene that cannot be tried is one of many: the others are.
+SceneResult rendered_scene(const Run& run, const std::string& scene) {
     SceneResult result;
-    result.argument = options.scene;
-    result.name = scene.name;
-    describe(result, scene);
-    console.progress(options.scene + ": tracing");
-    const Tracer tracer = work.pieces.step(options.scene + ": tracing", [&] {
-        Tracer made(scene, options.view.threads);
-        result.truth = trace(made);
-        return made;
-    });
-    if (result.truth.statistics.lit == 0 || result.truth.statistics.shadowed == 0)
-        throw Error(options.scene,
-                    result.truth.statistics.lit == 0 ? "shows no pixel in light"
-                                                     : "shows no pixel in shadow",
-                    "turn the camera, or choose another light: nothing can be told by this view");
-    const TracedScene traced(tracer, result.truth);
-    announce(work, scene);
-    work.pieces.piece(options.scene + ": writing", [&] {
-        work.folder.add_scene(result);
-        return true;
-    });
-    for (std::size_t i = 0; i < pictures.pictures.size(); ++i) {
-        Judged judged = check_picture(work, traced, result, pictures, i);
-        console.cell(result, judged.cell, {}, fails(judged.cell, options.gate.gate));
-        for (const std::string& line : judged.said) console.always("  diagnosis: " + line);
-        result.cells.push_back(std::move(judged.cell));
+    result.argument = scene;
+    result.name = unique_name(run.done, std::filesystem::path(scene).stem().string());
+    try {
+        return judged_scene(run, render_scene(run.options, scene, result.name, run.rendered,
+                                              run.folder, run.console));
+    } catch (const OutputLost&) {
+        throw;
+    } catch (const std::exception& error) {
+        result.error = as_in_report(error.what(), run.rendered);
+        run.console.clear_progress();
+        complain(result.error);
     }
     return result;
 }
 
-int check(const CheckOptions& options, double waited, int watcher) {
+int check(const CheckOptions& options, const std::filesystem::path& rendered, double waited,
+          int watcher) {
     const Stopwatch stopwatch;
     const std::string started = timestamp_now();
     Console console(options.output.quiet, watcher);
     MemoryAccount memory(options.view.memory);
     std::vector<std::string> inputs = options.pictures;
-    inputs.insert(inputs.end(), {options.scene, options.mask, options.unlit});
+    inputs.insert(inputs.end(), options.scenes.begin(), options.scenes.end());
+    inputs.insert(inputs.end(), {options.mask, options.unlit});
     check_outputs(options.output, inputs);
     std::optional<ResultsFile> baseline;
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
@@ -282,14 +75,85 @@ int check(const CheckOptions& options, double waited, int watcher) {
     report.version = SHADOWPROOF_VERSION;
     report.gl = {"none", "none", DepthModel{}.subpixel_bits, 0, 0};
     report.gate = options.gate.gate;
-    report.scenes.push_back(
-        supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
-            return check_pictures({options, baseline, memory, console, folder, pieces});
-        }));
+    const Run run{options, baseline, memory, console, folder, rendered, report.scenes};
+    for (const std::string& scene : options.scenes)
+        report.scenes.push_back(
+            options.renderer.empty()
+                ? judged_scene(run, {scene, options.pictures, options.mask, options.unlit, {}})
+                : rendered_scene(run, scene));
     report.embree = embree_version(); // starts Embree: no worker is started any more
     console.progress("writing " + options.output.out);
     report.milliseconds = waited + stopwatch.milliseconds();
     return end_run(folder, console, report, options.gate, baseline, options.output, started);
+}
+
+void add_picture_flags(CLI::App& command, CheckOptions& options) {
+    CLI::Option* mask =
+        command
+            .add_option("--mask", options.mask,
+                        "The picture's shadows: black where shadowed, white where lit")
+            ->type_name("IMAGE")
+            ->check(not_empty());
+    command
+        .add_option("--unlit", options.unlit,
+                    "The same view without the light: what differs from it is lit")
+        ->type_name("IMAGE")
+        ->check(not_empty())
+        ->excludes(mask);
+}
+
+void add_renderer_flags(CLI::App& command, CheckOptions& options) {
+    command
+        .add_option_function<std::string>(
+            "--renderer",
+            [&options](const std::string& text) {
+                try {
+                    require_command(text);
+                } catch (const std::invalid_argument& error) {
+                    throw CLI::ValidationError("--renderer", error.what());
+                }
+                options.renderer = text;
+            },
+            "A program that makes the picture of each scene, run without a shell: {scene} is the "
+            "scene's file, {view} its view as export-view prints it, {out} the .png to write, "
+            "{unlit} another one without the light")
+        ->type_name("COMMAND");
+    command.add_option("--name", options.name, "The renderer's name in the report (renderer)")
+        ->type_name("NAME")
+        ->check([](const std::string& name) {
+            const bool is_plain = !name.empty() && name.front() != '.' &&
+                                  name.find_first_of("/\\") == std::string::npos;
+            return is_plain ? "" : "'" + name + "' is no name of a file; give one, as my_engine";
+        });
+}
+
+/// Checks that involve several options, which CLI11 does not make. With a renderer all positionals
+/// are scenes.
+void check_together(CheckOptions& options) {
+    if (options.renderer.empty()) {
+        if (options.pictures.empty())
+            throw CLI::RequiredError("IMAGE, or --renderer that makes one");
+        if (!options.name.empty())
+            throw CLI::ValidationError("--name", "is of a --renderer; pictures have the names of "
+                                                 "their files");
+    } else {
+        if (!options.mask.empty() || !options.unlit.empty())
+            throw CLI::ValidationError(
+                "--renderer", "makes its own pictures; put {unlit} where it writes the one without "
+                              "the light, and leave --mask and --unlit out");
+        if (options.view.stress)
+            throw CLI::ValidationError("--stress",
+                                       "changes the scene, which a --renderer reads from its file");
+        if (options.name.empty()) options.name = usual_name;
+        options.with_size = true;
+        options.scenes.insert(options.scenes.end(), options.pictures.begin(),
+                              options.pictures.end());
+        options.pictures.clear();
+    }
+    for (const auto& [flag, file] :
+         {std::pair("--mask", &options.mask), {"--unlit", &options.unlit}})
+        if (!file->empty() && options.pictures.size() > 1)
+            throw CLI::ValidationError(flag, "is of one picture; check the others by themselves");
 }
 
 } // namespace
@@ -298,44 +162,42 @@ Work add_check(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("check", "Pictures that a renderer made of a scene, against the truth");
     const auto options = std::make_shared<CheckOptions>();
-    add_scene_argument(*command, options->scene);
+    add_scene_argument(*command, options->scenes.emplace_back());
     command
-        ->add_option("IMAGE", options->pictures,
-                     "Pictures of that view: .png, .jpg or .exr, all of one size")
-        ->required()
+        ->add_option(
+            "IMAGE", options->pictures,
+            "Pictures of that view: .png, .jpg, .exr or .hdr, all of one size; with --renderer, "
+            "more scenes")
         ->check(not_empty());
-    CLI::Option* mask =
-        command
-            ->add_option("--mask", options->mask,
-                         "The picture's shadows: black where shadowed, white where lit")
-            ->type_name("IMAGE")
-            ->check(not_empty());
-    command
-        ->add_option("--unlit", options->unlit,
-                     "The same view without the light: what differs from it is lit")
-        ->type_name("IMAGE")
-        ->check(not_empty())
-        ->excludes(mask);
+    add_picture_flags(*command, *options);
+    add_renderer_flags(*command, *options);
+    command->add_flag("!--no-alignment", options->alignment,
+                      "Judge a picture even where it seems to show another view");
     command->add_flag("!--no-diagnosis", options->diagnosis, "Do not ask why pixels are wrong");
+    command->add_flag("--controls", options->controls,
+                      "Would it be caught? Makes small faults in the truth (a caster's shadow "
+                      "missing, the light moved, ...), and puts them through the same check");
     add_scene_flags(*command, options->view);
     add_gate_flags(*command, options->gate);
     add_output_flags(*command, options->output);
     add_timeout_flag(*command, options->timeout,
-                     "Seconds for a picture, and for reading or tracing the scene, above which it "
-                     "is given up (600; 0: any number)");
+                     "Seconds for a picture, for a run of the renderer, and for reading or tracing "
+                     "the scene, above which it is given up (600; 0: any number)");
     command->final_callback([options, command] {
         options->with_size = command->get_option("--size")->count() > 0;
-        if (!options->mask.empty() && options->pictures.size() > 1)
-            throw CLI::ValidationError("--mask",
-                                       "is of one picture; check the others by themselves");
-        if (!options->unlit.empty() && options->pictures.size() > 1)
-            throw CLI::ValidationError("--unlit",
-                                       "is of one picture; check the others by themselves");
+        check_together(*options);
     });
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
-        return guarded([&](int watcher) { return check(*options, waited, watcher); },
-                       options->output.out);
+        // In this process, which outlives all others, so that it is removed in any case.
+        std::optional<RenderFolder> rendered;
+        if (!options->renderer.empty()) rendered.emplace();
+        return guarded(
+            [&](int watcher) {
+                return check(*options, rendered ? rendered->path() : std::filesystem::path(),
+                             waited, watcher);
+            },
+            options->output.out);
     };
 }
 

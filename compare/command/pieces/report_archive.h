@@ -61,12 +61,14 @@ void serialize(Archive& archive, Comparison& comparison) {
 SHADOWPROOF_SEND_ALL(PixelChange, x, y, cause, was)
 SHADOWPROOF_SEND_ALL(Since, appeared, gone, changed, causes, first_new, first_gone, first_changed)
 
+SHADOWPROOF_SEND_ALL(Acceptance, cause, reason)
+
 template <class Archive>
 void serialize(Archive& archive, Cell& cell) {
     auto& [technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
-           since, first_failing, comparison, cause_map, FRAME, EVIDENCE] = cell;
+           since, accepted, first_failing, comparison, cause_map, FRAME, EVIDENCE] = cell;
     archive(technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
-            since, first_failing, comparison, cause_map);
+            since, accepted, first_failing, comparison, cause_map);
 }
 
 template <class Archive>

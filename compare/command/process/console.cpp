@@ -116,6 +116,17 @@ void Console::cell(const SceneResult& scene, const Cell& cell, const ColumnWidth
     print(text);
 }
 
+void Console::cell_details(const Cell& cell, const Gate& gate) {
+    if (!cell.error.empty()) return;
+    if (cell.since) line("  since the baseline: " + words_of(*cell.since));
+    if (const std::string excused = excused_words(cell, gate); !excused.empty())
+        heading("  " + excused);
+    for (const Acceptance& one : cell.accepted)
+        line(fmt::format("  accepted: {}: {}", name_of(one.cause), one.reason));
+    const std::string allowed = cause_counts(pixels_allowed(cell, gate));
+    if (!allowed.empty()) line("  allowed: " + allowed);
+}
+
 void Console::always(const std::string& text) {
     print(printable(text));
 }

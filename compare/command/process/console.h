@@ -32,6 +32,9 @@ public:
     void heading(const std::string& text);
     /// A cell's line, with its verdict in colour if colours are on. If quiet, only a failed cell's.
     void cell(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths, bool failed);
+    /// What a cell's line does not say: its change since a baseline, what is excused, in bold, so
+    /// that it is not read as agreement, and what is accepted or allowed. Not where quiet.
+    void cell_details(const Cell& cell, const Gate& gate);
     /// A line that is printed even if quiet: failures and the summary.
     void always(const std::string& text);
     /// Whether GitHub's runner reads the lines (GITHUB_ACTIONS).

@@ -101,18 +101,6 @@ void announce(Console& console, const SceneResult& result) {
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
 
-/// Two files may have one stem: the second is "stem-2", in the results and in the report.
-std::string unique_name(const Run& run, const std::string& wanted) {
-    SceneResult named;
-    named.name = wanted;
-    const auto is_taken = [&](const SceneResult& other) {
-        return folder_of(other) == folder_of(named);
-    };
-    for (int number = 2; std::ranges::any_of(run.scenes, is_taken); ++number)
-        named.name = fmt::format("{}-{}", wanted, number);
-    return named.name;
-}
-
 /// Column widths of one scene's cell lines.
 ColumnWidths widths_of(const TechniqueOptions& techniques, const std::string& scene) {
     ColumnWidths widths{.technique = 0, .scene = static_cast<int>(scene.size()), .verdict = 0};
@@ -129,9 +117,7 @@ void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& ce
     const Gate& gate = setup.options.gate.gate;
     setup.console.cell(scene, cell, widths_of(setup.options.technique, scene.name),
                        fails(cell, gate));
-    if (cell.since) setup.console.line("  since the baseline: " + words_of(*cell.since));
-    const std::string allowed = cause_counts(pixels_allowed(cell, gate));
-    if (cell.error.empty() && !allowed.empty()) setup.console.line("  allowed: " + allowed);
+    setup.console.cell_details(cell, gate);
 }
 
 /// Plans and traces the chosen light of a scene; the truth lies in the result.
@@ -143,7 +129,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     result.light = chosen_light(scene);
     result.name = scene.name;
     if (result.one_of_many) result.name += "-" + result.light.choice;
-    result.name = unique_name(run, result.name);
+    result.name = unique_name(run.scenes, result.name);
     describe(result, scene);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
@@ -161,8 +147,11 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
         result.notes.push_back(note);
         run.setup.console.line("  note: " + note);
     };
-    if (const std::optional<std::string> note = note_if_nothing_is_seen(result.truth))
-        add_note(*note);
+    refuse_blank_truth(result.name, result.truth);
+    if (const std::optional<std::string> note = note_if_one_class_is_seen(result.truth)) {
+        result.notes.push_back(*note);
+        run.setup.console.heading("  note: " + *note);
+    }
     if (options.witness > 0) {
         run.setup.console.progress(fmt::format("{}: asking the witness", result.name));
         const Agreement agreement =
@@ -240,7 +229,7 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
     } catch (const Error& error) {
         result.error = error.what();
     }
-    result.name = unique_name(run, result.name);
+    result.name = unique_name(run.scenes, result.name);
     if (!run.setup.pieces.catching_up()) complain(result.error);
     return false;
 }
@@ -268,7 +257,8 @@ double try_scene(const Run& run, const std::string& argument) {
             if (!scene) {
                 setup.console.progress(fmt::format("{}: reading", result.name));
                 SceneRequest request = setup.options.scene.request();
-                request.every_light = !request.light;
+                // A position that is given is of one light.
+                request.every_light = !request.light && !request.view.light_position;
                 scene = setup.pieces.step(result.name + ": reading",
                                           [&] { return load_scene(argument, request); });
                 none_suits = techniques_for(setup.options, *scene).empty();

@@ -4,10 +4,21 @@
 #include "scenes/memory_budget.h"
 #include "scenes/stress/parameter.h"
 
+#include <array>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 
 namespace shadowproof {
+
+/// What stands in place of the file's view: as a renderer has it that was not given the file's.
+struct ViewOverride {
+    /// The camera's node, column by column as glTF and OpenGL write matrices: it looks down its -z,
+    /// with its y up. In the file's axes and units.
+    std::optional<std::array<double, 16>> camera_matrix{};
+    std::optional<glm::dvec3> light_position{};     ///< of the light that is judged; file's units
+    std::optional<double> vertical_field_of_view{}; ///< radians, between 0 and pi
+};
 
 /// What to take from a file that offers several.
 struct SceneRequest {
@@ -21,8 +32,9 @@ struct SceneRequest {
     int height = 512;                  ///< pixels
     bool camera_aspect = false;     ///< the picture is as wide as the camera's aspect ratio says,
                                     ///< where it says one, rather than `width`
-    std::optional<Stress> stress{}; ///< takes the scene there once it is read
-    MemoryBudget memory{};          ///< of the run: files that need more to be read are refused
+    ViewOverride view{};               ///< taken once the file is read, before the stress
+    std::optional<Stress> stress{};    ///< takes the scene there once it is read
+    MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
 };
 
 } // namespace shadowproof

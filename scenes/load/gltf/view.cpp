@@ -84,8 +84,18 @@ int picture_width(const Place& perspective, double aspect, const SceneRequest& r
     return static_cast<int>(width);
 }
 
+/// The camera's own aspect ratio is that of the picture it was made for: another picture shows more
+/// or less to the sides. They are the same where they differ by less than a pixel's width.
+void note_aspect(double own, const Camera& camera, Scene& scene) {
+    if (!(own > 0) || std::abs(own * camera.height - camera.width) < 1) return;
+    scene.notes.push_back(fmt::format(
+        "the camera's aspect ratio is {:.4g}, the picture's {:.4g}: the field of view is kept from "
+        "top to bottom, as glTF says",
+        own, static_cast<double>(camera.width) / camera.height));
+}
+
 Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
-                   const SceneRequest& request, std::vector<std::string>& notes) {
+                   const SceneRequest& request, Scene& scene) {
     const tinygltf::Camera& source = document.model.cameras[carrier.index];
     if (source.type != "perspective")
         carrier.place.refuse("is an orthographic camera, which is not evaluated",
@@ -96,8 +106,9 @@ Camera read_camera(const Document& document, const NodeGraph& graph, const Carri
         (place / "yfov")
             .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
     Camera camera;
-    camera.width = picture_width(place, perspective.aspectRatio, request, notes);
+    camera.width = picture_width(place, perspective.aspectRatio, request, scene.notes);
     camera.height = request.height;
+    note_aspect(perspective.aspectRatio, camera, scene);
     camera.tan_half_height = std::tan(perspective.yfov / 2);
     camera.near = perspective.znear;
     if (perspective.zfar > 0) camera.far = perspective.zfar; // 0: there is none
@@ -188,18 +199,18 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
         return read_camera(
             document, graph,
             cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request,
-            scene.notes);
+            scene);
     if (cameras.empty()) return default_camera(request, scene);
     const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
         return document.model.cameras[carrier.index].type == "perspective";
     });
     if (first == cameras.end())
-        return read_camera(document, graph, cameras.front(), request, scene.notes);
+        return read_camera(document, graph, cameras.front(), request, scene);
     if (first != cameras.begin())
         scene.notes.push_back(fmt::format(
             "orthographic cameras are not evaluated: {} is used",
             described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
-    return read_camera(document, graph, *first, request, scene.notes);
+    return read_camera(document, graph, *first, request, scene);
 }
 
 void choose_light(const Document& document, const NodeGraph& graph, const SceneRequest& request,

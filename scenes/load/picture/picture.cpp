@@ -45,7 +45,10 @@ Picture read_picture(const std::filesystem::path& file, const PictureRoom& room)
     const FileBytes bytes = read_bytes(file, Place(name), room.memory);
     const auto format = format_of(bytes);
     if (!format)
-        throw Error(name, "is neither a PNG nor a JPEG nor an OpenEXR picture", "convert it");
+        throw Error(name, "is neither a PNG nor a JPEG nor an OpenEXR nor a Radiance picture",
+                    "convert it");
+    if (format == PictureFormat::radiance)
+        return decode_by("memory.hdr", bytes, name, radiance_head(bytes, name), room);
     if (format == PictureFormat::openexr)
         return decode_by("memory.exr", bytes, name, openexr_head(bytes, name), room);
     return decode_picture(bytes, name, room);

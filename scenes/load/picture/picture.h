@@ -1,5 +1,5 @@
-// Picture files: PNG by libpng, JPEG and OpenEXR through OpenImageIO. Their sizes are known and
-// checked before anything is decoded.
+// Picture files: PNG by libpng, JPEG, Radiance and OpenEXR through OpenImageIO. Their sizes are
+// known and checked before anything is decoded.
 #pragma once
 
 #include "scenes/memory_budget.h"
@@ -36,8 +36,9 @@ struct PictureRoom {
 Picture decode_picture(std::span<const unsigned char> bytes, const std::string& where,
                        const PictureRoom& room);
 
-/// Reads a PNG, JPEG or OpenEXR file (flat, of one part). Other formats are refused, because their
-/// decoders take memory that cannot be told from the file beforehand. Throws Error naming the file.
+/// Reads a PNG, JPEG, Radiance (.hdr) or OpenEXR file (flat, of one part). Other formats are
+/// refused, because their decoders take memory that cannot be told from the file beforehand. Throws
+/// Error naming the file.
 Picture read_picture(const std::filesystem::path& file, const PictureRoom& room);
 
 } // namespace shadowproof

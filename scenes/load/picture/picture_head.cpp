@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 namespace shadowproof {
@@ -31,6 +33,10 @@ std::optional<PictureFormat> format_of(Bytes bytes) {
     if (begins_with(bytes, png)) return PictureFormat::png;
     if (begins_with(bytes, jpeg)) return PictureFormat::jpeg;
     if (begins_with(bytes, openexr)) return PictureFormat::openexr;
+    constexpr std::array<unsigned char, 10> radiance{'#', '?', 'R', 'A', 'D',
+                                                     'I', 'A', 'N', 'C', 'E'};
+    constexpr std::array<unsigned char, 6> rgbe{'#', '?', 'R', 'G', 'B', 'E'};
+    if (begins_with(bytes, radiance) || begins_with(bytes, rgbe)) return PictureFormat::radiance;
     return std::nullopt;
 }
 
@@ -205,6 +211,66 @@ PictureHead openexr_head(Bytes bytes, const std::string& where) {
                          3 * 4 * rows_at_once * head.width * head.channels +
                          16 * head.width * head.height;
     return head;
+}
+
+namespace {
+
+/// The next line of a header, without its end; nothing where none ends within `most` bytes, more
+/// than any header has.
+std::optional<std::string_view> next_line(Bytes bytes, std::size_t& at) {
+    constexpr std::size_t most = 65536;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                                std::min(bytes.size(), most));
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    return line;
+}
+
+/// The number that `text` begins with, which is then left out; nothing where there is none.
+std::optional<std::uint64_t> taken_number(std::string_view& text) {
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [parsed, failure] = std::from_chars(text.data(), end, number);
+    if (failure != std::errc()) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(parsed - text.data()));
+    return number;
+}
+
+bool taken(std::string_view& text, std::string_view word) {
+    if (!text.starts_with(word)) return false;
+    text.remove_prefix(word.size());
+    return true;
+}
+
+} // namespace
+
+PictureHead radiance_head(Bytes bytes, const std::string& where) {
+    std::size_t at = 0;
+    std::optional<std::string_view> line = next_line(bytes, at);
+    bool is_rgb = true;
+    while (line && !line->empty()) { // variables, and an empty line behind them
+        if (line->starts_with("FORMAT=")) is_rgb = line->starts_with("FORMAT=32-bit_rle_rgbe");
+        line = next_line(bytes, at);
+    }
+    line = line ? next_line(bytes, at) : line;
+    if (!line) throw Error(where, "ends within the header of a Radiance picture", remedy);
+    if (!is_rgb)
+        throw Error(where, "is a Radiance picture of XYZ, which is not decoded",
+                    "export it as RGB (32-bit_rle_rgbe)");
+    std::string_view size = *line;
+    std::optional<std::uint64_t> height;
+    std::optional<std::uint64_t> width;
+    if (taken(size, "-Y ")) height = taken_number(size);
+    if (height && taken(size, " +X ")) width = taken_number(size);
+    if (!width || !size.empty() || *width == 0 || *height == 0)
+        throw Error(
+            where,
+            fmt::format("has a Radiance picture of rows \"{}\", which is not decoded", *line),
+            "export it with rows from the top (-Y height +X width)");
+    // The decoder holds a row of 4 bytes a pixel, twice at most, and a row of floats.
+    return {.width = *width, .height = *height, .channels = 3, .decoder_bytes = 20 * *width};
 }
 
 } // namespace shadowproof

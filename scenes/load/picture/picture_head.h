@@ -9,7 +9,7 @@
 
 namespace shadowproof {
 
-enum class PictureFormat : std::uint8_t { png, jpeg, openexr };
+enum class PictureFormat : std::uint8_t { png, jpeg, openexr, radiance };
 
 /// The format by the first bytes.
 std::optional<PictureFormat> format_of(std::span<const unsigned char> bytes);
@@ -27,6 +27,8 @@ struct PictureHead {
 /// JPEG (ITU T.81, B.2): progressive ones of up to 100 scans, as each scan covers the whole
 /// picture. OpenEXR ("OpenEXR File Layout"): flat, one part, and tiles of up to 4096 per side.
 PictureHead jpeg_head(std::span<const unsigned char> bytes, const std::string& where);
+/// Radiance (.hdr, "Radiance File Formats"): rows from the top, columns from the left.
+PictureHead radiance_head(std::span<const unsigned char> bytes, const std::string& where);
 PictureHead openexr_head(std::span<const unsigned char> bytes, const std::string& where);
 
 } // namespace shadowproof

@@ -34,7 +34,7 @@ class CoarseCountsOfScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(CoarseCountsOfScene, hold_every_counter_and_little_else) {
     Scene scene = load_named(GetParam());
-    scene.camera.width = scene.camera.height = 48;
+    scene.camera.width = scene.camera.height = 24;
     const TracedScene traced(std::move(scene));
     Gpu gpu(GlPlatform::osmesa);
     for (const Technique& technique : all_techniques()) {

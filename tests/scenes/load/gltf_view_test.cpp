@@ -47,6 +47,21 @@ TEST(camera, the_first_perspective_one_is_taken_and_the_orthographic_one_said) {
     EXPECT_TRUE(says(scene, "orthographic"));
 }
 
+TEST(camera, whose_aspect_ratio_is_not_the_pictures_is_said) {
+    const auto says_of = [](double aspect, int width, int height) {
+        json gltf = furnished();
+        gltf["cameras"][1]["perspective"]["aspectRatio"] = aspect;
+        SceneRequest request;
+        request.width = width;
+        request.height = height;
+        return says(load(gltf, request), "aspect ratio");
+    };
+    EXPECT_TRUE(says_of(1.5, 512, 512));
+    EXPECT_FALSE(says_of(1.5, 300, 200));
+    EXPECT_FALSE(says_of(1920.0 / 1080, 512, 288));
+    EXPECT_FALSE(says(load(furnished()), "aspect ratio"));
+}
+
 TEST(camera, one_is_chosen_by_name_or_number) {
     SceneRequest request;
     request.camera = "narrow";

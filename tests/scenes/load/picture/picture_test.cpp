@@ -214,8 +214,8 @@ TEST(pictures, that_are_encoded_have_the_values_that_another_reader_finds) {
     EXPECT_EQ(read_back({Format::openexr, 2, 1, rgba(Type::f32)}, floats, spec), floats);
 }
 
-TEST(pictures, in_openexr_and_jpeg_are_read_and_others_are_not) {
-    for (const char* name : {"a.exr", "a.jpg"}) {
+TEST(pictures, in_openexr_radiance_and_jpeg_are_read_and_others_are_not) {
+    for (const char* name : {"a.exr", "a.jpg", "a.hdr"}) {
         const Folder folder;
         write_bytes(
             folder.path() / "a",
@@ -229,12 +229,33 @@ TEST(pictures, in_openexr_and_jpeg_are_read_and_others_are_not) {
     OIIO::ImageSpec tiled(70, 50, 4, OIIO::TypeDesc::HALF);
     tiled.tile_width = tiled.tile_height = 32;
     EXPECT_EQ(refusal_of(written_by_openimageio("a.exr", tiled)), "");
-    for (const char* name : {"a.tif", "a.tga", "a.bmp", "a.hdr", "a.gif"}) {
+    for (const char* name : {"a.tif", "a.tga", "a.bmp", "a.gif"}) {
         const OIIO::ImageSpec spec(8, 8, 3, OIIO::TypeDesc::UINT8);
         EXPECT_NE(refusal_of(written_by_openimageio(name, spec)).find("neither a PNG nor a JPEG"),
                   std::string::npos)
             << name;
     }
+}
+
+TEST(pictures, in_radiance_are_refused_where_their_heads_are_wrong) {
+    const FileBytes hdr =
+        written_by_openimageio("a.hdr", OIIO::ImageSpec(70, 50, 3, OIIO::TypeDesc::FLOAT));
+    ASSERT_EQ(refusal_of(hdr), "");
+    const auto with = [&](const std::string& from, const std::string& to) {
+        const std::string text(hdr.begin(), hdr.end());
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        const std::string changed = text.substr(0, at) + to + text.substr(at + from.size());
+        return refusal_of({changed.begin(), changed.end()});
+    };
+    EXPECT_NE(with("-Y 50 +X 70", "+X 70 -Y 50").find("rows from the top"), std::string::npos);
+    EXPECT_NE(with("-Y 50 +X 70", "-Y 2000000000 +X 70").find("pixels, more than"),
+              std::string::npos);
+    EXPECT_NE(with("_rgbe", "_xyze").find("XYZ"), std::string::npos);
+    const FileBytes head(hdr.begin(), hdr.begin() + 20);
+    EXPECT_NE(refusal_of(head).find("ends within the header"), std::string::npos);
+    const FileBytes half(hdr.begin(), hdr.begin() + std::ssize(hdr) / 2);
+    EXPECT_NE(refusal_of(half), "");
 }
 
 TEST(pictures, whose_heads_promise_too_much_are_refused_by_their_heads) {

@@ -1,0 +1,56 @@
+# What the functions of this package share: how their calls are read and refused.
+
+# shadowproof_require_call(call example): fails where the call that cmake_parse_arguments has read as
+# `given` lacks one of `required`, has words that it does not know, or words without a value.
+# `values`, `lists`: what it knows.
+macro(shadowproof_require_call call example)
+    foreach(argument IN LISTS required)
+        if("${given_${argument}}" STREQUAL "")
+            message(FATAL_ERROR "${call}: ${argument} is missing; write ${example}")
+        endif()
+    endforeach()
+    if(DEFINED given_UNPARSED_ARGUMENTS)
+        list(JOIN given_UNPARSED_ARGUMENTS " " unknown)
+        list(JOIN values ", " all_values)
+        list(JOIN lists ", " all_lists)
+        message(FATAL_ERROR "${call}: '${unknown}' is not known; it takes one value each for "
+            "${all_values}, and any number for ${all_lists}")
+    endif()
+    if(DEFINED given_KEYWORDS_MISSING_VALUES)
+        list(JOIN given_KEYWORDS_MISSING_VALUES ", " empty)
+        message(FATAL_ERROR "${call}: no value follows ${empty}; give one, or leave the word out")
+    endif()
+    if(DEFINED given_GATE AND NOT given_GATE MATCHES "^(defects|differences)$")
+        message(FATAL_ERROR "${call}: GATE '${given_GATE}' is not known; give defects or differences")
+    endif()
+endmacro()
+
+# shadowproof_scene_path(result scene): absolute; other names are bundled scenes.
+function(shadowproof_scene_path result scene)
+    if(scene MATCHES "\\.([gG][lL][tT][fF]|[gG][lL][bB]|[mM][dD]2)$")
+        cmake_path(ABSOLUTE_PATH scene BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    endif()
+    set(${result} ${scene} PARENT_SCOPE)
+endfunction()
+
+# shadowproof_common_flags(): appends to `arguments` the flags that all commands know.
+macro(shadowproof_common_flags)
+    foreach(argument SIZE CAMERA LIGHT TIME GATE)
+        if(DEFINED given_${argument})
+            string(TOLOWER ${argument} flag)
+            list(APPEND arguments --${flag} ${given_${argument}})
+        endif()
+    endforeach()
+    foreach(allowance IN LISTS given_ALLOW)
+        list(APPEND arguments --allow ${allowance})
+    endforeach()
+    if(DEFINED given_BASELINE)
+        cmake_path(ABSOLUTE_PATH given_BASELINE BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+        list(APPEND arguments --baseline ${given_BASELINE})
+    endif()
+    if(NOT DEFINED given_OUT)
+        set(given_OUT shadowproof/${given_NAME})
+    endif()
+    cmake_path(ABSOLUTE_PATH given_OUT BASE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+    list(APPEND arguments --out ${given_OUT})
+endmacro()

@@ -1,0 +1,24 @@
+// The hypotheses of a diagnosis, in groups. Each considers what it has for a picture's wrong
+// pixels.
+#pragma once
+
+#include "compare/picture/trial.h"
+#include "compare/picture/volume_counts.h"
+
+namespace shadowproof {
+
+void try_operations(Trial& trial);  ///< no_shadow, inverted
+void try_lights(Trial& trial);      ///< other_light
+void try_meshes(Trial& trial);      ///< receiver_missing, caster_missing, mesh_missing
+void try_one_sided(Trial& trial);   ///< one_sided_casters
+void try_moved_light(Trial& trial); ///< light_moved
+
+void try_counters(Trial& trial, const VolumeCounts& counts);   ///< missing_cap, stencil_bits
+void try_near_plane(Trial& trial, const VolumeCounts& counts); ///< zpass
+void try_far_plane(Trial& trial, const VolumeCounts& counts);  ///< zfail_far
+void try_length(Trial& trial, const VolumeCounts& counts);     ///< short_volumes
+
+void try_range(Trial& trial);      ///< shadow_map, cut at its range
+void try_light_view(Trial& trial); ///< shadow_map of texels with a bias, ray_epsilon
+
+} // namespace shadowproof

@@ -1,0 +1,178 @@
+#include "compare/picture/hypotheses.h"
+#include "scenes/camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace shadowproof {
+
+namespace {
+
+Predict truth_without(const Trial& trial, std::function<Scene()> make) {
+    return truth_of(std::move(make), trial.traced().tracer().threads());
+}
+
+/// Where light would tell whether it is drawn: else it is as if it threw no shadow.
+bool is_seen(const Trial& trial, std::size_t mesh) {
+    const Image<std::uint32_t>& seen = trial.truth().triangle;
+    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
+        if (seen.pixels[i] != no_triangle && mesh_of(trial.scene(), seen.pixels[i]) == mesh &&
+            faces_light(trial.traced(), i))
+            return true;
+    return false;
+}
+
+/// The truth without the mesh. In its place there is something else, whose colours are not the
+/// mesh's: no pixel there can be right.
+Predict with_mesh_missing(const Trial& trial, std::size_t mesh) {
+    const Scene& scene = trial.scene();
+    const Predict without = truth_without(trial, [&scene, mesh] {
+        return kept_by(scene,
+                       [&](std::uint32_t triangle) { return mesh_of(scene, triangle) != mesh; });
+    });
+    return [&scene, &seen = trial.truth().triangle, mesh, without](std::span<const Patch> patches,
+                                                                   Image<Visibility>& picture) {
+        without(patches, picture);
+        for (const Patch& patch : patches)
+            for_each_pixel(patch, [&](int x, int y) {
+                const std::uint32_t triangle = seen.at(x, y);
+                if (triangle != no_triangle && mesh_of(scene, triangle) == mesh)
+                    picture.at(x, y) = Visibility::background;
+            });
+    };
+}
+
+Predict with_light_moved(const Trial& trial, const glm::dvec3& by) {
+    return truth_without(trial, [&scene = trial.scene(), by] {
+        Scene moved = scene;
+        Light& light = moved.lights[moved.light];
+        if (light.kind == Light::Kind::directional)
+            light.direction = glm::normalize(light.direction + by);
+        else
+            light.position += by;
+        return moved;
+    });
+}
+
+} // namespace
+
+void try_operations(Trial& trial) {
+    const GroundTruth& truth = trial.truth();
+    trial.consider("no_shadow", {}, "no shadow is drawn",
+                   changed(trial.traced(), [&truth](std::size_t i, Visibility) {
+                       return in_cone(truth, i) ? Visibility::lit : Visibility::shadowed;
+                   }));
+    trial.consider("inverted", {}, "light and shadow are exchanged",
+                   changed(trial.traced(), [](std::size_t, Visibility was) {
+                       return was == Visibility::lit ? Visibility::shadowed : Visibility::lit;
+                   }));
+}
+
+void try_lights(Trial& trial) {
+    const Scene& scene = trial.scene();
+    for (std::size_t light = 0; light < scene.lights.size(); ++light) {
+        if (light == scene.light) continue;
+        trial.consider(
+            "other_light", {{"light", static_cast<double>(light)}},
+            fmt::format("the shadows are those of light {} ({})", light, scene.lights[light].name),
+            truth_without(trial, [&scene, light] {
+                Scene other = scene;
+                other.light = light;
+                return other;
+            }));
+    }
+}
+
+/// One mesh after the other; each takes two traces of the sample.
+void try_meshes(Trial& trial) {
+    constexpr std::size_t most_meshes = 24;
+    const Scene& scene = trial.scene();
+    const GroundTruth& truth = trial.truth();
+    for (std::size_t m = 0; m < std::min(scene.meshes.size(), most_meshes); ++m) {
+        const Mesh& mesh = scene.meshes[m];
+        const Parameters number{{"mesh", static_cast<double>(m)}};
+        if (mesh.receives)
+            trial.consider(
+                "receiver_missing", number, mesh.name + " shows no shadows",
+                changed(trial.traced(), [&scene, &truth, m](std::size_t i, Visibility was) {
+                    const bool own = mesh_of(scene, truth.triangle.pixels[i]) == m;
+                    return own && in_cone(truth, i) ? Visibility::lit : was;
+                }));
+        if (scene.meshes.size() < 2) continue;
+        if (is_seen(trial, m))
+            trial.consider("mesh_missing", number, mesh.name + " is not drawn",
+                           with_mesh_missing(trial, m));
+        if (mesh.casts)
+            trial.consider("caster_missing", number, mesh.name + " throws no shadow",
+                           truth_without(trial, [&scene, m] {
+                               Scene without = scene;
+                               without.meshes[m].casts = false;
+                               return without;
+                           }));
+    }
+}
+
+void try_one_sided(Trial& trial) {
+    const Scene& scene = trial.scene();
+    const Tracer& tracer = trial.traced().tracer();
+    for (const bool fronts : {true, false})
+        trial.consider("one_sided_casters", {{"front", fronts ? 1.0 : 0.0}},
+                       fmt::format("only triangles whose {} is towards the light throw shadows",
+                                   fronts ? "front" : "back"),
+                       truth_without(trial, [&scene, &tracer, fronts] {
+                           return cast_by(scene, [&](std::uint32_t triangle) {
+                               const TriangleSides sides = sides_of(tracer, triangle);
+                               return fronts ? sides.front_to_light : sides.back_to_light;
+                           });
+                       }));
+}
+
+/// Steps to what is seen and across that halve where none is better: across, shadows move; towards
+/// it they only grow. The first are a tenth of the light's distance; or, of a directional one, of
+/// its direction.
+void try_moved_light(Trial& trial) {
+    const Scene& scene = trial.scene();
+    const Light& light = chosen_light(scene);
+    const Image<double>& depths = trial.truth().depth;
+    const std::size_t middle =
+        depths.pixels.size() / 2 + static_cast<std::size_t>(depths.width) / 2;
+    const double depth = std::min(depths.pixels[middle], trial.traced().far());
+    const glm::dvec3 point = scene.camera.eye + depth * scene.camera.forward;
+    const bool directional = light.kind == Light::Kind::directional;
+    const glm::dvec3 way = directional ? light.direction : point - light.position;
+    if (!(glm::length(way) > 0)) return;
+    const glm::dvec3 towards = glm::normalize(way);
+    const glm::dvec3 hint = std::abs(towards.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
+    const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
+    double step = 0.1 * glm::length(way);
+    glm::dvec3 by(0);
+    std::int64_t score = 0;
+    constexpr int rounds =
+        20; // of six predictions at most; steps end below a thousandth of the way
+    for (int round = 0; round < rounds; ++round) {
+        bool better = false;
+        for (const glm::dvec3& axis : axes)
+            for (const double sign : {-1.0, 1.0}) {
+                const glm::dvec3 tried = by + sign * step * axis;
+                const std::int64_t found = trial.fit(with_light_moved(trial, tried)).score();
+                if (found <= score) continue;
+                score = found;
+                by = tried;
+                better = true;
+                break;
+            }
+        if (!better) step /= 2;
+    }
+    if (score > 0)
+        trial.consider(
+            "light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
+            fmt::format("the light is moved by ({:.3g}, {:.3g}, {:.3g})", by.x, by.y, by.z),
+            with_light_moved(trial, by));
+}
+
+} // namespace shadowproof

@@ -1,0 +1,86 @@
+// Hypotheses about a picture's wrong pixels, weighed by what they explain and what they contradict.
+#pragma once
+
+#include "compare/picture/diagnosis.h"
+#include "compare/picture/predict.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shadowproof {
+
+using Parameters = std::vector<std::pair<std::string, double>>;
+
+/// How well a predicted picture fits.
+struct Fit {
+    std::uint64_t explained = 0;    ///< wrong pixels that it predicts
+    std::uint64_t contradicted = 0; ///< right ones that would be wrong by it
+    std::int64_t score() const {
+        return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);
+    }
+};
+
+/// A hypothesis at each value of its parameter.
+struct Parametric {
+    std::string hypothesis;
+    std::string parameter;
+    std::function<Predict(double)> predict;
+    std::function<std::string(double)> words;
+};
+
+class Trial {
+public:
+    /// Keeps references; `cause`: Comparison::cause.
+    Trial(const TracedScene& traced, const Frame& frame, const Image<std::uint8_t>& cause);
+
+    const TracedScene& traced() const { return traced_; }
+    const Scene& scene() const { return traced_.scene(); }
+    const GroundTruth& truth() const { return traced_.truth(); }
+    const Frame& frame() const { return frame_; }
+    std::uint64_t wrong() const { return wrong_; }
+    bool is_wrong(int x, int y) const;
+    bool is_right(int x, int y) const; ///< decided, and no difference
+    /// Where hypotheses are weighed before the best are predicted for the whole picture.
+    const std::vector<Patch>& sample() const { return sample_; }
+
+    /// On the sample.
+    Fit fit(const Predict& predict);
+    /// Adds the hypothesis if it explains more of the sample than it contradicts.
+    void consider(std::string hypothesis, Parameters parameters, std::string words,
+                  Predict predict);
+    /// Considers the best value of a parameter between two, which are positive. They are tried in
+    /// equal ratios, then more finely around the best. Where too much is wrong by one value and
+    /// nothing by the next, the right one lies in between, and is found by bisection.
+    void search(const Parametric& family, double from, double to);
+
+    /// Some hypothesis explains all of the sample and contradicts nothing: it needs no rival.
+    bool is_settled() const;
+    /// The parameters of the best hypothesis so far by that name; null where there is none.
+    const Parameters* best_of(const std::string& hypothesis) const;
+    /// The best, by the whole picture, and the wrong pixels that the first of them leaves.
+    Diagnosed best(std::size_t most);
+
+private:
+    struct Considered {
+        Diagnosis diagnosis;
+        Fit fit; ///< on the sample
+        Predict predict;
+    };
+
+    const TracedScene& traced_;
+    const Frame& frame_;
+    const Image<std::uint8_t>& cause_;
+    std::uint64_t wrong_ = 0;
+    std::uint64_t sampled_wrong_ = 0;
+    std::vector<Patch> sample_;
+    Image<Visibility> picture_; ///< the truth, but while something is predicted
+    std::vector<Considered> considered_;
+
+    Fit fit_in(std::span<const Patch> patches, const Predict& predict);
+    bool is_inside(int x, int y) const;
+};
+
+} // namespace shadowproof

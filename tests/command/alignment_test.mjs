@@ -1,0 +1,105 @@
+// Pictures of another view than the scene's: named, and refused unless told to go on. A picture that
+// is right, or whose shadows are wrong, is never taken for one of another view.
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { grayPng, readPng } from './png.mjs';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const size = 240;
+const shade = { 0: 20, 64: 60, 255: 190 };
+
+function truthOf(scene, more = [], side = size) {
+  const run = shadowproof(['render', scene, '--size', `${side}x${side}`, ...more, '-o', 'truth.png', '-q']);
+  assert.equal(run.code, 0, run.err);
+  const png = readPng(join(scratch, 'truth.png'));
+  return { ...png, at: (x, y) => png.at(x, y)[0] };
+}
+
+function checked(scene, valueAt, ...more) {
+  writeFileSync(join(scratch, 'mine.png'), grayPng(size, size, (x, y) => 257 * valueAt(x, y)));
+  return shadowproof(['check', scene, 'mine.png', '--no-diagnosis', '--out', 'checked', ...more]);
+}
+
+const refused = (run, words) => {
+  assert.equal(run.code, 3, run.out + run.err);
+  assert.match(run.out + run.err, words);
+  assert.match(run.out + run.err, /--no-alignment judges it as it is/);
+};
+
+for (const scene of ['ordinary', 'near_plane', 'eye_inside', 'spot']) {
+  test(`flips of ${scene} are named`, () => {
+    const truth = truthOf(scene);
+    const last = size - 1;
+    refused(checked(scene, (x, y) => shade[truth.at(last - x, y)]), /mine\.png: is mirrored left to right; /);
+    refused(checked(scene, (x, y) => shade[truth.at(x, last - y)]), /mine\.png: is upside down; /);
+    refused(checked(scene, (x, y) => shade[truth.at(last - x, last - y)]), /mine\.png: is turned by half; /);
+  });
+}
+
+test('half a pixel is named, with the way that the picture went', () => {
+  const fine = truthOf('ordinary', [], 4 * size);
+  // 4 x + 3 has its centre at x + 0.875: three eighths to the right of the pixel's centre.
+  refused(checked('ordinary', (x, y) => shade[fine.at(4 * x + 3, 4 * y + 3)]),
+          /is shifted by about half a pixel to the left up: /);
+  const centred = checked('ordinary', (x, y) => shade[fine.at(4 * x + 2, 4 * y + 2)]);
+  assert.notEqual(centred.code, 3, centred.out);
+});
+
+const yfovOf = (scene) => JSON.parse(shadowproof(['export-view', scene]).out).camera.yfov * 180 / Math.PI;
+const numberIn = (run, words) => {
+  const found = (run.out + run.err).match(words);
+  assert.ok(found, run.out + run.err);
+  return Number(found[1]);
+};
+
+for (const scene of ['ordinary', 'near_plane'])
+  for (const factor of [0.95, 1.05])
+    test(`a field of view ${factor} times that of ${scene} is fitted`, () => {
+      const degrees = factor * yfovOf(scene);
+      const truth = truthOf(scene, ['--fov', String(degrees)]);
+      const run = checked(scene, (x, y) => shade[truth.at(x, y)]);
+      refused(run, /has a field of view of/);
+      const found = numberIn(run, /has a field of view of ([\d.]+) degrees/);
+      assert.ok(Math.abs(found - degrees) <= 0.02 * degrees, `${found}, ${degrees}`);
+      assert.notEqual(checked(scene, (x, y) => shade[truth.at(x, y)], '--no-alignment').code, 3);
+      assert.equal(checked(scene, (x, y) => shade[truth.at(x, y)], '--fov', String(degrees)).code, 0);
+    });
+
+test('a camera that is turned is told by how much, and about what', () => {
+  const { camera: { matrix } } = JSON.parse(shadowproof(['export-view', 'ordinary']).out);
+  const angle = 2.1 / 180 * Math.PI;
+  // Right and back, turned to the left about up.
+  const turned = matrix.map((m, i) => i < 3 ? Math.cos(angle) * m - Math.sin(angle) * matrix[i + 8]
+    : i >= 8 && i < 11 ? Math.cos(angle) * m + Math.sin(angle) * matrix[i - 8] : m);
+  const truth = truthOf('ordinary', ['--camera-matrix', turned.join()]);
+  const run = checked('ordinary', (x, y) => shade[truth.at(x, y)]);
+  refused(run, /turned by/);
+  const found = numberIn(run, /turned by ([-\d.]+) degrees about its up axis/);
+  assert.ok(Math.abs(found - 2.1) < 0.05, `${found}`);
+});
+
+const flags = (technique) => technique === 'cube_map_six_pass' ? ['--map-size', '64'] : [];
+for (const [scene, technique] of [
+  ['ordinary', 'cube_map_six_pass'], ['near_plane', 'zpass'], ['far_plane', 'zfail'],
+  ['eye_inside', 'zpass'], ['overlapping', 'invert'], ['long_shadow', 'zfail_truncated']])
+  test(`shadows as wrong as those of ${technique} on ${scene} are no other view`, () => {
+    const run = shadowproof(['verify', scene, '--size', `${size}x${size}`, '--technique', technique,
+                             ...flags(technique), '--out', 'claims', '-q']);
+    assert.ok(run.code <= 1, run.err);
+    const claim = readPng(join(scratch, `claims/${scene}/${technique}/claim.png`));
+    assert.equal(checked(scene, (x, y) => shade[claim.at(x, y)[0]]).code, 1);
+  });
+
+for (const scene of ['sun', 'spot', 'nested', 'overlapping', 'many_lights', 'cube_edge', 'low_light',
+                     'open_lid', 'slivers', 'thin_caster', 'far_light', 'walking_figure'])
+  test(`a right picture of ${scene} is no other view, nor one without shadows, nor with all of them`, () => {
+    const truth = truthOf(scene);
+    const right = checked(scene, (x, y) => shade[truth.at(x, y)]);
+    assert.doesNotMatch(right.out + right.err, /--no-alignment/);
+    const none = checked(scene, (x, y) => truth.at(x, y) ? 190 : 20);
+    assert.doesNotMatch(none.out + none.err, /--no-alignment/);
+    const inverse = checked(scene, (x, y) => shade[{ 0: 0, 64: 255, 255: 64 }[truth.at(x, y)]]);
+    assert.doesNotMatch(inverse.out + inverse.err, /--no-alignment/);
+  });

@@ -1,0 +1,42 @@
+// three.js itself, by the script that stands in the docs: a person's renderer as it is. Its shadow maps
+// are wrong near outlines, and the finer they are, the less; what is wrong is named.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { scratch, shadowproof } from './shadowproof.mjs';
+
+const script = fileURLToPath(new URL('../../docs/recipes/three.mjs', import.meta.url));
+const modules = fileURLToPath(new URL('..', import.meta.url));
+
+function checked(scene, env = {}) {
+  const run = shadowproof(['check', scene, '--name', 'three', '--out', 'checked', '--renderer',
+    `${process.execPath} '${script}' {scene} {view} {out} {unlit}`], { env: { MODULES: modules, ...env } });
+  assert.ok(run.code <= 1, run.out + run.err);
+  const { scenes: [{ techniques: [cell] }] } =
+    JSON.parse(readFileSync(join(scratch, 'checked/results.json'), 'utf8'));
+  return { ...run, cell, wrong: cell.falsely_lit + cell.falsely_shadowed };
+}
+
+for (const scene of ['ordinary', 'sun', 'spot'])
+  test(`three.js shows ${scene} from the same view, and is wrong along the shadows' outlines alone`, () => {
+    const { cell, wrong } = checked(scene);
+    assert.ok(wrong > 0 && wrong < 0.003 * cell.pixels, `${wrong} of ${cell.pixels}`);
+    assert.ok(cell.undecidable < 0.01 * cell.pixels);
+    assert.ok(existsSync(join(scratch, `checked/rendered/${scene}/unlit.png`)));
+  });
+
+test('the map of three.js is named: its size, and that it holds back faces, side by side', () => {
+  for (const texels of [256, 512]) {
+    const { cell: { diagnosis: [best] }, wrong } = checked('overlapping', { MAP_SIZE: `${texels}` });
+    assert.equal(best.hypothesis, 'shadow_map');
+    const { resolution, culls_front, inset } = best.parameters;
+    assert.deepEqual([resolution, culls_front, inset], [texels, 1, 1]);
+    assert.ok(best.explained > 0.9 * wrong, `${best.explained} of ${wrong}`);
+  }
+});
+
+test('a coarser map of three.js is worse', () => {
+  assert.ok(checked('ordinary', { MAP_SIZE: '128' }).wrong > 2 * checked('ordinary').wrong);
+});
