@@ -43,8 +43,8 @@ InverseDepths inverse_depths_of(const PicturedFace& face, const ShownPixel& pixe
 /// Whether such a face is in front of what is shown.
 Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel);
 
-/// Whether a face that may cover the pixel, or not, is off by more than the pixel's neighbourhood is
-/// wide: then what is true there does not tell what is drawn.
+/// Whether a face that may cover the pixel, or not, is off by more than the pixel's neighbourhood
+/// is wide: then what is true there does not tell what is drawn.
 bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel);
 
 /// Whether a pixel may show what it shows, by the errors of all triangles that are seen.

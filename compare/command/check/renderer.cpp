@@ -69,7 +69,8 @@ ToldView view_of(const CheckOptions& options, const std::string& argument, Conso
     return supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
         console.progress(argument + ": reading");
         return pieces.step(argument + ": reading", [&] {
-            const Scene scene = in_file_units(load_scene(argument, drawn_by_others(options.view).request()));
+            const Scene scene =
+                in_file_units(load_scene(argument, drawn_by_others(options.view).request()));
             return ToldView{fs::absolute(scene.file).string(),
                             view_json(scene, options.view.time, {})
                                     .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +

@@ -32,9 +32,9 @@ struct SceneRequest {
     int height = 512;                  ///< pixels
     bool camera_aspect = false;     ///< the picture is as wide as the camera's aspect ratio says,
                                     ///< where it says one, rather than `width`
-    ViewOverride view{};               ///< taken once the file is read, before the stress
-    std::optional<Stress> stress{};    ///< takes the scene there once it is read
-    MemoryBudget memory{};             ///< of the run: files that need more to be read are refused
+    ViewOverride view{};            ///< taken once the file is read, before the stress
+    std::optional<Stress> stress{}; ///< takes the scene there once it is read
+    MemoryBudget memory{};          ///< of the run: files that need more to be read are refused
 };
 
 } // namespace shadowproof
