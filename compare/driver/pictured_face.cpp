@@ -35,6 +35,12 @@ int first_column(double place, int width) {
 
 } // namespace
 
+PixelRun either(const PixelRun& one, const PixelRun& other) {
+    if (one.length() == 0) return other;
+    if (other.length() == 0) return one;
+    return {std::min(one.first, other.first), std::max(one.end, other.end)};
+}
+
 ConvexRegion ConvexRegion::everywhere() {
     ConvexRegion all;
     all.low_ = glm::dvec2(-infinity);
@@ -228,6 +234,22 @@ std::vector<DepthError> depth_errors(const std::vector<PicturePoint>& polygon, d
 }
 
 } // namespace
+
+// Scaling a corner at infinity moves nothing, but clipping rounds by the size of the larger corner.
+double margin_by_size(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners) {
+    double size = 0;
+    for (const glm::dvec4& corner : corners)
+        size = std::max(size, glm::length(glm::dvec3(corner) - corner.w * making.camera.eye));
+    std::vector<ViewCorner> polygon;
+    for (glm::dvec4 corner : corners) {
+        const double length = glm::length(glm::dvec3(corner));
+        if (corner.w == 0 && length > 0) corner *= size / length;
+        polygon.push_back(viewed(making.camera, corner, making.drawing));
+    }
+    const std::vector<PicturePoint> most =
+        clipped_polygon(making.camera, polygon, making.drawing, PlaneCut::most);
+    return margin_of(making, most).value_or(infinity);
+}
 
 // A direction from the light is made of the light as two floats, which leave 2^-48 of it away. Two
 // triangles with an edge in common cover a point once that lies within both together, whatever

@@ -21,6 +21,9 @@ struct PixelRun {
     int length() const { return end > first ? end - first : 0; }
 };
 
+/// The least run that holds both; an empty one does not count.
+PixelRun either(const PixelRun& one, const PixelRun& other);
+
 /// A convex region of the picture, in pixels.
 class ConvexRegion {
 public:
@@ -94,6 +97,11 @@ struct PictureMaking {
 /// `PicturedFace::change` is that of corners that run anticlockwise as seen from outside.
 PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners,
                            const glm::dvec4* other, double light_size);
+
+/// PicturedFace::margin of such a triangle as far as its size and place cause it: not where it is
+/// that large because a corner at infinity lies in a direction of next to no length, as next to the
+/// light.
+double margin_by_size(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners);
 
 /// A layer in front of everything. `most`, `least`: what clipping leaves of it.
 PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewCorner>& most,

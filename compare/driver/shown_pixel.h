@@ -24,6 +24,22 @@ struct ShownPixel {
 /// The background lies at `far`, the far plane, in finite projections, else at infinity.
 ShownPixel shown_pixel(const Frame& frame, double far, int x, int y, double reach);
 
+/// Pixels by the rows of the picture, as a face covers some of them alone.
+class PixelsByRow {
+public:
+    /// `height`: of the picture.
+    PixelsByRow(std::span<const ShownPixel> pixels, int height);
+
+    /// The rows that a face may cover.
+    PixelRun rows_of(const PicturedFace& face) const;
+    /// Numbers of the pixels in them.
+    std::span<const std::size_t> within(const PixelRun& rows) const;
+
+private:
+    std::vector<std::size_t> numbers_; ///< by row
+    std::vector<std::size_t> first_;   ///< of each row, among the numbers
+};
+
 /// Whether something is so: never, perhaps, or always.
 struct Chance {
     bool possible = false;

@@ -53,50 +53,61 @@ Chance inverse(const Chance& chance) {
 /// The faces of the volumes.
 class FacesAtPixels {
 public:
-    FacesAtPixels(const CountedClaim& judged, const DrawnPicture& picture)
-        : judged_(judged), picture_(picture), faces_(picture),
+    FacesAtPixels(const CountedClaim& judged, const DrawnPicture& picture,
+                  std::span<const ShownPixel> pixels)
+        : judged_(judged), picture_(picture), faces_(picture), pixels_(pixels),
+          by_row_(pixels, picture.casters.camera.height),
           roundings_(window_roundings(judged.frame.depth_model)),
           nearest_(judged.frame.depth_model.clamp ? std::numeric_limits<double>::infinity()
                                                   : 1 / judged.traced.scene().camera.near) {}
 
     std::size_t count() const { return faces_.count(); }
 
-    void add(std::size_t number, std::span<const ShownPixel> pixels,
-             std::vector<FaceSums>& sums) const {
+    void add(std::size_t number, std::vector<FaceSums>& sums) const {
         if (number < picture_.faces.faces.size())
-            add_face(number, pixels, sums);
+            add_face(number, sums);
         else
-            add_layer(number, pixels, sums);
+            add_layer(number, sums);
     }
 
 private:
     const CountedClaim& judged_;
     const DrawnPicture& picture_;
     PicturedFaces faces_;
+    std::span<const ShownPixel> pixels_;
+    PixelsByRow by_row_;
     WindowRoundings roundings_;
     double nearest_; ///< inverse depth at which faces are clipped
 
     /// One triangle, or both of a side. Those share an edge: they do not overlap, or have opposite
     /// signs, wherever they are drawn, and so count once at most.
-    void add_face(std::size_t number, std::span<const ShownPixel> pixels,
-                  std::vector<FaceSums>& sums) const {
+    void add_face(std::size_t number, std::vector<FaceSums>& sums) const {
         const DrawnFace& drawn = picture_.faces.faces[number];
         if (!drawn.other_corner) {
-            const PicturedFace face = faces_.face(number);
+            const PicturedFace face = face_of(number);
             const bool hides_itself = never_in_front(drawn, face);
-            for (std::size_t i = 0; i < pixels.size(); ++i)
-                sums[i] += sums_of(drawn, face, hides_itself, pixels[i]);
+            for (const std::size_t i : by_row_.within(by_row_.rows_of(face)))
+                sums[i] += sums_of(drawn, face, hides_itself, pixels_[i]);
         } else if (drawn.first_of_side) {
             const DrawnFace& second = picture_.faces.faces[number + 1];
-            const PicturedFace face = faces_.face(number);
-            const PicturedFace other = faces_.face(number + 1);
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                FaceSums side = sums_of(drawn, face, false, pixels[i]);
-                side += sums_of(second, other, false, pixels[i]);
+            const PicturedFace face = face_of(number);
+            const PicturedFace other = face_of(number + 1);
+            const PixelRun rows = either(by_row_.rows_of(face), by_row_.rows_of(other));
+            for (const std::size_t i : by_row_.within(rows)) {
+                FaceSums side = sums_of(drawn, face, false, pixels_[i]);
+                side += sums_of(second, other, false, pixels_[i]);
                 for (StepSums* steps : {&side.counted, &side.in_front}) limit(*steps, drawn.copies);
                 sums[i] += side;
             }
         }
+    }
+
+    /// A light that nearly touches a caster makes no face coarse: what it leaves open is the same
+    /// at all pixels, and is judged as such.
+    PicturedFace face_of(std::size_t number) const {
+        PicturedFace face = faces_.face(number);
+        face.margin = std::min(face.margin, faces_.margin_by_size(number));
+        return face;
     }
 
     static void limit(StepSums& steps, std::int64_t most) {
@@ -126,13 +137,12 @@ private:
 
     /// Volumes are entered through their layers, in front of everything; what a volume with a split
     /// far end is cut into may count either way.
-    void add_layer(std::size_t number, std::span<const ShownPixel> pixels,
-                   std::vector<FaceSums>& sums) const {
+    void add_layer(std::size_t number, std::vector<FaceSums>& sums) const {
         const NearLayer& layer = picture_.faces.near_layers[number - picture_.faces.faces.size()];
         const PicturedFace face = faces_.face(number);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            const Chance covered = covers(face, pixels[i]);
-            sums[i].is_coarse = sums[i].is_coarse || is_coarse(face, covered, pixels[i]);
+        for (const std::size_t i : by_row_.within(by_row_.rows_of(face))) {
+            const Chance covered = covers(face, pixels_[i]);
+            sums[i].is_coarse = sums[i].is_coarse || is_coarse(face, covered, pixels_[i]);
             sums[i].counted += steps(layer.touches_light ? 0 : 1, 1, covered);
         }
     }
@@ -177,7 +187,7 @@ std::vector<FaceSums> face_sums(const CountedClaim& judged, std::span<const Show
         drawn_faces(volumes, judged.counting(), judged.frame.counted->volume_faces);
     const DrawnPicture picture{volumes.drawn_casters(), volumes.far_ends(), drawn, judged.frame,
                                judged.traced.far()};
-    const FacesAtPixels faces(judged, picture);
+    const FacesAtPixels faces(judged, picture, pixels);
     std::vector<FaceSums> sums(pixels.size());
     constexpr std::size_t together = 256;
     std::mutex mutex; // sums do not depend on their order
@@ -186,7 +196,7 @@ std::vector<FaceSums> face_sums(const CountedClaim& judged, std::span<const Show
                      std::vector<FaceSums> found(pixels.size());
                      const std::size_t begin = static_cast<std::size_t>(piece) * together;
                      for (std::size_t i = begin; i < std::min(begin + together, faces.count()); ++i)
-                         faces.add(i, pixels, found);
+                         faces.add(i, found);
                      const std::lock_guard lock(mutex);
                      for (std::size_t i = 0; i < pixels.size(); ++i) sums[i] += found[i];
                  });

@@ -53,6 +53,12 @@ glm::dvec4 PicturedFaces::at_infinity(const glm::dvec3& point) const {
     return {light_.w * point - glm::dvec3(light_), 0};
 }
 
+double PicturedFaces::margin_by_size(std::size_t number) const {
+    const glm::uvec3& corners = picture_.faces.faces[number].corners;
+    return shadowproof::margin_by_size(making_,
+                                       {place(corners.x), place(corners.y), place(corners.z)});
+}
+
 PicturedFace PicturedFaces::volume_face(const DrawnFace& drawn) const {
     const glm::dvec4 other = drawn.other_corner ? place(*drawn.other_corner) : glm::dvec4(0);
     PicturedFace face = pictured_face(

@@ -41,6 +41,8 @@ public:
         return number < faces.size() ? volume_face(faces[number])
                                      : layer(picture_.faces.near_layers[number - faces.size()]);
     }
+    /// Of a volume's face: see driver/pictured_face.h.
+    double margin_by_size(std::size_t number) const;
 
 private:
     const DrawnPicture& picture_;

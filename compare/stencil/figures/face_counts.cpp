@@ -30,10 +30,7 @@ public:
     PixelRun rows_of(const PicturedFace& face) const {
         const PixelRun own = face.possible.rows(height_);
         if (!face.stands_for_both || !face.is_one_of_two) return own;
-        const PixelRun both = face.certain_of_both.rows(height_);
-        if (both.length() == 0) return own;
-        if (own.length() == 0) return both;
-        return {std::min(own.first, both.first), std::max(own.end, both.end)};
+        return either(own, face.certain_of_both.rows(height_));
     }
 
     /// `rows`: those of each face.
