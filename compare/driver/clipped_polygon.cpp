@@ -75,9 +75,6 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
 // A row of the transform holds a direction of the camera, and the eye's place along it as the last
 // term. What is relative to the eye, or to the light, is rounded twice before, so that 5 roundings
 // of double its size are more than all.
-// Where window depth rises with depth, its numerator and w are sums of their own. An infinite
-// projection has the same products in both but for the eye's term, which is rounded in either
-// matrix, and the last sums; in a finite one all of them are others.
 ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& drawing) {
     const glm::dvec3 relative = glm::dvec3(point) - point.w * camera.eye;
     const bool from_origin = drawing.offset > 0 && point.w > 0;
@@ -92,13 +89,6 @@ ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& 
                                          : 2 * glm::dot(glm::abs(axis), glm::abs(relative));
         corner.error[k] = transform_roundings * v * terms;
     }
-    const double n = drawing.standard_near;
-    if (n > 0 && drawing.infinite)
-        corner.clip_error = 2 * v *
-                            (std::abs(corner.at.z) +
-                             point.w * (n + std::abs(glm::dot(camera.forward, camera.eye))));
-    else if (n > 0)
-        corner.clip_error = 2 * corner.error.z;
     return corner;
 }
 
@@ -148,8 +138,7 @@ Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
     return {.near = model.clamp ? 0 : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
-            .standard_near = model.reversed() ? 0 : model.near,
-            .infinite = !model.finite()};
+            .standard_near = model.reversed() ? 0 : model.near};
 }
 
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,

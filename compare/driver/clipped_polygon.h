@@ -23,7 +23,6 @@ struct Drawing {
     double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
     /// The projection's near plane where window depth rises with depth; 0 where it is reversed.
     double standard_near = 0;
-    bool infinite = false; ///< the projection has no far plane
 };
 
 /// `far`: the far plane of what is drawn; infinite if none clips.
@@ -44,7 +43,7 @@ struct PicturePoint {
 struct ViewCorner {
     glm::dvec4 at{0, 0, 0, 0};
     glm::dvec3 error{0, 0, 0}; ///< of right, up and forward
-    double clip_error = 0;     ///< by which forward and the window depth's numerator are off apart
+    double clip_error = 0; ///< that clipping added to forward and to the window depth's numerator
     bool made_by_clipping = false;
 };
 

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <string_view>
 
 namespace shadowproof::tests {
 namespace {
@@ -110,14 +109,12 @@ TEST(WideFloor, is_explained) {
 }
 
 /// Lit pixels, one by one. Wider floors are themselves drawn at depths so far off that the volume
-/// under them may come out in front: at 20 km, and depths of a finite projection, which are the
-/// quotients of two sums, by half a metre at 10 m.
+/// under them may come out in front.
 TEST(WideFloor, excuses_no_false_shadow) {
     Gpu gpu(GlPlatform::osmesa);
-    for (const float half_width : {4e3F, 1e4F, 2e4F}) {
+    for (const float half_width : {4e3F, 2e4F}) {
         const TracedScene traced(box_over_wide_floor(half_width));
         for (const char* name : {"zfail_reversed", "zpass"}) {
-            if (name == std::string_view("zpass") && half_width > 1e4F) continue;
             const Frame frame = render(*find_technique(name), traced.scene, traced.plan, gpu);
             const Image<std::uint8_t> before = compared(traced, frame).cause;
             int tried = 0;
