@@ -17,6 +17,20 @@ namespace shadowproof {
 
 namespace {
 
+/// AddressSanitizer, where an allocation fails, makes more of them to tell of it, and then waits
+/// for a lock of its own for ever.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool limits_addresses = false;
+#else
+constexpr bool limits_addresses = true;
+#endif
+
+/// Seconds after which a child is ended that takes no processor time: far more than what it may
+/// take of that would last on a busy machine.
+unsigned longest_wait(std::uint64_t processor_seconds) {
+    return static_cast<unsigned>(std::min<std::uint64_t>(60 + 20 * processor_seconds, 86'400));
+}
+
 enum ChildCode : int { code_finished = 0, code_out_of_memory = 80, code_threw = 81 };
 
 /// Never above what the process may have anyway.
@@ -37,7 +51,7 @@ std::uint64_t mapped_bytes() {
 /// Handlers are the parent's: they would tell of a crash that is none, or clean up for it.
 void take_default_signals() {
     for (const int signal :
-         {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
+         {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM, SIGHUP})
         ::signal(signal, SIG_DFL);
 }
 
@@ -56,7 +70,8 @@ void silence() {
     silence();
     lower_limit(RLIMIT_CORE, 0);
     lower_limit(RLIMIT_CPU, limits.seconds);
-    lower_limit(RLIMIT_AS, mapped + limits.bytes);
+    if (limits_addresses) lower_limit(RLIMIT_AS, mapped + limits.bytes);
+    ::alarm(longest_wait(limits.seconds));
     int code = code_finished;
     try {
         work();
@@ -70,7 +85,8 @@ void silence() {
 
 ApartEnd end_of(int status) {
     if (WIFSIGNALED(status))
-        return WTERMSIG(status) == SIGXCPU ? ApartEnd::out_of_time : ApartEnd::crashed;
+        return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ? ApartEnd::out_of_time
+                                                                          : ApartEnd::crashed;
     switch (WEXITSTATUS(status)) {
     case code_finished:
         return ApartEnd::finished;

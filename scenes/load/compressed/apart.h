@@ -27,8 +27,8 @@ private:
 
 /// What a process may take beyond what this one holds when it is started.
 struct ApartLimits {
-    std::uint64_t bytes = 0;   ///< of addresses
-    std::uint64_t seconds = 1; ///< of processor time
+    std::uint64_t bytes = 0;   ///< of addresses; no limit under AddressSanitizer
+    std::uint64_t seconds = 1; ///< of processor time; one that only waits is ended, too, much later
 };
 
 enum class ApartEnd : std::uint8_t {
