@@ -36,7 +36,7 @@ writeFileSync(join(scratch, 'many.gltf'), JSON.stringify(manyTriangles(300_000))
 writeFileSync(join(scratch, 'texture.gltf'), JSON.stringify(textured(evenPng(3000, 3000))));
 writeFileSync(join(scratch, 'heights.png'), evenPng(3000, 3000));
 // What is wrong is diagnosed, which takes most.
-const wrong = shadowproof(['render', 'ordinary', '-o', 'wrong.png', '--size', '1100x1100']);
+const wrong = shadowproof(['render', 'ordinary', '-o', 'wrong.png', '--size', '2500x2500']);
 assert.equal(wrong.code, 0, wrong.err);
 
 const cases = [
