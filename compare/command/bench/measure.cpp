@@ -2,6 +2,7 @@
 
 #include "compare/bench/bench_error.h"
 #include "compare/bench/bench_table.h"
+#include "compare/bench/kept.h"
 #include "compare/command/bench/measured_archive.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
@@ -42,6 +43,7 @@ struct Trial {
     std::size_t first = 0;                      ///< its first point in the run
     std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
     std::vector<bool> warm{};                   ///< this process has drawn them
+    Stopwatch since{};                          ///< it was begun
     bool complete = true;   ///< all that was asked for was measured, but for what took too long
     bool timed_out = false; ///< something did
 };
@@ -265,7 +267,9 @@ void measure(Trial& trial) {
         stages.push_back(run.points[i].stages);
     }
     std::vector<bool> lost(samples.size());
-    const RoundLimits& limits = work.options.limits;
+    RoundLimits limits = work.options.limits;
+    if (const double whole = work.options.scene_seconds; whole > 0)
+        limits.seconds = std::clamp(whole - trial.since.milliseconds() / 1000, 0.0, limits.seconds);
     const Stopwatch stopwatch;
     measure_in_rounds(
         samples, limits,
@@ -302,7 +306,7 @@ void measure(Trial& trial) {
                      run.points[trial.first + i].samples = samples[i];
                      run.points[trial.first + i].stages = stages[i];
                  }
-                 work.keeper.keep(run);
+                 if (!work.pieces.catching_up()) work.keeper.keep(run);
              }});
     remove_points(trial, lost);
 }
@@ -316,23 +320,50 @@ std::string unique_name(const BenchRun& run, const std::string& wanted) {
     return name;
 }
 
-BenchScene describe(const BenchRun& run, const Scene& scene, const std::string& argument) {
-    return {.name = unique_name(run, scene.name),
-            .file = (is_bundled(argument) ? scene.file.filename() : scene.file).string(),
-            .digest = digest_of(scene),
-            .light = chosen_light(scene).name,
-            .width = static_cast<std::uint64_t>(scene.camera.width),
-            .height = static_cast<std::uint64_t>(scene.camera.height),
-            .triangles = scene.triangles.size(),
-            .finished = false};
+/// `kept`: an earlier run; null: none. The scene has the name that it had there.
+BenchScene describe(const BenchRun& run, const BenchRun* kept, const Scene& scene,
+                    const std::string& argument) {
+    BenchScene described{.name = unique_name(run, scene.name),
+                         .file =
+                             (is_bundled(argument) ? scene.file.filename() : scene.file).string(),
+                         .digest = digest_of(scene),
+                         .light = chosen_light(scene).name,
+                         .width = static_cast<std::uint64_t>(scene.camera.width),
+                         .height = static_cast<std::uint64_t>(scene.camera.height),
+                         .triangles = scene.triangles.size(),
+                         .finished = false};
+    if (kept == nullptr) return described;
+    for (const BenchScene& known : kept->scenes)
+        if (are_one_picture(known, described) && known.file == described.file &&
+            unique_name(run, known.name) == known.name) {
+            described.name = known.name;
+            break;
+        }
+    return described;
+}
+
+/// Whether an earlier run has each technique that is asked for now, or says why not.
+bool has_all(const BenchRun& kept, const BenchScene& scene, const BenchWork& work,
+             const Scene& read) {
+    const TechniqueOptions& options = work.options.technique;
+    return std::ranges::all_of(options.chosen(), [&](const Technique* technique) {
+        const auto is_its = [&](const auto& each) {
+            return each.scene == scene.name && each.technique == technique->name;
+        };
+        return (options.techniques.empty() && !suits(*technique, read)) ||
+               std::ranges::any_of(kept.points, is_its) ||
+               std::ranges::any_of(kept.left_out, is_its);
+    });
 }
 
 /// Whether an earlier run had finished the scene: its points are taken over, but where pictures are
-/// wanted, which are drawn anew.
-bool take_over(const BenchWork& work, BenchScene& scene) {
-    if (work.kept == nullptr || work.pictures != nullptr) return false;
-    const BenchScene* const kept = kept_scene(*work.kept, scene);
-    if (kept == nullptr || !kept->finished) return false;
+/// wanted, which are drawn anew. Throws Error where it had another scene of that name.
+bool take_over(const BenchWork& work, BenchScene& scene, const Scene& read) {
+    if (work.kept == nullptr) return false;
+    const BenchScene* const kept = kept_scene(work.options.json, *work.kept, scene);
+    if (work.pictures != nullptr || kept == nullptr || !kept->finished ||
+        !has_all(*work.kept, scene, work, read))
+        return false;
     scene.finished = true;
     for (const BenchPoint& point : work.kept->points)
         if (point.scene == scene.name) work.run.points.push_back(point);
@@ -380,15 +411,17 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     const Scene scene = work.pieces.step(
         argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     require_scene(options.scene.memory, scene, Workload::comparison);
+    BenchScene described = describe(work.run, work.kept, scene, argument);
+    const std::string name = described.name;
+    const bool is_known = take_over(work, described, scene);
     const std::size_t at = work.run.scenes.size();
-    work.run.scenes.push_back(describe(work.run, scene, argument));
-    const std::string name = work.run.scenes[at].name;
+    work.run.scenes.push_back(std::move(described));
     work.console.heading(name);
     work.console.line(fmt::format("  {} triangles, {}x{}, light {}",
                                   grouped(scene.triangles.size()), scene.camera.width,
                                   scene.camera.height, chosen_light(scene).name));
     for (const std::string& note : scene.notes) work.console.line("  note: " + note);
-    if (take_over(work, work.run.scenes[at])) {
+    if (is_known) {
         work.console.line("  as measured before");
         print_points(work, name);
         return true;
@@ -419,7 +452,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     add_points(trial);
     measure(trial);
     work.run.scenes[at].finished = trial.complete && !trial.timed_out;
-    work.keeper.keep(work.run);
+    if (!work.pieces.catching_up()) work.keeper.keep(work.run);
     print_points(work, name);
     return trial.complete;
 }
