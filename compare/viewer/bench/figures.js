@@ -13,12 +13,17 @@ const wrongPixels = (point) => point.differing - (point.causes.edge ?? 0);
 
 const percent = (count, point) => 100 * count / point.pixels;
 
+/** The truth's means over the pixel have colours alone, held against the mean of most rays. */
+const isMean = ({ technique, settings }) => technique === 'truth' && settings?.samples !== undefined;
+
+const unlessMean = (of) => (point) => (isMean(point) ? null : of(point));
+
 /** Ways to say how wrong a point is; null where it does not apply. Shares in percent. */
 const errorKinds = [
-  { id: 'wrong', words: 'wrong pixels, %', of: (point) => percent(wrongPixels(point), point) },
-  { id: 'lit', words: 'falsely lit, %', of: (point) => percent(point.falsely_lit, point) },
+  { id: 'wrong', words: 'wrong pixels, %', of: unlessMean((point) => percent(wrongPixels(point), point)) },
+  { id: 'lit', words: 'falsely lit, %', of: unlessMean((point) => percent(point.falsely_lit, point)) },
   { id: 'shadowed', words: 'falsely shadowed, %',
-    of: (point) => percent(point.falsely_shadowed, point) },
+    of: unlessMean((point) => percent(point.falsely_shadowed, point)) },
   { id: 'rmse', words: 'colour rmse, 1/255', of: (point) => point.color?.rmse ?? null },
   { id: 'p999', words: 'colour, 99.9 % within, 1/255', of: (point) => point.color?.p999 ?? null },
   { id: 'largest', words: 'colour at worst, 1/255', of: (point) => point.color?.largest ?? null },
@@ -94,7 +99,7 @@ function errorWords(point) {
   const causes = Object.entries(point.causes).filter(([name]) => name !== 'edge')
     .map(([name, count]) => `${name} ${grouped(count)}`).join(', ');
   const wrong = wrongPixels(point);
-  const words = [wrong === 0 ? 'no pixel wrong'
+  const words = [isMean(point) ? 'against the mean of most samples' : wrong === 0 ? 'no pixel wrong'
     : `${shortNumber(percent(wrong, point))} % wrong (${causes})`];
   if (point.falsely_lit > 0)
     words.push(`${shortNumber(percent(point.falsely_lit, point))} % falsely lit`);

@@ -46,7 +46,9 @@ function showNote(index) {
 function choosePoint(index) {
   const { point } = state.layout.marks[index];
   const before = pointsOf(state.older).find((other) => samePoint(point, other));
-  const verify = point.technique === 'truth' ? `shadowproof render ${point.scene} -o truth.png`
+  const verify = isMean(point)
+    ? `shadowproof render ${point.scene} --aov color --samples ${Math.sqrt(point.settings.samples)} -o truth.png`
+    : point.technique === 'truth' ? `shadowproof render ${point.scene} -o truth.png`
     : point.command.replace('shadowproof bench', 'shadowproof verify');
   found('chosen').replaceChildren(
     element('h2', {}, pointName(point)),
