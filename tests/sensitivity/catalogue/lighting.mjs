@@ -5,7 +5,7 @@ const forms = 'scenes/surface/bump_forms.cpp';
 const cubes = 'scenes/surface/normalisation_cube.cpp';
 const inBytes = 'static_cast<float>(std::round(255 * number) / 255)';
 const compressed = 'static_cast<std::uint8_t>(std::lround(255 * (0.5 + 0.5 * n[c])))';
-const cubeMade = 'upload_cube(gl, make_normalisation_cube())';
+const cubeMade = 'upload_cube(gl, make_normalisation_cube(model.cube_size))';
 const selfShadow = 'return clamp(8 * cosine, 0, 1);';
 const frame = 'vec3 tangent = unit(surface.tangent - normal * dot(normal, surface.tangent));';
 const tapsX = 'float x = float(texels) * at - 0.5;';
