@@ -1,6 +1,8 @@
 // Measures four scenes, and `auto` on further ones, and writes docs/results.md with the plots.
 //   SHADOWPROOF=build/release/shadowproof node tests/bench/results_page.mjs [SECONDS PER SCENE]
-//   SHADOWPROOF=... node tests/bench/results_page.mjs FOLDER   (that it measured into: measures nothing)
+//   SHADOWPROOF=... node tests/bench/results_page.mjs FOLDER [SECONDS]   (that it measured into, with so
+//   many seconds: measures nothing)
+// `auto` gets a quarter of the seconds, as a run of it has a fifth of the points.
 // Nothing else should run meanwhile: times are compared within one run. Ends with 1 where `auto` is
 // slower than the quickest technique that is right, beyond both intervals.
 import assert from 'node:assert/strict';
@@ -18,7 +20,7 @@ const { hasInterval, isSurelySlower, quickestRight, wrongPixels } =
 
 const scenes = ['near_plane', 'thin_caster', 'idle_casters', 'walking_figure'];
 const measuredBefore = existsSync(process.argv[2] ?? '');
-const seconds = measuredBefore ? '120' : process.argv[2] ?? '120';
+const seconds = (measuredBefore ? process.argv[3] : process.argv[2]) ?? '120';
 const program = process.env.SHADOWPROOF;
 assert.ok(program || measuredBefore, 'SHADOWPROOF names no program');
 const docs = fileURLToPath(new URL('../../docs', import.meta.url));
@@ -32,9 +34,9 @@ const volumeTechniques = ['zpass', 'zfail', 'zfail_clamp', 'zfail_infinite', 'zf
   'zfail_half_edge', 'zfail_degenerate_quads', 'zfail_geometry_shader', 'zfail_per_triangle', 'zpass_capped',
   'zpass_eye_count', 'zp_plus', 'invert', 'zfail_float', 'auto'];
 
-function measured(out, names, ...more) {
+function measured(out, names, most, ...more) {
   if (!measuredBefore) {
-    const args = ['bench', ...names, '--seconds', seconds, '--out', out, '--no-pictures', ...more];
+    const args = ['bench', ...names, '--seconds', String(most), '--out', out, '--no-pictures', ...more];
     const { status } = spawnSync(program, args, { stdio: 'inherit' });
     assert.equal(status, 0, `shadowproof ${args.join(' ')} ended with ${status}`);
   }
@@ -58,8 +60,8 @@ async function savePlots() {
   await browser.close();
 }
 
-const run = measured(folder, scenes);
-const autos = measured(join(folder, 'auto'), manyScenes, '--technique', volumeTechniques.join(','));
+const run = measured(folder, scenes, seconds);
+const autos = measured(join(folder, 'auto'), manyScenes, Number(seconds) / 4, '--technique', volumeTechniques.join(','));
 await savePlots();
 
 const isOwn = (point, settings) =>

@@ -34,7 +34,7 @@ function benched(name, args) {
 }
 
 const shadows = benched('shadows.json', ['near_plane', '--csv', 'shadows.csv']);
-const floats = benched('floats.json', ['bumpy_torus', '--technique', 'bump_tangent_space']);
+const bumpy = benched('bumpy.json', ['bumpy_torus']);
 const colors = benched('colors.json', ['bumpy_torus', '--technique', 'bump_one_pass,zfail']);
 
 test('what it writes is valid by its schema', () => {
@@ -124,14 +124,28 @@ function assertFalls(technique, name, values) {
 }
 const ownOf = (technique) => pointOf(shadows, { technique, settings: {} }).own;
 
+const rmseOf = (name, words) => bumpy.points.find(({ technique, settings }) => technique === name &&
+  Object.entries(settings).map((each) => each.join('=')).join(' ') === words).color.rmse;
+
+test('the mean of more rays over the pixel is nearer to that of most, and has no classes of its own', () => {
+  assertValid(bumpy);
+  const means = bumpy.points.filter(({ technique, settings }) => technique === 'truth' && settings.samples);
+  assert.deepEqual(means.map(({ settings }) => settings.samples), ['1', '4', '16', '64']); // with --quick
+  means.forEach(({ color }, i) => assert.ok(i === 0 || color.rmse < means[i - 1].color.rmse));
+  assert.equal(means.at(-1).color.rmse, 0);
+  assert.ok(means.every(({ differing, color }) => differing === 0 && color.p999 <= color.largest));
+  // None where a technique is named, which they would outlast, nor where no colours are lit.
+  for (const { points } of [colors, shadows])
+    assert.equal(points.filter(({ technique }) => technique === 'truth').length, 1);
+});
+
 test('errors come in the order that theory gives', () => {
   const map = 'cube_map_six_pass';
   assertFalls(map, 'map-size', ['64', '256', '1024', '4096']);
   assertFalls(map, 'map-bias', ['0', '0.01', ownOf(map)['map-bias']]); // acne, up to what it must be
   // What the cube map's rounding and mixing cost falls with its size, and Newton's steps each square
   // their error. The technique is right but for these where it lights in floats.
-  const rmse = (words) => floats.points.find(({ settings }) =>
-    Object.entries(settings).map((each) => each.join('=')).join(' ') === words).color.rmse;
+  const rmse = (words) => rmseOf('bump_tangent_space', words);
   const falls = (names) => names.map(rmse).forEach((error, i, all) =>
     assert.ok(i === 0 || error < all[i - 1], all.join(' ')));
   falls([8, 16, 32].map((size) => `normalise=cube-map cube-size=${size}`));
