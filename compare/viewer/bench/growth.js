@@ -38,13 +38,17 @@ function lawShapes({ from, middle, to, exponent, at }, { box, x, y }, style) {
           line([place(from), place(to)], { ...style, class: 'law', 'stroke-width': 1.2, opacity: 0.9 })];
 }
 
-/** A law's exponent and interval in the panel; the first of two is hollow. */
-function exponentShapes({ exponent }, row, isFirstOfTwo, { p }, ink, color) {
+/**
+ * A law's exponent and interval in the panel, without a cap at an end that is cut off by the panel's;
+ * the first of two is hollow.
+ */
+function exponentShapes({ exponent }, row, isFirstOfTwo, { p, isShown }, ink, color) {
   const style = { stroke: color, 'stroke-width': 1.3 };
   const [low, high] = [p(exponent.low), p(exponent.high)];
   const y = row.y + (row.laws.length > 1 ? (isFirstOfTwo ? -3 : 3) : 0);
   return [line([[low, y], [high, y]], { ...style, class: 'exponent' }),
-          line([[low, y - 3], [low, y + 3]], style), line([[high, y - 3], [high, y + 3]], style),
+          ...[exponent.low, exponent.high].filter(isShown)
+            .map((end) => line([[p(end), y - 3], [p(end), y + 3]], style)),
           svgElement('circle', { cx: p(exponent.value), cy: y, r: 3, stroke: color, 'stroke-width': 1.3,
                                  fill: isFirstOfTwo ? ink.paper : color })];
 }

@@ -49,7 +49,7 @@ const growthFont = 10.5; // of names and exponents
 const growthTextWidth = (words) => 0.61 * growthFont * words.length;
 
 /**
- * { width, height, box, panel, x, y, p, sizes, times, exponents, rows }. A row: { growth, group,
+ * { width, height, box, panel, x, y, p, isShown, sizes, times, exponents, rows }. A row: { growth, group,
  * places, laws, letter, y, words }. `box`: times against sizes; `panel`: the exponents, a row each.
  */
 function growthLayout(growths) {
@@ -81,7 +81,8 @@ function growthLayout(growths) {
   for (const row of rows) row.places = row.growth.points.map(({ size, ms }) => [x(size), y(ms.median)]);
   const heights = spreadOut(rows.map(({ places }) => places.at(-1)[1]), 16, box.top + 6, box.bottom - 6);
   rows.forEach((row, i) => { row.y = heights[i]; });
-  return { width: growthWidth, height: bottom + 52, box, panel, x, y, p, rows, names,
+  const isShown = (value) => value >= least && value <= most;
+  return { width: growthWidth, height: bottom + 52, box, panel, x, y, p, isShown, rows, names,
            sizes: sizesThatFit(sizes, x), times: roundValues(low, high),
            exponents: [-1, -0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3].filter((value) => value > least && value < most) };
 }
