@@ -13,8 +13,15 @@ namespace shadowproof {
 enum class Normalisation : std::uint8_t {
     exact,          ///< divided by their length
     cube_map,       ///< looked up in a cube map (normalisation_cube.h)
-    newton_raphson, ///< one step from an estimate made of the float's bits
+    newton_raphson, ///< steps from an estimate made of the float's bits, one by default
 };
+
+/// Texels a side of a face of the normalisation cube map.
+inline constexpr int usual_cube_size = 64;
+inline constexpr int largest_cube_size = 1024;
+/// Steps of Newton and Raphson. Three leave an error far below a float's rounding.
+inline constexpr int usual_newton_steps = 1;
+inline constexpr int most_newton_steps = 3;
 
 /// What a bump map's texels hold.
 enum class BumpForm : std::uint8_t {
@@ -62,6 +69,8 @@ constexpr std::string_view name_of(BumpForm form) {
 /// What the user asked for; where nothing is set, each technique uses its own.
 struct LightingSettings {
     std::optional<Normalisation> normalisation{};
+    std::optional<int> cube_size{};    ///< 2 to largest_cube_size
+    std::optional<int> newton_steps{}; ///< 0 to most_newton_steps
     std::optional<BumpForm> bump_form{};
 };
 
@@ -79,12 +88,16 @@ struct ColorModel {
     Axes axes = Axes::world;
     Normalisation normalisation = Normalisation::exact;
     BumpForm bump_form = BumpForm::as_given;
-    bool reflects = false; ///< the scene's environment
+    bool reflects = false;                 ///< the scene's environment
+    int cube_size = usual_cube_size;       ///< of Normalisation::cube_map
+    int newton_steps = usual_newton_steps; ///< of Normalisation::newton_raphson
 };
 
 /// A technique's own model, except for what the user asked for.
 constexpr ColorModel with_settings(ColorModel model, const LightingSettings& settings) {
     model.normalisation = settings.normalisation.value_or(model.normalisation);
+    model.cube_size = settings.cube_size.value_or(model.cube_size);
+    model.newton_steps = settings.newton_steps.value_or(model.newton_steps);
     model.bump_form = settings.bump_form.value_or(model.bump_form);
     return model;
 }

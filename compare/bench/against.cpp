@@ -1,5 +1,6 @@
 #include "compare/bench/against.h"
 
+#include "compare/bench/kept.h"
 #include "compare/words.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,6 @@ const BenchScene* scene_named(const BenchRun& run, const std::string& name) {
     return found == run.scenes.end() ? nullptr : &*found;
 }
 
-bool are_one_picture(const BenchScene& a, const BenchScene& b) {
-    return a.digest == b.digest && a.width == b.width && a.height == b.height && a.light == b.light;
-}
-
 void compare_machines(const BenchRun& older, const BenchRun& newer, BenchChanges& changes) {
     const auto differ = [&](const char* what, const std::string& was, const std::string& is) {
         if (was != is)
@@ -39,14 +36,16 @@ void compare_machines(const BenchRun& older, const BenchRun& newer, BenchChanges
     differ("Embree", older.embree, newer.embree);
 }
 
-void compare_times(const BenchPoint& older, const BenchPoint& newer, BenchChanges& changes) {
+/// Returns whether there are intervals to compare by.
+bool compare_times(const BenchPoint& older, const BenchPoint& newer, BenchChanges& changes) {
     const TimeInterval was = median_interval(older.samples);
     const TimeInterval is = median_interval(newer.samples);
     const std::string words =
         fmt::format("{}: {:.3f} ms [{:.3f}, {:.3f}], was {:.3f} [{:.3f}, {:.3f}]", name_of(newer),
                     is.median, is.low, is.high, was.median, was.low, was.high);
-    if (is.low > was.high) changes.losses.push_back(words);
-    if (is.high < was.low) changes.gains.push_back(words);
+    if (is_surely_slower(is, was)) changes.losses.push_back(words);
+    if (is_surely_slower(was, is)) changes.gains.push_back(words);
+    return was.is_known && is.is_known;
 }
 
 void compare_errors(const BenchPoint& older, const BenchPoint& newer, BenchChanges& changes) {
@@ -65,7 +64,38 @@ void compare_errors(const BenchPoint& older, const BenchPoint& newer, BenchChang
                                    new_rmse, old_rmse));
 }
 
+/// The older run's point of the same scene, technique and settings, on the same picture; null where
+/// there is none.
+const BenchPoint* comparable_point(const BenchRun& older, const BenchRun& newer,
+                                   const BenchPoint& point) {
+    const BenchScene* const then = scene_named(older, point.scene);
+    const BenchScene* const now = scene_named(newer, point.scene);
+    if (then == nullptr || now == nullptr || !are_one_picture(*then, *now)) return nullptr;
+    return find_point(older, point);
+}
+
 } // namespace
+
+std::vector<ChangedOrder> changed_orders(const BenchRun& older, const BenchRun& newer) {
+    struct Timed {
+        std::size_t place; ///< in the newer run
+        TimeInterval was;
+        TimeInterval is;
+    };
+    std::vector<Timed> points;
+    for (std::size_t i = 0; i < newer.points.size(); ++i)
+        if (const BenchPoint* was = comparable_point(older, newer, newer.points[i]))
+            points.push_back(
+                {i, median_interval(was->samples), median_interval(newer.points[i].samples)});
+    std::vector<ChangedOrder> changed;
+    for (const Timed& quicker : points)
+        for (const Timed& slower : points)
+            if (newer.points[quicker.place].scene == newer.points[slower.place].scene &&
+                is_surely_slower(slower.is, quicker.is) &&
+                is_surely_slower(quicker.was, slower.was))
+                changed.push_back({quicker.place, slower.place});
+    return changed;
+}
 
 BenchChanges changes_between(const BenchRun& older, const BenchRun& newer) {
     BenchChanges changes;
@@ -77,19 +107,26 @@ BenchChanges changes_between(const BenchRun& older, const BenchRun& newer) {
                 "{}: not compared: its content, size or light is not what it was", scene.name));
     }
     std::size_t added = 0;
+    std::size_t untimed = 0;
     for (const BenchPoint& point : newer.points) {
         const BenchPoint* const was = find_point(older, point);
         if (was == nullptr) {
             ++added;
             continue;
         }
-        const BenchScene* const then = scene_named(older, point.scene);
-        const BenchScene* const now = scene_named(newer, point.scene);
-        if (then == nullptr || now == nullptr || !are_one_picture(*then, *now)) continue;
+        if (comparable_point(older, newer, point) == nullptr) continue;
         ++changes.compared;
         compare_errors(*was, point, changes);
-        compare_times(*was, point, changes);
+        if (!compare_times(*was, point, changes)) ++untimed;
     }
+    for (const ChangedOrder& order : changed_orders(older, newer))
+        changes.orders.push_back(
+            fmt::format("{} is quicker than {} now, and was slower, beyond all intervals",
+                        name_of(newer.points[order.quicker]), name_of(newer.points[order.slower])));
+    if (untimed > 0)
+        changes.notes.push_back(
+            fmt::format("the times of {} are not compared: fewer than {} samples have no interval",
+                        counted(untimed, "point"), least_samples));
     if (added > 0)
         changes.notes.push_back(
             fmt::format("{} the older run does not have", counted(added, "point")));

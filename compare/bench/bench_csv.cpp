@@ -43,6 +43,11 @@ std::vector<std::string> stages_in(const BenchRun& run) {
     return names;
 }
 
+/// Both ends of the interval; two empty fields where there is none.
+std::string ends_of(const TimeInterval& ms) {
+    return ms.is_known ? fmt::format("{},{}", ms.low, ms.high) : ",";
+}
+
 /// The median of a stage; empty where the point has none.
 std::string stage_of(const BenchPoint& point, const std::string& name) {
     for (const BenchStage& stage : point.stages)
@@ -52,7 +57,32 @@ std::string stage_of(const BenchPoint& point, const std::string& name) {
 
 } // namespace
 
+std::string growth_csv(const BenchRun& run) {
+    std::string csv = "axis,scene,technique,size,ms_median,ms_low,ms_high,samples,settled,exponent,"
+                      "exponent_low,exponent_high,break_size,exponent_below,exponent_above,"
+                      "command\r\n";
+    for (const Growth& growth : run.growth) {
+        const std::optional<Exponent> exponent = exponent_of(growth.points);
+        const std::optional<GrowthBreak> broken = break_of(growth.points);
+        std::string fit =
+            exponent ? fmt::format("{},{},{}", exponent->value, exponent->low, exponent->high)
+                     : ",,";
+        fit += broken ? fmt::format(",{},{},{}", broken->size, broken->below.value,
+                                    broken->above.value)
+                      : ",,,";
+        for (const GrowthPoint& point : growth.points) {
+            const TimeInterval ms = median_interval(point.samples);
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", field(growth.axis),
+                               field(growth.scene), field(growth.technique), point.size, ms.median,
+                               ends_of(ms), point.samples.size(), is_settled(point.samples), fit,
+                               field(growth.command));
+        }
+    }
+    return csv;
+}
+
 std::string bench_csv(const BenchRun& run) {
+    if (run.points.empty() && !run.growth.empty()) return growth_csv(run);
     const std::vector<std::string> causes = causes_in(run);
     std::string csv = "scene,technique,settings,ms_median,ms_low,ms_high,samples,settled,pixels,"
                       "wrong,wrong_share,falsely_lit_share,falsely_shadowed_share,color_rmse,"
@@ -68,9 +98,9 @@ std::string bench_csv(const BenchRun& run) {
             return pixels / static_cast<double>(error.pixels);
         };
         csv +=
-            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
-                        field(point.technique), field(words_of(point.settings)), ms.median, ms.low,
-                        ms.high, point.samples.size(), is_settled(point.samples), error.pixels,
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
+                        field(point.technique), field(words_of(point.settings)), ms.median,
+                        ends_of(ms), point.samples.size(), is_settled(point.samples), error.pixels,
                         wrong_pixels(error), share(static_cast<double>(wrong_pixels(error))),
                         share(error.falsely_lit), share(error.falsely_shadowed));
         csv += error.color ? fmt::format(",{},{},{}", error.color->rmse, error.color->percentile999,

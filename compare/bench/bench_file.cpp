@@ -43,6 +43,7 @@ void time(const JsonPlace& place) {
     object(place, {{"median", milliseconds},
                    {"low", milliseconds},
                    {"high", milliseconds},
+                   {"interval", boolean, Need::optional},
                    {"settled", boolean},
                    {"samples", some_of<milliseconds>}});
     const auto samples = place.value.at("samples").get<std::vector<double>>();
@@ -50,6 +51,8 @@ void time(const JsonPlace& place) {
     if (place.value.at("median") != interval.median || place.value.at("low") != interval.low ||
         place.value.at("high") != interval.high || place.value.at("settled") != is_settled(samples))
         refuse(place, "is not the interval of its samples");
+    if (place.value.value("interval", interval.is_known) != interval.is_known)
+        refuse(place.at("interval"), "is not so by the number of its samples");
 }
 
 /// `count`: of the point's own samples.
@@ -133,6 +136,7 @@ void scene(const JsonPlace& place) {
 void left_out(const JsonPlace& place) {
     object(place, {{"scene", text},
                    {"technique", text, Need::optional},
+                   {"axis", some_text, Need::optional},
                    {"settings", settings, Need::optional},
                    {"why", text}});
 }
@@ -157,6 +161,7 @@ void growth(const JsonPlace& place) {
     object(place, {{"axis", some_text},
                    {"scene", text},
                    {"technique", some_text},
+                   {"family", some_text, Need::optional},
                    {"command", text},
                    {"points", some_of<growth_point>},
                    {"exponent", exponent, Need::optional},

@@ -17,11 +17,9 @@ Json settings_json(const BenchSettings& settings) {
 
 Json time_json(const std::vector<double>& samples) {
     const TimeInterval interval = median_interval(samples);
-    return {{"median", interval.median},
-            {"low", interval.low},
-            {"high", interval.high},
-            {"settled", is_settled(samples)},
-            {"samples", samples}};
+    return {{"median", interval.median},      {"low", interval.low},
+            {"high", interval.high},          {"interval", interval.is_known},
+            {"settled", is_settled(samples)}, {"samples", samples}};
 }
 
 Json stages_json(const std::vector<BenchStage>& stages) {
@@ -59,11 +57,10 @@ Json exponent_json(const Exponent& exponent) {
 }
 
 Json growth_json(const Growth& growth) {
-    Json json{{"axis", growth.axis},
-              {"scene", growth.scene},
-              {"technique", growth.technique},
-              {"command", growth.command},
-              {"points", Json::array()}};
+    Json json{{"axis", growth.axis}, {"scene", growth.scene}, {"technique", growth.technique}};
+    if (!growth.family.empty()) json["family"] = growth.family;
+    json["command"] = growth.command;
+    json["points"] = Json::array();
     for (const GrowthPoint& point : growth.points)
         json["points"].push_back({{"size", point.size}, {"ms", time_json(point.samples)}});
     if (const auto exponent = exponent_of(growth.points))
@@ -111,6 +108,7 @@ Growth growth_of(const Json& json) {
     Growth growth{.axis = json.at("axis"),
                   .scene = json.at("scene"),
                   .technique = json.at("technique"),
+                  .family = json.value("family", ""),
                   .command = json.at("command"),
                   .points = {}};
     for (const Json& point : json.at("points"))
@@ -154,6 +152,7 @@ Json bench_json(const BenchRun& run) {
     for (const BenchLeftOut& out : run.left_out) {
         Json left{{"scene", out.scene}};
         if (!out.technique.empty()) left["technique"] = out.technique;
+        if (!out.axis.empty()) left["axis"] = out.axis;
         if (!out.settings.empty()) left["settings"] = settings_json(out.settings);
         left["why"] = out.why;
         if (out.loss != Loss::none) left["loss"] = name_of(out.loss);
@@ -186,7 +185,7 @@ BenchRun bench_of_json(const Json& json) {
     for (const Json& out : json.at("left_out"))
         run.left_out.push_back({out.at("scene"), out.value("technique", ""),
                                 settings_of(out.value("settings", Json::object())), out.at("why"),
-                                loss_of(out.value("loss", ""))});
+                                loss_of(out.value("loss", "")), out.value("axis", "")});
     for (const Json& growth : json.at("scaling")) run.growth.push_back(growth_of(growth));
     return run;
 }

@@ -80,6 +80,7 @@ struct BenchLeftOut {
     BenchSettings settings{};
     std::string why{};
     Loss loss = Loss::none; ///< if not none, it was tried, and the run fails
+    std::string axis{};     ///< of growth, if it was measured along one
 };
 
 /// The machine that measured.

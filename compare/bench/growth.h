@@ -32,6 +32,7 @@ struct Growth {
     std::string axis{}; ///< "pixels", "triangles"
     std::string scene{};
     std::string technique{};
+    std::string family{}; ///< empty where it is not known
     std::string command{};
     std::vector<GrowthPoint> points{}; ///< by size
 };

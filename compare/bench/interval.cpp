@@ -29,14 +29,19 @@ TimeInterval median_interval(std::vector<double> samples) {
     std::sort(samples.begin(), samples.end());
     const std::size_t n = samples.size();
     const double median = (samples[(n - 1) / 2] + samples[n / 2]) / 2;
-    const std::size_t rank = n < least_samples ? 1 : rank_of_ends(n);
-    return {median, samples[rank - 1], samples[n - rank]};
+    const bool is_known = n >= least_samples;
+    const std::size_t rank = is_known ? rank_of_ends(n) : 1;
+    return {median, samples[rank - 1], samples[n - rank], is_known};
 }
 
 bool is_settled(const std::vector<double>& samples) {
-    if (samples.size() < least_samples) return false;
     const TimeInterval interval = median_interval(samples);
-    return interval.low >= 0.95 * interval.median && interval.high <= 1.05 * interval.median;
+    return interval.is_known && interval.low >= 0.95 * interval.median &&
+           interval.high <= 1.05 * interval.median;
+}
+
+bool is_surely_slower(const TimeInterval& slower, const TimeInterval& quicker) {
+    return slower.is_known && quicker.is_known && slower.low > quicker.high;
 }
 
 } // namespace shadowproof

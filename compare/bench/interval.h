@@ -11,6 +11,9 @@ struct TimeInterval {
     double median = 0;
     double low = 0;
     double high = 0;
+    /// Whether low and high are the ends of a 95 % interval. If not, they are the least and the
+    /// greatest sample, and say nothing of the true median.
+    bool is_known = false;
 };
 
 /// Fewer samples give no interval of 95 %: the least and the greatest of five hold the median
@@ -19,10 +22,13 @@ inline constexpr std::size_t least_samples = 6;
 
 /// The sample median and the order statistics that hold the true median between them in 95 % of
 /// cases, whatever the distribution (the sign test's interval; Conover 1999, section 3.2). It takes
-/// samples for independent. Of fewer than least_samples: the least and the greatest. Of none: zero.
+/// samples for independent. Of fewer than least_samples there is none. Of none: zero.
 TimeInterval median_interval(std::vector<double> samples);
 
 /// Whether there are enough samples and both ends lie within 5 % of the median.
 bool is_settled(const std::vector<double>& samples);
+
+/// Whether all of `slower`'s interval lies above all of `quicker`'s. Never without both intervals.
+bool is_surely_slower(const TimeInterval& slower, const TimeInterval& quicker);
 
 } // namespace shadowproof

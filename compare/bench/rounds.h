@@ -23,6 +23,9 @@ struct RoundCalls {
     std::function<void()> after_round;
 };
 
+/// A point whose last sample took longer waits until all quicker ones are done.
+inline constexpr double patience = 1000; // milliseconds
+
 /// Appends samples to those of each point until each is settled or a limit is reached. A settled
 /// point is measured no more. Every second round goes backwards: no point always follows the same
 /// other.

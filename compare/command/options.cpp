@@ -108,6 +108,19 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
                 " (each technique's own)")
         ->type_name("HOW");
     command
+        .add_option("--cube-size", settings.cube_size,
+                    fmt::format("Texels a side of the cube map's faces, with --normalise cube-map "
+                                "or where that is the technique's own ({})",
+                                usual_cube_size))
+        ->type_name("N")
+        ->check(CLI::Range(2, largest_cube_size));
+    command
+        .add_option("--newton-steps", settings.newton_steps,
+                    fmt::format("Steps from the guess, with --normalise newton-raphson ({})",
+                                usual_newton_steps))
+        ->type_name("N")
+        ->check(CLI::Range(0, most_newton_steps));
+    command
         .add_option_function<std::string>(
             "--bumps",
             [&](const std::string& text) {
@@ -361,6 +374,8 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
     const LightingSettings& lighting = technique.asked.lighting;
     if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
+    if (lighting.cube_size) add("--cube-size", fmt::format("{}", *lighting.cube_size));
+    if (lighting.newton_steps) add("--newton-steps", fmt::format("{}", *lighting.newton_steps));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
     if (const std::optional<double>& extrusion = technique.asked.volumes.extrusion)
         add("--extrusion", fmt::format("{}", *extrusion));

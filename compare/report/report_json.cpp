@@ -45,6 +45,10 @@ Json color_of(const ColorCheck& colors) {
                 {"widest", colors.bound_width.widest}}},
               {"normalise", name_of(colors.model.normalisation)},
               {"bumps", name_of(colors.model.bump_form)}};
+    if (colors.model.normalisation == Normalisation::cube_map)
+        json["cube_size"] = colors.model.cube_size;
+    if (colors.model.normalisation == Normalisation::newton_raphson)
+        json["newton_steps"] = colors.model.newton_steps;
     for (const ColorTerm term : all_color_terms)
         if (const std::uint64_t pixels = colors.beyond_by[static_cast<std::size_t>(term)])
             json["beyond_by"][std::string(name_of(term))] = pixels;

@@ -165,6 +165,8 @@ void color(const JsonPlace& place) {
                    {"bound_width", bound_width, Need::optional},
                    {"first_unpredicted", place_in_picture, Need::optional},
                    {"normalise", text},
+                   {"cube_size", size, Need::optional},
+                   {"newton_steps", count, Need::optional},
                    {"bumps", text}});
 }
 

@@ -18,8 +18,10 @@ const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
 
 const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pixel + 3));
 
-function modelWords({ normalise, bumps }) {
-  return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}`}, ` +
+function modelWords({ normalise, cube_size: texels, newton_steps: steps, bumps }) {
+  const how = texels ? ` of ${texels} texels a side`
+    : steps !== undefined ? `, ${counted(steps, 'step')}` : '';
+  return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}${how}`}, ` +
     `bumps as ${bumps === 'as-given' ? 'given' : bumps}`;
 }
 

@@ -122,7 +122,7 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, const ColorModel
     }
     pass.white = upload_texels(gl, Image<glm::vec4>(1, 1, glm::vec4(1)));
     if (model.normalisation == Normalisation::cube_map)
-        pass.unit_vectors = upload_cube(gl, make_normalisation_cube());
+        pass.unit_vectors = upload_cube(gl, make_normalisation_cube(model.cube_size));
     if (model.bump_form == BumpForm::indexed) pass.normal_table = upload_normal_table(gl);
 }
 
@@ -220,13 +220,14 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
 /// A fragment shader, preceded by constants for what is the same in all draws: llvmpipe runs both
 /// sides of a branch, whichever is taken.
 std::string with_constants(const ShaderText& fragment, const LightingPass& pass,
-                           Normalisation normalisation) {
+                           const ColorModel& model) {
     constexpr std::string_view version = "#version 450 core\n";
     assert(fragment.text.starts_with(version));
     unsigned forms = 0;
     for (const BumpMap& bumps : pass.bumps) forms |= 1U << static_cast<unsigned>(bumps.form);
     return std::string(version) +
-           "const int normalisation = " + std::to_string(static_cast<int>(normalisation)) +
+           "const int normalisation = " + std::to_string(static_cast<int>(model.normalisation)) +
+           ";\nconst int newton_steps = " + std::to_string(model.newton_steps) +
            ";\nconst int forms_in_use = " + std::to_string(forms) + ";\n#line 2\n" +
            std::string(fragment.text.substr(version.size()));
 }
@@ -237,7 +238,7 @@ LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipT
     const glm::dmat3 axes = recipe.model.axes == ColorModel::Axes::eye
                                 ? view_from_eye_relative(scene.camera)
                                 : glm::dmat3(1);
-    const std::string fragment = with_constants(step.fragment, pass, recipe.model.normalisation);
+    const std::string fragment = with_constants(step.fragment, pass, recipe.model);
     const std::array stages{shader_file("lit.vert"), ShaderText{step.fragment.file, fragment}};
     LightingProgram made{link(gl, stages), step.where, step.blend};
     set_transform(gl, made.program, transform);

@@ -17,16 +17,17 @@ struct NormalisationCube {
     int size = 0;
     CubeFaces<glm::u8vec3> faces{};
 };
-NormalisationCube make_normalisation_cube(int size = 64);
+NormalisationCube make_normalisation_cube(int size);
 
 /// The result of a lookup: 2 rgb - 1 of the interpolated texels. Zero where the vector is zero.
 glm::dvec3 looked_up(const NormalisationCube& cube, const glm::dvec3& vector);
 
-/// Error bound of one component of a lookup computed in floats, for a cube of 64 texels per side:
-/// the place among the texels is rounded three times, by up to 64 units of 2^-24, and neighbours
-/// differ by 4/64 and a step of 2/255 at most; the interpolation's own four roundings are of
-/// numbers up to 1.
-inline constexpr double cube_lookup_error =
-    3 * 64 * float_roundoff * 2 * (4 / 64.0 + 2 / 255.0) + 8 * float_roundoff;
+/// Error bound of one component of a lookup computed in floats, in a cube of `size` texels a side:
+/// the place among the texels is rounded three times, by up to `size` units of 2^-24, and
+/// neighbours differ by 4/size and a step of 2/255 at most; the interpolation's own four roundings
+/// are of numbers up to 1.
+constexpr double cube_lookup_error(int size) {
+    return 3 * size * float_roundoff * 2 * (4.0 / size + 2 / 255.0) + 8 * float_roundoff;
+}
 
 } // namespace shadowproof

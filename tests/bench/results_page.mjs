@@ -1,7 +1,10 @@
-// Measures four scenes, and writes docs/results.md with their plots.
+// Measures four scenes, and `auto` on further ones, and writes docs/results.md with the plots.
 //   SHADOWPROOF=build/release/shadowproof node tests/bench/results_page.mjs [SECONDS PER SCENE]
-//   SHADOWPROOF=... node tests/bench/results_page.mjs FOLDER   (of a plot: measures nothing)
-// Nothing else should run meanwhile: times are compared within one run.
+//   SHADOWPROOF=... node tests/bench/results_page.mjs FOLDER [SECONDS]   (that it measured into, with so
+//   many seconds: measures nothing)
+// `auto` gets a quarter of the seconds, as a run of it has a fifth of the points.
+// Nothing else should run meanwhile: times are compared within one run. Ends with 1 where `auto` is
+// slower than the quickest technique that is right, beyond both intervals.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -9,10 +12,15 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
+import { named } from '../viewer/scripts.mjs';
+
+const { hasInterval, isSurelySlower, quickestRight, wrongPixels } =
+  named(['numbers.js', 'bench/figures.js'],
+        ['hasInterval', 'isSurelySlower', 'quickestRight', 'wrongPixels']);
 
 const scenes = ['near_plane', 'thin_caster', 'idle_casters', 'walking_figure'];
 const measuredBefore = existsSync(process.argv[2] ?? '');
-const seconds = measuredBefore ? '60' : process.argv[2] ?? '60';
+const seconds = (measuredBefore ? process.argv[3] : process.argv[2]) ?? '120';
 const program = process.env.SHADOWPROOF;
 assert.ok(program || measuredBefore, 'SHADOWPROOF names no program');
 const docs = fileURLToPath(new URL('../../docs', import.meta.url));
@@ -20,13 +28,19 @@ const docs = fileURLToPath(new URL('../../docs', import.meta.url));
 const folder = measuredBefore ? process.argv[2] : mkdtempSync(join(tmpdir(), 'shadowproof-results-'));
 console.log(`the plot is in ${folder}`);
 
-function measured() {
-  if (measuredBefore) return JSON.parse(readFileSync(join(folder, 'results.json'), 'utf8'));
-  const args = ['bench', ...scenes, '--seconds', seconds, '--out', folder,
-                '--no-pictures'];
-  const { status } = spawnSync(program, args, { stdio: 'inherit' });
-  assert.equal(status, 0, `shadowproof ${args.join(' ')} ended with ${status}`);
-  return JSON.parse(readFileSync(join(folder, 'results.json'), 'utf8'));
+const manyScenes = [...scenes, 'ordinary', 'far_plane', 'eye_inside', 'nested'];
+/** Shadow volumes without settings that are swept. */
+const volumeTechniques = ['zpass', 'zfail', 'zfail_clamp', 'zfail_infinite', 'zfail_reversed',
+  'zfail_half_edge', 'zfail_degenerate_quads', 'zfail_geometry_shader', 'zfail_per_triangle', 'zpass_capped',
+  'zpass_eye_count', 'zp_plus', 'invert', 'zfail_float', 'auto'];
+
+function measured(out, names, most, ...more) {
+  if (!measuredBefore) {
+    const args = ['bench', ...names, '--seconds', String(most), '--out', out, '--no-pictures', ...more];
+    const { status } = spawnSync(program, args, { stdio: 'inherit' });
+    assert.equal(status, 0, `shadowproof ${args.join(' ')} ended with ${status}`);
+  }
+  return JSON.parse(readFileSync(join(out, 'results.json'), 'utf8'));
 }
 
 /** Each scene's plot, as the page's own button saves it. */
@@ -46,7 +60,8 @@ async function savePlots() {
   await browser.close();
 }
 
-const run = measured();
+const run = measured(folder, scenes, seconds);
+const autos = measured(join(folder, 'auto'), manyScenes, Number(seconds) / 4, '--technique', volumeTechniques.join(','));
 await savePlots();
 
 const isOwn = (point, settings) =>
@@ -65,8 +80,8 @@ const percent = (pixels, point) => {
   const share = 100 * pixels / point.pixels;
   return share === 0 ? '0' : `${Number(share.toPrecision(2))} %`;
 };
-const ms = ({ ms: { median, low, high } }) =>
-  `${median.toPrecision(3)} (${low.toPrecision(3)} to ${high.toPrecision(3)})`;
+const ms = ({ ms: time }) => `${time.median.toPrecision(3)} ` + (hasInterval(time)
+  ? `(${time.low.toPrecision(3)} to ${time.high.toPrecision(3)})` : '(no interval)');
 const times = (a, b) => `${(a.ms.median / b.ms.median).toFixed(2)} times`;
 const stageShare = (point, name) => {
   const sum = Object.values(point.stages).reduce((all, { median }) => all + median, 0);
@@ -112,12 +127,22 @@ const summary = table(
       percent(wrong(bestBias(scene)[1]), map(scene)))],
   ]);
 
-const gains = table(['scene', '`auto`, ms', '`zfail_reversed`, ms', '`auto` takes', 'wrong, both'],
-  scenes.map((scene) => {
-    const auto = pointOf(scene, 'auto');
-    return [`\`${scene}\``, ms(auto), ms(volumes(scene)), times(auto, volumes(scene)),
-            `${wrong(auto)}, ${wrong(volumes(scene))}`];
-  }));
+/** `auto`, the quickest other technique that is right, and zfail_reversed, on a scene. */
+const comparedOn = (scene) => {
+  const points = autos.points.filter((point) => point.scene === scene);
+  const find = (technique) => points.find((point) => point.technique === technique);
+  return { scene, auto: find('auto'), best: quickestRight(points), usual: find('zfail_reversed') };
+};
+const compared = manyScenes.map(comparedOn);
+const slower = compared.filter(({ auto, best }) => best && isSurelySlower(auto.ms, best.ms));
+const quicker = compared.filter(({ auto, best }) => best && isSurelySlower(best.ms, auto.ms));
+const isTimed = ({ auto, best }) => best && hasInterval(auto.ms) && hasInterval(best.ms);
+const gains = table(['scene', '`auto`, ms', 'quickest other that is right, ms', '`auto` takes', 'of `zfail_reversed`',
+                     'pixels of `auto` wrong'],
+  compared.map(({ scene, auto, best, usual }) => [`\`${scene}\``, ms(auto),
+    best ? `\`${best.technique}\` ${ms(best)}` : 'none', best ? times(auto, best) : '–', times(auto, usual),
+    String(wrongPixels(auto))]));
+const sceneWords = (all) => all.map(({ scene }) => `\`${scene}\``).join(', ') || 'none';
 
 const truths = table(['scene', 'truth, ms', '`zfail_reversed`, ms', 'truth takes'],
   scenes.map((scene) => {
@@ -126,6 +151,8 @@ const truths = table(['scene', 'truth, ms', '`zfail_reversed`, ms', 'truth takes
   }));
 
 const { gl, embree, machine, version } = run;
+const timed = run.points.filter(({ ms: time }) => hasInterval(time));
+const settled = run.points.filter(({ ms: time }) => time.settled);
 writeFileSync(join(docs, 'results.md'), `# Results
 
 What [\`shadowproof bench\`](bench.md) measured on four bundled scenes at ${run.scenes[0].width}x${run.scenes[0].height}. This page is made
@@ -138,7 +165,8 @@ SHADOWPROOF=build/release/shadowproof node tests/bench/results_page.mjs ${second
 shadowproof ${version}, ${gl.renderer}, OpenGL ${gl.version}, Embree ${embree}; ${machine.processor},
 ${machine.cores} cores, ${machine.system}. This is OpenGL in software: times compare techniques with each other
 on this machine, and say nothing of a graphics card. Milliseconds are medians, with their 95 %
-intervals. Pixels that differ at an edge are not wrong.
+intervals, where there are six samples for one: ${timed.length} of ${run.points.length} points have an interval, and of ${settled.length}
+it is within 5 % of the median.${settled.length < run.points.length / 2 ? ' Most are wider: the machine was not quiet. Ratios of times whose\nintervals overlap say little.' : ''} Pixels that differ at an edge are not wrong.
 
 ## Maps against volumes
 
@@ -150,6 +178,10 @@ volumes and shadow maps. These are its statements and what they come to here. Vo
 ${summary}
 
 ## What \`auto\` gains
+
+A run of its own, of ${volumeTechniques.length} techniques of shadow volumes. Beyond both intervals \`auto\` is slower than the
+quickest other technique that is right on these scenes: ${sceneWords(slower)}; and quicker than it on these:
+${sceneWords(quicker)}. On ${compared.filter(isTimed).length} of ${compared.length} scenes both have an interval.
 
 ${gains}
 
@@ -169,3 +201,8 @@ ${scenes.map((scene) => `
 
 ![Error against run time on ${scene}](results/${scene}.svg)
 `).join('')}`);
+
+if (slower.length > 0) {
+  console.error(`auto is slower than the quickest that is right on ${sceneWords(slower)}`);
+  process.exitCode = 1;
+}

@@ -1,11 +1,12 @@
-// `shadowproof bench` as its users meet it. No test holds a time, and one an order of times: all
-// else that is judged is recorded, or does not depend on the clock.
+// `shadowproof bench` as its users meet it. No test holds a time, nor an order of times, which
+// tests/bench/results_page.mjs measures: all that is judged is recorded, or does not depend on the clock.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { existsSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import Ajv from 'ajv/dist/2020.js';
+import { timeOf } from '../viewer/bench_run.mjs';
 import { filesBelow, isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
 
 const schema = JSON.parse(readFileSync(new URL('../../docs/bench.schema.json', import.meta.url)));
@@ -33,6 +34,7 @@ function benched(name, args) {
 }
 
 const shadows = benched('shadows.json', ['near_plane', '--csv', 'shadows.csv']);
+const bumpy = benched('bumpy.json', ['bumpy_torus']);
 const colors = benched('colors.json', ['bumpy_torus', '--technique', 'bump_one_pass,zfail']);
 
 test('what it writes is valid by its schema', () => {
@@ -62,14 +64,18 @@ test('settings are swept one at a time, each but the technique\'s own', () => {
   const swept = colors.points.filter(({ technique }) => technique === 'bump_one_pass');
   const [own, ...others] = swept;
   assert.deepEqual(own.settings, {});
-  assert.deepEqual(Object.keys(own.own), ['normalise', 'bumps']);
-  assert.ok(others.length >= 4);
-  for (const { settings, own: made } of others) {
-    const [[name, value], ...more] = Object.entries(settings);
-    assert.equal(more.length, 0);
-    assert.notEqual(value, own.own[name]);
-    assert.equal(made[name], value);
-  }
+  assert.deepEqual(own.own, { normalise: 'cube-map', 'cube-size': '64', bumps: 'normal-map' });
+  const sweptWords = others.map(({ settings }) =>
+    Object.entries(settings).map((each) => each.join('=')).join(' '));
+  assert.deepEqual(sweptWords.filter((words) => !words.startsWith('bumps')),
+                   ['normalise=exact', 'normalise=newton-raphson',
+                    ...[8, 16, 32, 128, 256].map((size) => `cube-size=${size}`),
+                    ...[0, 2, 3].map((steps) => `normalise=newton-raphson newton-steps=${steps}`)]);
+  for (const { settings, own: made } of others)
+    for (const [name, value] of Object.entries(settings)) {
+      assert.notEqual(value, own.own[name]);
+      assert.equal(made[name], value);
+    }
   // A normal map is no height field: that is said, and is no failure.
   assert.deepEqual(colors.left_out.map(({ settings }) => settings), [{ bumps: 'height-field' }]);
   assert.ok(colors.points.every(({ technique, color }) =>
@@ -118,29 +124,38 @@ function assertFalls(technique, name, values) {
 }
 const ownOf = (technique) => pointOf(shadows, { technique, settings: {} }).own;
 
+const rmseOf = (name, words) => bumpy.points.find(({ technique, settings }) => technique === name &&
+  Object.entries(settings).map((each) => each.join('=')).join(' ') === words).color.rmse;
+
+test('the mean of more rays over the pixel is nearer to that of most, and has no classes of its own', () => {
+  assertValid(bumpy);
+  const means = bumpy.points.filter(({ technique, settings }) => technique === 'truth' && settings.samples);
+  assert.deepEqual(means.map(({ settings }) => settings.samples), ['1', '4', '16', '64']); // with --quick
+  means.forEach(({ color }, i) => assert.ok(i === 0 || color.rmse < means[i - 1].color.rmse));
+  assert.equal(means.at(-1).color.rmse, 0);
+  assert.ok(means.every(({ differing, color }) => differing === 0 && color.p999 <= color.largest));
+  // None where a technique is named, which they would outlast, nor where no colours are lit.
+  for (const { points } of [colors, shadows])
+    assert.equal(points.filter(({ technique }) => technique === 'truth').length, 1);
+});
+
 test('errors come in the order that theory gives', () => {
   const map = 'cube_map_six_pass';
   assertFalls(map, 'map-size', ['64', '256', '1024', '4096']);
   assertFalls(map, 'map-bias', ['0', '0.01', ownOf(map)['map-bias']]); // acne, up to what it must be
+  // What the cube map's rounding and mixing cost falls with its size, and Newton's steps each square
+  // their error. The technique is right but for these where it lights in floats.
+  const rmse = (words) => rmseOf('bump_tangent_space', words);
+  const falls = (names) => names.map(rmse).forEach((error, i, all) =>
+    assert.ok(i === 0 || error < all[i - 1], all.join(' ')));
+  falls([8, 16, 32].map((size) => `normalise=cube-map cube-size=${size}`));
+  falls([0, 2].map((steps) => `normalise=newton-raphson newton-steps=${steps}`));
+  assert.ok(rmse('normalise=newton-raphson') < rmse('normalise=newton-raphson newton-steps=0'));
+  assert.ok(rmse('normalise=newton-raphson newton-steps=2') < rmse('normalise=newton-raphson'));
   const lengths = shadows.points.filter(({ technique }) => technique === 'zfail_truncated')
     .map(({ own }) => own.extrusion).sort((a, b) => Number(a) - Number(b));
   assert.equal(lengths.length, 6);
   assertFalls('zfail_truncated', 'extrusion', lengths);
-});
-
-test('where most casters are idle, auto is not slower than any technique that is right', () => {
-  const isSlower = (attempt) => {
-    const run = shadowproof(['bench', 'idle_casters', '--quick', '--repeats', '9', '-q', '--technique',
-      'zpass,zfail,zfail_clamp,zfail_infinite,zfail_reversed,zp_plus,auto', '--json', `auto${attempt}.json`]);
-    assert.equal(run.code, 0, run.err);
-    const { points } = written(`auto${attempt}.json`);
-    const right = points.filter((point) => point.technique !== 'truth' && wrongPixels(point) === 0);
-    const auto = right.find(({ technique }) => technique === 'auto');
-    assert.ok(auto && right.length > 1);
-    return auto.ms.low > Math.min(...right.map(({ ms }) => ms.high));
-  };
-  // A moment in which the machine is busy with something else is measured again.
-  assert.ok([1, 2, 3].some((attempt) => !isSlower(attempt)));
 });
 
 test('wrong usage and bad input are named, with a remedy', () => {
@@ -253,22 +268,32 @@ test('a folder keeps what the program did not write', () => {
   assert.equal(refused.code, 3);
 });
 
-/** `shadows` with every time of one technique multiplied. */
-function changedRun(technique, factor, more = () => {}) {
+/** `shadows` as if each sample had been taken so many times. */
+function repeatedRun(count) {
   const run = structuredClone(shadows);
+  for (const point of run.points) {
+    point.ms = timeOf(Array(count).fill(point.ms.median));
+    for (const stage of Object.values(point.stages ?? {})) stage.samples = Array(count).fill(stage.median);
+  }
+  return run;
+}
+
+/** The same with every time of one technique multiplied. */
+function changedRun(technique, factor, { count = 6, more = () => {} } = {}) {
+  const run = repeatedRun(count);
   const point = run.points.find((each) => each.technique === technique);
-  const ms = factor * point.ms.median;
-  point.ms = { median: ms, low: ms, high: ms, settled: false, samples: [ms] };
+  point.ms = timeOf(Array(count).fill(factor * point.ms.median));
   more(point);
   return run;
 }
 
 test('a loss beyond both intervals exits with 1 and is named; a gain does not', () => {
-  const against = (run) => {
+  write('repeated.json', repeatedRun(6));
+  const against = (run, from = 'repeated.json') => {
     write('older.json', run);
-    return shadowproof(['bench', '--from', 'shadows.json', '--against', 'older.json', '--out', 'plot']);
+    return shadowproof(['bench', '--from', from, '--against', 'older.json', '--out', 'plot']);
   };
-  const same = against(shadows);
+  const same = against(repeatedRun(6));
   assert.equal(same.code, 0, same.out + same.err);
   const slower = against(changedRun('zfail', 0.5));
   assert.equal(slower.code, 1);
@@ -276,12 +301,20 @@ test('a loss beyond both intervals exits with 1 and is named; a gain does not', 
   const quicker = against(changedRun('zfail', 2));
   assert.equal(quicker.code, 0);
   assert.match(quicker.out, /^gain: near_plane zfail: .* ms/m);
-  const wrong = against(changedRun('zpass', 1, (point) => {
+  assert.match(quicker.out, /^order: near_plane \w.* is quicker than .* now, and was slower/m);
+  // Without both intervals a time is neither.
+  for (const few of [against(changedRun('zfail', 0.5, { count: 5 })),
+                     against(changedRun('zfail', 0.5), 'shadows.json')]) {
+    assert.equal(few.code, 0, few.out);
+    assert.doesNotMatch(few.out, /^(loss|gain|order):/m);
+    assert.match(few.out, /^note: the times of [\d,]+ points are not compared: fewer than 6 samples/m);
+  }
+  const wrong = against(changedRun('zpass', 1, { more: (point) => {
     point.causes.near_plane -= 1;
     point.differing -= 1;
     point.falsely_lit = Math.max(0, point.falsely_lit - 1);
     point.falsely_shadowed = Math.max(0, point.falsely_shadowed - 1);
-  }));
+  } }));
   assert.equal(wrong.code, 1);
   assert.match(wrong.out, /^loss: near_plane zpass: [\d,]+ pixels wrong, was /m);
 });
@@ -304,6 +337,71 @@ test('a run that was stopped goes on: what is finished is not measured again', (
   // Finished: nothing is measured at all.
   assert.equal(shadowproof(args).code, 0);
   assert.deepEqual(written('half.json'), whole);
+});
+
+/** Points of two runs without their commands' order: by scene, technique and settings. */
+const named = ({ scene, technique, settings }) => `${scene} ${technique} ${JSON.stringify(settings)}`;
+function assertHolds(whole, part) {
+  const points = new Map(whole.points.map((point) => [named(point), point]));
+  for (const point of part.points) assert.deepEqual(points.get(named(point)), point, named(point));
+}
+
+test('a run that goes on keeps scenes, techniques and lines that it does not name', () => {
+  const two = ['--technique', 'zfail,zpass', ...least, '--json', 'many.json'];
+  const many = shadowproof(['bench', 'near_plane', 'thin_caster', ...two]);
+  assert.equal(many.code, 0, many.err);
+  const before = written('many.json');
+  // Another technique of one scene, and another scene.
+  const more = (args) => {
+    const run = shadowproof(['bench', ...args, ...least, '--json', 'many.json', '--resume', '--out', 'many']);
+    assert.equal(run.code, 0, run.err);
+    const whole = written('many.json');
+    assertValid(whole);
+    assertHolds(whole, before);
+    assert.ok(whole.finished && whole.scenes.every(({ finished }) => finished));
+    assert.deepEqual(written('many/results.json'), whole);
+    return whole;
+  };
+  const added = more(['near_plane', '--technique', 'zp_plus']);
+  assert.equal(added.points.length, before.points.length + 1);
+  const another = more(['idle_casters', '--technique', 'zfail']);
+  assert.deepEqual(another.scenes.map(({ name }) => name).sort(),
+                   ['idle_casters', 'near_plane', 'thin_caster']);
+  // What is there is not measured again, in whatever order it is named.
+  assert.deepEqual(more(['thin_caster', 'near_plane', '--technique', 'zpass']).points.length,
+                   another.points.length);
+});
+
+test('a run that goes on keeps the points of a scene that is now another, and does not mix them', () => {
+  const changed = structuredClone(shadows);
+  changed.scenes[0].digest = '0000000000000000';
+  write('changed.json', changed);
+  const run = shadowproof(['bench', 'near_plane', 'thin_caster', '--technique', 'zfail', ...least,
+                           '--json', 'changed.json', '--resume']);
+  assert.equal(run.code, 3);
+  assert.match(run.err, /changed\.json: cannot be gone on with: the content, size or light of its scene near_plane/);
+  const whole = written('changed.json');
+  assertHolds(whole, changed);
+  assert.ok(whole.points.some(({ scene }) => scene === 'thin_caster'));
+});
+
+test('a run that is interrupted while it goes on loses nothing of what was there', async () => {
+  write('going.json', { ...shadows, finished: false });
+  const run = spawn(process.env.SHADOWPROOF, ['bench', 'thin_caster', '--technique', 'zfail', '--quick', '--size',
+    '48x48', '--no-pictures', '--json', 'going.json', '--resume', '--out', 'going', '--repeats', '10000', '--seconds', '100000', '-q'],
+                    { cwd: scratch });
+  const ended = new Promise((done) => run.on('exit', done));
+  const isReached = () => written('going.json').scenes.length > 1; // it is replaced whole
+  while (!isReached() && run.exitCode === null) await new Promise((done) => setTimeout(done, 50));
+  run.kill('SIGINT');
+  await ended;
+  const part = written('going.json');
+  assertValid(part);
+  assertHolds(part, shadows);
+  assert.equal(part.finished, false);
+  assert.deepEqual(part.scenes.map(({ name, finished }) => [name, finished]),
+                   [['thin_caster', false], ['near_plane', true]]);
+  assert.ok(part.points.some(({ scene }) => scene === 'thin_caster'));
 });
 
 test('a run that is interrupted keeps what it has, whole, and leaves nothing else', async () => {
@@ -360,6 +458,45 @@ test('growth has a line for each technique along each axis', () => {
                              '--json', 'growth.json', '--out', 'growth', '--resume']);
   assert.equal(again.code, 0, again.err);
   assert.deepEqual(JSON.parse(before).scaling, written('growth.json').scaling);
+  // Sizes and lines that lack are measured, and those that are there are left as they are.
+  const half = JSON.parse(before);
+  half.finished = false;
+  half.scaling = half.scaling.filter(({ axis }) => axis !== 'lights');
+  const [cut] = half.scaling;
+  cut.points = cut.points.slice(0, 2);
+  for (const fitted of ['exponent', 'break']) delete cut[fitted];
+  write('growth.json', half);
+  const onward = shadowproof(['bench', 'near_plane', '--scaling', '--quick', '--size', '32x32', '-q', '--technique',
+    'zfail,cube_map_six_pass', '--repeats', '1', '--json', 'growth.json', '--out', 'growth', '--resume', '--csv', 'growth.csv']);
+  assert.equal(onward.code, 0, onward.err);
+  const whole = written('growth.json').scaling;
+  const key = ({ axis, technique }) => `${axis} ${technique}`;
+  assert.deepEqual(whole.map(key), scaling.map(key));
+  whole.forEach((growth, i) => {
+    const isMeasured = growth.axis === 'lights';
+    assert.equal(growth.points.length, scaling[i].points.length);
+    if (i === 0) assert.deepEqual(growth.points.slice(0, 2), scaling[i].points.slice(0, 2));
+    else if (!isMeasured) assert.deepEqual(growth, scaling[i]);
+  });
+  assert.deepEqual(whole.map(({ family }) => family), whole.map(({ technique }) =>
+    ({ truth: 'truth', zfail: 'stencil', cube_map_six_pass: 'map' })[technique]));
+  const lines = readFileSync(join(scratch, 'growth.csv'), 'utf8').trim().split('\r\n');
+  assert.equal(lines.length, 1 + whole.reduce((sum, { points: sizes }) => sum + sizes.length, 0));
+});
+
+test('growth that is interrupted keeps the sizes that it has', async () => {
+  const args = ['bench', 'near_plane', '--scaling', '--size', '32x32', '-q', '--technique', 'zfail', '--repeats', '1',
+                '--json', 'grows.json', '--out', 'grows'];
+  const run = spawn(process.env.SHADOWPROOF, args, { cwd: scratch });
+  const ended = new Promise((done) => run.on('exit', done));
+  while (!existsSync(join(scratch, 'grows.json')) && run.exitCode === null)
+    await new Promise((done) => setTimeout(done, 50));
+  run.kill('SIGINT');
+  await ended;
+  const part = written('grows.json');
+  assertValid(part);
+  assert.equal(part.finished, false);
+  assert.ok(part.scaling.length > 0);
 });
 
 test('damaged files are refused with the place and a remedy', () => {

@@ -20,6 +20,8 @@ const wrongUsage = [
   [['verify', '--size', '99999999999x1'], /WIDTHxHEIGHT/],
   [['verify', '--gl', 'vulkan'], /osmesa or egl/],
   [['verify', '--normalise', 'twice'], /'twice'.*exact, cube-map, newton-raphson/],
+  [['verify', '--cube-size', '1'], /--cube-size/],
+  [['verify', '--newton-steps', '4'], /--newton-steps/],
   [['verify', '--bumps', 'pits'], /'pits'.*as-given, height-field, normal-map, derivatives, indexed/],
   [['verify', '--gate', 'open'], /defects or differences/],
   [['verify', '--time', 'noon'], /seconds/],

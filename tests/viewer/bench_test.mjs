@@ -10,9 +10,11 @@ import { keepScreenshot, openReport } from './browser.mjs';
 import { named } from './scripts.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const { frontOf, placeLabels, overlap, textWidth, spreadOut } =
-  named(['numbers.js', 'bench/figures.js', 'bench/layout.js'],
-        ['frontOf', 'placeLabels', 'overlap', 'textWidth', 'spreadOut']);
+const { frontOf, placeLabels, overlap, textWidth, spreadOut, groupOf, changeOf, timeWords, quickestRight,
+        isSurelySlower, fittedLaw, growthLayout, growthTextWidth } =
+  named(['numbers.js', 'bench/figures.js', 'bench/layout.js', 'bench/growth_layout.js'],
+        ['frontOf', 'placeLabels', 'overlap', 'textWidth', 'spreadOut', 'groupOf', 'changeOf', 'timeWords',
+         'quickestRight', 'isSurelySlower', 'fittedLaw', 'growthLayout', 'growthTextWidth']);
 
 /** What a run that kept the pictures of a point has written, each file empty. */
 const picturesOfOnePoint = ['pictures/results.json', 'pictures/results.js',
@@ -181,10 +183,117 @@ test('two runs overlay with arrows: losses, gains, and what lies within the inte
   assert.deepEqual(said, []);
 });
 
-test('growth is drawn with its exponents', async () => {
-  const { page } = await openReport(plot);
-  assert.match(await page.locator('#growth svg').first().innerHTML(),
-               /zfail n\^1\.00 \[1\.00, 1\.00\]/);
+test('times without intervals are no loss and no gain, and are said to have none', () => {
+  const few = (ms) => pointOf('zfail', ms, 0, { ms: timeOf([ms, ms, ms, ms, ms]) });
+  assert.equal(changeOf(pointOf('zfail', 1), pointOf('zfail', 9)), 'loss');
+  assert.equal(changeOf(pointOf('zfail', 9), pointOf('zfail', 1)), 'gain');
+  assert.equal(changeOf(few(1), pointOf('zfail', 9)), 'same');
+  assert.equal(changeOf(pointOf('zfail', 9), few(1)), 'same');
+  assert.match(timeWords(few(2).ms), /^2\.00 ms, no interval \(5 samples, 2\.00 to 2\.00\)$/);
+  assert.match(timeWords(pointOf('zfail', 2).ms), /^2\.00 ms, 95 % within 1\.80 and 2\.20, 6 samples/);
+  const { interval, ...older } = timeOf([1, 1, 1, 1, 1, 1]); // of a file that does not say
+  assert.equal(interval, true);
+  assert.match(timeWords(older), /95 % within/);
+});
+
+test('the quickest technique that is right is neither the truth nor auto', () => {
+  const points = [pointOf('truth', 1), pointOf('auto', 2), pointOf('zpass', 3, 7), pointOf('zfail', 5),
+                  pointOf('zp_plus', 4)];
+  const best = quickestRight(points);
+  assert.equal(best.technique, 'zp_plus');
+  assert.equal(quickestRight(points.slice(0, 3)), null);
+  assert.ok(!isSurelySlower(pointOf('auto', 4.5).ms, best.ms), 'within the intervals');
+  assert.ok(isSurelySlower(pointOf('auto', 6).ms, best.ms));
+});
+
+test('families are told apart in points and in lines of growth, also of older files', () => {
+  const words = ({ technique, family }) => groupOf({ technique, family }).words;
+  assert.equal(words({ technique: 'cube_map_six_pass', family: 'map' }), 'shadow maps');
+  assert.equal(words({ technique: 'spot_map_pcf' }), 'shadow maps');
+  assert.equal(words({ technique: 'traced_skip' }), 'rays in float');
+  assert.equal(words({ technique: 'invert' }), 'other volumes');
+  assert.equal(words({ technique: 'zfail_float', family: 'stencil' }), 'volumes counted behind (z-fail)');
+  assert.equal(words({ technique: 'flat', family: 'another' }), 'other families');
+});
+
+test('a fitted law passes through points of its exponent, and its interval fans out from their middle', () => {
+  const points = [10, 100, 1000].map((size) => ({ size, ms: { median: 3 * size ** 1.5 } }));
+  const law = fittedLaw(points, { value: 1.5, low: 1, high: 2 });
+  for (const { size, ms } of points) assert.ok(Math.abs(law.at(size) / ms.median - 1) < 1e-9);
+  assert.ok(Math.abs(law.middle - 100) < 1e-9);
+  assert.ok(Math.abs(law.at(100, 1) / law.at(100, 2) - 1) < 1e-9);
+  assert.ok(law.at(1000, 1) < law.at(1000) && law.at(1000) < law.at(1000, 2));
+});
+
+test('names, exponents and sizes of growth have room, however many lines there are', () => {
+  const name = 'zfail_degenerate_quads_and_more';
+  const growths = Array.from({ length: 26 }, (_, i) => ({
+    axis: 'triangles', scene: 'dense', technique: `${name}_${i}`, family: 'stencil',
+    points: [1e3, 4e3, 1.6e4, 6.4e4, 2.56e5, 1e6, 4e6].map((size) => ({ size, ms: timeOf([size / 1e3]) })),
+    exponent: { value: 1, low: 0.9, high: 1.1 },
+    ...(i % 2 ? { break: { size: 6.4e4, below: { value: 0.5, low: 0.4, high: 0.6 },
+                           above: { value: 1.5, low: 1.4, high: 1.6 } } } : {}) }));
+  const { width, height, box, panel, rows, names, sizes, x } = growthLayout(growths);
+  assert.ok(box.left < box.right && box.right - box.left > 200);
+  for (const row of rows) {
+    assert.ok(box.right + 40 + growthTextWidth(row.growth.technique) <= panel.left);
+    assert.ok(panel.right + 12 + growthTextWidth(row.words) <= width);
+    assert.ok(row.y >= box.top && row.y <= box.bottom);
+  }
+  assert.ok(names > 0 && height > box.bottom);
+  const heights = rows.map(({ y }) => y).sort((a, b) => a - b);
+  heights.forEach((y, i) => assert.ok(i === 0 || y - heights[i - 1] >= 11));
+  assert.equal(new Set(rows.map(({ letter }) => letter).filter(Boolean)).size, 13);
+  const shown = sizes.filter(([, hasWords]) => hasWords).map(([size]) =>
+    [x(size) - textWidth(String(size)) / 2, x(size) + textWidth(String(size)) / 2]);
+  shown.forEach(([from], i) => assert.ok(i === 0 || from > shown[i - 1][1]));
+});
+
+test('growth is drawn with its laws, exponents and intervals, and breaks are named', async () => {
+  const { page, said } = await openReport(plot);
+  const svg = page.locator('#growth svg').first();
+  await keepScreenshot(page, 'bench-growth', { fullPage: true });
+  assert.deepEqual(await svg.locator('.name').allTextContents(),
+                   ['zfail', 'zpass', 'auto', 'cube_map_six_pass', 'traced_epsilon']);
+  assert.deepEqual(await svg.locator('.fit').allTextContents(),
+                   ['1.00 [1.00, 1.00]', '1.00 [1.00, 1.00]', '1.00 [1.00, 1.00]',
+                    'a: 0.00, from 10,000 on 1.00', 'fewer than 3 sizes']);
+  assert.equal(await svg.locator('.law').count(), 5); // two of the one that breaks, and none of two sizes
+  assert.equal(await svg.locator('.fan').count(), 5);
+  assert.equal(await svg.locator('.exponent').count(), 5);
+  assert.equal(await svg.locator('.break').count(), 1);
+  assert.match(await svg.innerHTML(), /shadow maps/);
+  assert.doesNotMatch(await svg.innerHTML(), /other volumes/);
+  // No text is cut by the picture's border, nor lies on another.
+  const boxes = await svg.evaluate((picture) => [...picture.querySelectorAll('text')].map((text) => {
+    const { x, y, width, height } = text.getBoundingClientRect();
+    const frame = picture.getBoundingClientRect();
+    return { name: text.textContent, left: x - frame.x, right: x + width - frame.x, top: y - frame.y + 2,
+             bottom: y + height - frame.y - 2, width: frame.width, height: frame.height };
+  }));
+  for (const [i, a] of boxes.entries()) {
+    assert.ok(a.left >= 0 && a.right <= a.width && a.top >= 0 && a.bottom <= a.height, a.name);
+    for (const b of boxes.slice(i + 1)) assert.ok(!overlap(a, b), `${a.name} on ${b.name}`);
+  }
+  assert.deepEqual(said, []);
+});
+
+test('growth is saved as SVG that stands by itself, and as PNG', async () => {
+  const { page } = await openReport(plot, { theme: 'dark' });
+  const saved = async (button) => {
+    const waiting = page.waitForEvent('download');
+    await page.click(button);
+    const download = await waiting;
+    return [download.suggestedFilename(), readFileSync(await download.path())];
+  };
+  const [name, svg] = await saved('#growth-pixels-svg');
+  assert.equal(name, 'bench-growth-pixels.svg');
+  assert.match(svg.toString(), /^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg".*fill="#ffffff".*zpass/s);
+  assert.ok(!/var\(|style=/.test(svg.toString()));
+  const [picture, png] = await saved('#growth-pixels-png');
+  assert.equal(picture, 'bench-growth-pixels.png');
+  assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
+  assert.equal(png.readUInt32BE(16), 3 * 1100);
 });
 
 for (const theme of ['light', 'dark'])

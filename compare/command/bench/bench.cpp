@@ -4,6 +4,7 @@
 #include "compare/bench/bench_json.h"
 #include "compare/bench/bench_page.h"
 #include "compare/bench/bench_table.h"
+#include "compare/bench/kept.h"
 #include "compare/command/bench/machine.h"
 #include "compare/command/bench/measure.h"
 #include "compare/command/bench/measured_archive.h"
@@ -159,7 +160,7 @@ MeasuredPart measure(const BenchOptions& options, const std::optional<BenchRun>&
     MeasuredPart outcome{.run = begin_run(options, *gpu)};
     if (kept) require_same_settings(options.json, *kept, outcome.run);
     const bool in_folder = name_in_report(options.json, options.out).has_value();
-    BenchKeeper keeper(in_folder ? std::string() : options.json);
+    BenchKeeper keeper(in_folder ? std::string() : options.json, kept ? &*kept : nullptr);
     pictures.send_by([&](std::string bytes) { pieces.aside(std::move(bytes)); });
     const BenchWork work{.options = options,
                          .gpu = *gpu,
@@ -185,6 +186,7 @@ MeasuredPart measured(const BenchOptions& options, MemoryAccount& memory, Consol
          .console = console,
          .keep = [&](const std::string& bytes) { pictures.keep(bytes); }},
         [&](Pieces& pieces) { return measure(options, kept, console, pictures, pieces); });
+    if (kept) outcome.run = with_kept(std::move(outcome.run), *kept);
     Report report;
     report.version = outcome.run.version;
     report.gl = outcome.run.gl;
@@ -251,6 +253,7 @@ void write_outputs(ReplacedFolder& folder, const BenchOptions& options, const Be
 bool print_changes(const BenchRun& older, const BenchRun& run, Console& console) {
     const BenchChanges changes = changes_between(older, run);
     for (const std::string& note : changes.notes) console.line("note: " + note);
+    for (const std::string& order : changes.orders) console.line("order: " + order);
     for (const std::string& gain : changes.gains) console.line("gain: " + gain);
     for (const std::string& loss : changes.losses) console.always("loss: " + loss);
     console.always(fmt::format("compared {}: {} lost, {} gained",
@@ -351,7 +354,10 @@ void make_quick(const CLI::App& command, BenchOptions& options) {
     const auto is_given = [&](const char* flag) { return command.get_option(flag)->count() > 0; };
     if (!is_given("--size")) options.scene.size = {256, 256};
     if (!is_given("--repeats")) options.limits.repeats = 15;
-    if (!is_given("--seconds")) options.limits.seconds = 15;
+    if (is_given("--seconds")) return;
+    // Of the minute that it may take, some are left for the pictures and the last samples.
+    options.limits.seconds = 50;
+    options.scene_seconds = 50;
 }
 
 } // namespace

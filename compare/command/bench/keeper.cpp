@@ -2,6 +2,7 @@
 
 #include "compare/bench/bench_file.h"
 #include "compare/bench/bench_json.h"
+#include "compare/bench/kept.h"
 #include "compare/output/write_file.h"
 #include "scenes/error.h"
 
@@ -12,15 +13,14 @@
 
 namespace shadowproof {
 
-BenchKeeper::BenchKeeper(const std::string& file)
-    : file_(!file.empty() && is_replaced(file) ? file : std::string()) {}
+BenchKeeper::BenchKeeper(const std::string& file, const BenchRun* earlier)
+    : file_(!file.empty() && is_replaced(file) ? file : std::string()), earlier_(earlier) {}
 
 void BenchKeeper::keep(const BenchRun& run) {
     constexpr double pause = 3000; // milliseconds; writing a file to disk may take some of them
     if (file_.empty() || (since_ && since_->milliseconds() < pause)) return;
-    BenchRun part = run;
-    std::erase_if(part.points, [](const BenchPoint& point) { return point.samples.empty(); });
-    write_file(file_, results_text(bench_json(part)));
+    write_file(file_, results_text(bench_json(
+                          with_kept(run, earlier_ != nullptr ? *earlier_ : BenchRun()))));
     since_.emplace();
 }
 
@@ -51,12 +51,16 @@ void require_same_settings(const std::string& file, const BenchRun& kept, const 
                  fmt::format("{}", fmt::join(now.arguments, " ")));
 }
 
-const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now) {
-    for (const BenchScene& scene : kept.scenes)
-        if (scene.name == now.name && scene.digest == now.digest && scene.light == now.light &&
-            scene.width == now.width && scene.height == now.height)
-            return &scene;
-    return nullptr;
+const BenchScene* kept_scene(const std::string& file, const BenchRun& kept, const BenchScene& now) {
+    const auto found = std::ranges::find(kept.scenes, now.name, &BenchScene::name);
+    if (found == kept.scenes.end()) return nullptr;
+    if (!are_one_picture(*found, now))
+        throw Error(file,
+                    fmt::format("cannot be gone on with: the content, size or light of its scene "
+                                "{} is not that of {}",
+                                now.name, now.file),
+                    "leave out --resume, or name another file with --json");
+    return &*found;
 }
 
 } // namespace shadowproof

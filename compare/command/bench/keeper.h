@@ -15,14 +15,16 @@ class BenchKeeper {
 public:
     /// Nothing is kept where `file` is empty, or is written into (a device, a pipe, /dev/stdout):
     /// all that is kept would stay there, before the finished run. Throws Error naming a file that
-    /// could not be written.
-    explicit BenchKeeper(const std::string& file);
+    /// could not be written. `earlier`: the run that is gone on with; null: none.
+    BenchKeeper(const std::string& file, const BenchRun* earlier);
 
-    /// Replaces the file, whole, at most every few seconds. Points without samples are left out.
+    /// Replaces the file, whole, at most every few seconds, by the run and what the earlier one has
+    /// beside it (with_kept). Points without samples are left out.
     void keep(const BenchRun& run);
 
 private:
     std::string file_; ///< empty: nothing is kept
+    const BenchRun* earlier_;
     std::optional<Stopwatch> since_;
 };
 
@@ -33,7 +35,8 @@ std::optional<BenchRun> kept_run(const std::string& file, MemoryAccount& memory)
 /// the one that begins now, or had other settings.
 void require_same_settings(const std::string& file, const BenchRun& kept, const BenchRun& now);
 
-/// The scene's earlier result; null where there is none of the same content, size and light.
-const BenchScene* kept_scene(const BenchRun& kept, const BenchScene& now);
+/// The scene's earlier result; null where there is none. Throws Error naming the file where the
+/// scene of that name had other content, another size or light.
+const BenchScene* kept_scene(const std::string& file, const BenchRun& kept, const BenchScene& now);
 
 } // namespace shadowproof

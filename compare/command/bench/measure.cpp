@@ -2,7 +2,10 @@
 
 #include "compare/bench/bench_error.h"
 #include "compare/bench/bench_table.h"
+#include "compare/command/bench/again.h"
 #include "compare/command/bench/measured_archive.h"
+#include "compare/command/bench/measured_scene.h"
+#include "compare/command/bench/sampled_truth.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
 #include "compare/command/process/standard_output.h"
@@ -10,20 +13,19 @@
 #include "compare/command/scene_result.h"
 #include "compare/maps/map_memory.h"
 #include "compare/memory.h"
-#include "compare/report/escape.h"
 #include "compare/words.h"
 #include "raster/render.h"
 #include "reference/shade/shading.h"
 #include "reference/trace/trace.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
-#include "scenes/load/digest.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <new>
 #include <optional>
+#include <string_view>
 
 namespace shadowproof {
 
@@ -42,6 +44,7 @@ struct Trial {
     std::size_t first = 0;                      ///< its first point in the run
     std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
     std::vector<bool> warm{};                   ///< this process has drawn them
+    Stopwatch since{};                          ///< it was begun
     bool complete = true;   ///< all that was asked for was measured, but for what took too long
     bool timed_out = false; ///< something did
 };
@@ -51,20 +54,6 @@ const Plan& plan_with(Trial& trial, const BenchSettings& settings) {
     trial.plan.asked = with_settings(trial.work.options.technique, settings).asked;
     require_map(trial.work.options.scene.memory, trial.plan.asked.map);
     return trial.plan;
-}
-
-/// The words, after the program's name, that show the same with verify.
-std::vector<std::string> verify_words(const Trial& trial, const Technique& technique,
-                                      const BenchSettings& with) {
-    std::vector<std::string> words{"verify", trial.argument, "--technique",
-                                   std::string(technique.name)};
-    for (const auto& [name, value] : with) words.insert(words.end(), {"--" + name, value});
-    TechniqueOptions platform; // as in bench_command
-    platform.platform = trial.work.options.technique.platform;
-    SceneOptions scene = trial.work.options.scene;
-    if (trial.scene.lights.size() > 1) scene.light = chosen_light(trial.scene).choice;
-    for (const std::string& word : settings(scene, platform)) words.push_back(word);
-    return words;
 }
 
 std::string name_of_point(const Technique& technique, const BenchSettings& settings) {
@@ -89,7 +78,8 @@ JudgedPoint judge_point(Trial& trial, const Technique& technique, BenchPoint poi
     point.own = own_settings(technique, cell.frame, trial.scene.unit);
     point.error = error_of(cell.frame, cell.comparison, trial.truth.visibility);
     if (work.pictures != nullptr) {
-        cell.command = verify_words(trial, technique, point.settings);
+        cell.command =
+            verify_words(work.options, trial.scene, trial.argument, technique, point.settings);
         point.pictures =
             work.pictures->add(point.settings, std::move(cell), work.options.scene.threads);
     }
@@ -134,14 +124,13 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
     return &work.run.points.emplace_back(std::move(point));
 }
 
-void leave_out(Trial& trial, const Technique& technique, const BenchSettings& settings,
+void leave_out(Trial& trial, std::string_view technique, const BenchSettings& settings,
                const std::string& why, Loss loss = Loss::none) {
-    trial.work.run.left_out.push_back(
-        {trial.name, std::string(technique.name), settings, why, loss});
+    trial.work.run.left_out.push_back({trial.name, std::string(technique), settings, why, loss});
 }
 
 /// Says once what was lost, and leaves it out.
-void lose(Trial& trial, const Technique& technique, const BenchSettings& settings,
+void lose(Trial& trial, std::string_view technique, const BenchSettings& settings,
           const LostPiece& lost) {
     if (!trial.work.pieces.catching_up()) complain(fmt::format("{}: {}", trial.name, lost.what()));
     leave_out(trial, technique, settings, lost.what(), lost.loss);
@@ -169,6 +158,36 @@ void add_truth(Trial& trial) {
     trial.warm.push_back(true); // it was traced, or is measured as it was before
 }
 
+/// Where bumps are lit and no technique is named, which the truth's means would outlast.
+void add_sampled_truth(Trial& trial) {
+    const BenchWork& work = trial.work;
+    if (!is_bump_lit(trial.scene) || !work.options.technique.techniques.empty()) return;
+    BenchPoint mean = work.run.points.back(); // the truth itself
+    const std::vector<int> sides = sampled_sides(work.options.quick);
+    std::vector<BenchPoint> points;
+    for (const int side : sides) {
+        mean.settings = samples_setting(side);
+        if (const BenchPoint* known = work.kept != nullptr ? find_point(*work.kept, mean) : nullptr)
+            points.push_back(*known);
+    }
+    if (points.size() != sides.size()) {
+        const char* const what = "tracing many rays per pixel";
+        work.console.progress(trial.name + ": " + what);
+        try {
+            points =
+                work.pieces.piece(what, [&] { return judge_sampled(trial.tracer, mean, sides); });
+        } catch (const LostPiece& lost) {
+            lose(trial, truth_point, mean.settings, lost);
+            return;
+        }
+    }
+    for (BenchPoint& point : points) {
+        work.run.points.push_back(std::move(point));
+        trial.techniques.push_back(nullptr);
+        trial.warm.push_back(true);
+    }
+}
+
 /// The settings by flags that a technique heeds.
 BenchSettings fixed_for(const Trial& trial, const Technique& technique) {
     BenchSettings fixed;
@@ -186,13 +205,13 @@ void add_points_of(Trial& trial, const Technique& technique) {
         const BenchPoint* const own = add_point(trial, technique, fixed, why);
         if (own == nullptr) {
             if (!trial.work.pieces.catching_up()) complain(why);
-            leave_out(trial, technique, fixed, why);
+            leave_out(trial, technique.name, fixed, why);
             trial.complete = false;
             return;
         }
         own_of_technique = own->own;
     } catch (const LostPiece& lost) {
-        lose(trial, technique, fixed, lost);
+        lose(trial, technique.name, fixed, lost);
         // Each further setting would take as long.
         if (lost.loss == Loss::timed_out) return;
     }
@@ -200,9 +219,9 @@ void add_points_of(Trial& trial, const Technique& technique) {
          sweep(technique, fixed, own_of_technique, trial.work.options.quick)) {
         try {
             if (add_point(trial, technique, settings, why) == nullptr)
-                leave_out(trial, technique, settings, why); // not all forms suit all maps
+                leave_out(trial, technique.name, settings, why); // not all forms suit all maps
         } catch (const LostPiece& lost) {
-            lose(trial, technique, settings, lost);
+            lose(trial, technique.name, settings, lost);
         }
     }
 }
@@ -210,6 +229,7 @@ void add_points_of(Trial& trial, const Technique& technique) {
 void add_points(Trial& trial) {
     const BenchOptions& options = trial.work.options;
     add_truth(trial);
+    add_sampled_truth(trial);
     for (const Technique* technique : options.technique.chosen())
         // What is named is drawn, or says why it is not for such a scene.
         if (!options.technique.techniques.empty() || suits(*technique, trial.scene))
@@ -234,6 +254,11 @@ BenchSample take_sample(Trial& trial, std::size_t i) {
     const std::string named =
         technique == nullptr ? std::string(truth_point) : name_of_point(*technique, settings);
     return work.pieces.piece("measuring " + named, [&]() -> BenchSample {
+        if (const int side = side_of(settings); technique == nullptr && side > 0) {
+            const Stopwatch stopwatch;
+            shade_supersampled(trial.tracer, side);
+            return {stopwatch.milliseconds(), {}};
+        }
         if (technique == nullptr) return {trace(trial.tracer).statistics.milliseconds, {}};
         const auto draw = [&] {
             return render(*technique, trial.scene, plan_with(trial, settings), work.gpu);
@@ -265,7 +290,9 @@ void measure(Trial& trial) {
         stages.push_back(run.points[i].stages);
     }
     std::vector<bool> lost(samples.size());
-    const RoundLimits& limits = work.options.limits;
+    RoundLimits limits = work.options.limits;
+    if (const double whole = work.options.scene_seconds; whole > 0)
+        limits.seconds = std::clamp(whole - trial.since.milliseconds() / 1000, 0.0, limits.seconds);
     const Stopwatch stopwatch;
     measure_in_rounds(
         samples, limits,
@@ -277,7 +304,8 @@ void measure(Trial& trial) {
                  return sample.milliseconds;
              } catch (const LostPiece& error) {
                  if (trial.techniques[i] == nullptr) throw; // without the truth nothing is
-                 lose(trial, *trial.techniques[i], run.points[trial.first + i].settings, error);
+                 lose(trial, trial.techniques[i]->name, run.points[trial.first + i].settings,
+                      error);
                  lost[i] = true;
                  return std::nullopt;
              }
@@ -302,43 +330,9 @@ void measure(Trial& trial) {
                      run.points[trial.first + i].samples = samples[i];
                      run.points[trial.first + i].stages = stages[i];
                  }
-                 work.keeper.keep(run);
+                 if (!work.pieces.catching_up()) work.keeper.keep(run);
              }});
     remove_points(trial, lost);
-}
-
-/// Two files may have one stem: the second is "stem-2".
-std::string unique_name(const BenchRun& run, const std::string& wanted) {
-    std::string name = wanted;
-    const auto is_taken = [&](const BenchScene& scene) { return scene.name == name; };
-    for (int number = 2; std::any_of(run.scenes.begin(), run.scenes.end(), is_taken); ++number)
-        name = fmt::format("{}-{}", wanted, number);
-    return name;
-}
-
-BenchScene describe(const BenchRun& run, const Scene& scene, const std::string& argument) {
-    return {.name = unique_name(run, scene.name),
-            .file = (is_bundled(argument) ? scene.file.filename() : scene.file).string(),
-            .digest = digest_of(scene),
-            .light = chosen_light(scene).name,
-            .width = static_cast<std::uint64_t>(scene.camera.width),
-            .height = static_cast<std::uint64_t>(scene.camera.height),
-            .triangles = scene.triangles.size(),
-            .finished = false};
-}
-
-/// Whether an earlier run had finished the scene: its points are taken over, but where pictures are
-/// wanted, which are drawn anew.
-bool take_over(const BenchWork& work, BenchScene& scene) {
-    if (work.kept == nullptr || work.pictures != nullptr) return false;
-    const BenchScene* const kept = kept_scene(*work.kept, scene);
-    if (kept == nullptr || !kept->finished) return false;
-    scene.finished = true;
-    for (const BenchPoint& point : work.kept->points)
-        if (point.scene == scene.name) work.run.points.push_back(point);
-    for (const BenchLeftOut& out : work.kept->left_out)
-        if (out.scene == scene.name) work.run.left_out.push_back(out);
-    return true;
 }
 
 /// What the report of the pictures tells of the scene, whose truth lies in it.
@@ -361,34 +355,23 @@ void print_points(const BenchWork& work, const std::string& scene) {
 
 } // namespace
 
-std::string bench_command(const BenchOptions& options, const std::string& scene,
-                          const std::string& technique, const BenchSettings& settings_given) {
-    std::string command = "shadowproof bench " + shell_quoted(scene);
-    if (!technique.empty()) command += " --technique " + technique;
-    TechniqueOptions platform; // settings are named one by one, those of other techniques left out
-    platform.platform = options.technique.platform;
-    for (const auto& [name, value] : settings_given)
-        command += fmt::format(" --{} {}", name, shell_quoted(value));
-    for (const std::string& word : settings(options.scene, platform))
-        command += " " + shell_quoted(word);
-    return command;
-}
-
 bool measure_scene(const BenchWork& work, const std::string& argument) {
     const BenchOptions& options = work.options;
     work.console.progress(work.place + argument + ": reading");
     const Scene scene = work.pieces.step(
         argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     require_scene(options.scene.memory, scene, Workload::comparison);
+    BenchScene described = measured_scene(work.run, work.kept, scene, argument);
+    const std::string name = described.name;
+    const bool is_known = take_over(work, described, scene);
     const std::size_t at = work.run.scenes.size();
-    work.run.scenes.push_back(describe(work.run, scene, argument));
-    const std::string name = work.run.scenes[at].name;
+    work.run.scenes.push_back(std::move(described));
     work.console.heading(name);
     work.console.line(fmt::format("  {} triangles, {}x{}, light {}",
                                   grouped(scene.triangles.size()), scene.camera.width,
                                   scene.camera.height, chosen_light(scene).name));
     for (const std::string& note : scene.notes) work.console.line("  note: " + note);
-    if (take_over(work, work.run.scenes[at])) {
+    if (is_known) {
         work.console.line("  as measured before");
         print_points(work, name);
         return true;
@@ -419,7 +402,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     add_points(trial);
     measure(trial);
     work.run.scenes[at].finished = trial.complete && !trial.timed_out;
-    work.keeper.keep(work.run);
+    if (!work.pieces.catching_up()) work.keeper.keep(work.run);
     print_points(work, name);
     return trial.complete;
 }

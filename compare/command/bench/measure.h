@@ -30,8 +30,4 @@ struct BenchWork {
 /// Error if the scene cannot be read.
 bool measure_scene(const BenchWork& work, const std::string& argument);
 
-/// The words that measure one point again.
-std::string bench_command(const BenchOptions& options, const std::string& scene,
-                          const std::string& technique, const BenchSettings& settings);
-
 } // namespace shadowproof

@@ -17,6 +17,7 @@ struct BenchOptions {
     TechniqueOptions technique;
     BenchSettings fixed;            ///< swept settings that a flag has set: they are swept no more
     RoundLimits limits;             ///< for each scene
+    double scene_seconds = 0;       ///< after which no sample of a scene is begun; 0: no such limit
     double timeout = usual_timeout; ///< seconds for a judgement, a sample, or tracing; 0: no limit
     bool quick = false;
     bool scaling = false;

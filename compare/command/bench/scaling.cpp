@@ -112,6 +112,9 @@ struct Runner {
     bool stopped = false;
     bool crashed = false;
     bool warm = false; ///< at this size, in this process
+
+    /// Whether it is to be measured at the i-th size: an earlier run had some.
+    bool lacks(std::size_t i) const { return !stopped && growth.points.size() <= i; }
 };
 
 std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const Scene& scene) {
@@ -130,7 +133,10 @@ std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const
                       .points = {}};
     };
     std::vector<Runner> runners;
-    if (axis.flag == nullptr) runners.push_back({nullptr, growth(truth_point)});
+    if (axis.flag == nullptr) {
+        runners.push_back({nullptr, growth(truth_point)});
+        runners.back().growth.family = truth_point;
+    }
     for (const Technique* technique : work.options.technique.chosen())
         if (suits(*technique, scene) && (axis.flag == nullptr || heeds(*technique, axis.flag)))
             runners.push_back({technique, growth(std::string(technique->name))});
@@ -139,7 +145,8 @@ std::vector<Runner> runners_along(const BenchWork& work, const Axis& axis, const
 
 void stop(const BenchWork& work, Runner& runner, const std::string& why, Loss loss = Loss::none) {
     runner.stopped = true;
-    work.run.left_out.push_back({runner.growth.scene, runner.growth.technique, {}, why, loss});
+    work.run.left_out.push_back(
+        {runner.growth.scene, runner.growth.technique, {}, why, loss, runner.growth.axis});
 }
 
 /// Says once what was lost. The runner goes no further.
@@ -163,14 +170,17 @@ struct Drawable {
 };
 
 /// Milliseconds of a frame.
-double draw(const BenchWork& work, const Runner& runner, const Drawable& drawable) {
+double draw(const BenchWork& work, Runner& runner, const Drawable& drawable) {
     if (runner.technique == nullptr) return trace(drawable.tracer).statistics.milliseconds;
-    return render(*runner.technique, drawable.scene, drawable.plan, work.gpu).milliseconds;
+    const Frame frame = render(*runner.technique, drawable.scene, drawable.plan, work.gpu);
+    runner.growth.family = frame.family;
+    return frame.milliseconds;
 }
 
 /// One size: each runner draws once to warm up, and all are measured in rounds. `place`: "2 of 7".
 void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& runners,
-                  const std::vector<Scene>& scenes, int size, const std::string& place) {
+                  const std::vector<Scene>& scenes, std::size_t at, const std::string& place) {
+    const int size = axis.sizes[at];
     TechniqueOptions options = work.options.technique;
     if (axis.flag != nullptr)
         options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
@@ -181,16 +191,16 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
     const double value = axis.value(first.tracer, size);
     const std::string where =
         fmt::format("{} {}, {}", grouped(static_cast<std::uint64_t>(value)), axis.name, place);
-    const auto draw_all = [&](const Runner& runner) {
+    const auto draw_all = [&](Runner& runner) {
         double sum = draw(work, runner, first);
-        for (std::size_t i = 1; i < scenes.size(); ++i) // one at a time in memory
-            sum += draw(work, runner, Drawable(work, scenes[i], options.asked));
+        for (std::size_t k = 1; k < scenes.size(); ++k) // one at a time in memory
+            sum += draw(work, runner, Drawable(work, scenes[k], options.asked));
         return sum;
     };
     const double most_seconds = work.options.quick ? 0.7 : 4; // of work for a sample
     std::vector<Runner*> drawn;
     for (Runner& runner : runners) {
-        if (runner.stopped) continue;
+        if (!runner.lacks(at)) continue;
         runner.warm = false;
         work.console.progress(fmt::format("{}: {}", where, runner.growth.technique));
         try {
@@ -241,34 +251,24 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
         if (!samples[i].empty()) drawn[i]->growth.points.push_back({value, samples[i]});
 }
 
-/// Whether an earlier run lost something of a technique on a scene: it is measured again.
-bool was_lost(const BenchRun& kept, const Growth& growth) {
-    return std::ranges::any_of(kept.left_out, [&](const BenchLeftOut& out) {
-        return out.loss != Loss::none && out.scene == growth.scene &&
-               out.technique == growth.technique;
-    });
-}
-
-/// Whether an earlier run had all of these lines, by the same commands: they are taken over.
-bool take_over(const BenchWork& work, const std::vector<Runner>& runners) {
-    if (work.kept == nullptr) return false;
-    std::vector<const Growth*> found;
-    for (const Runner& runner : runners) {
-        if (was_lost(*work.kept, runner.growth)) return false;
-        for (const Growth& growth : work.kept->growth)
-            if (growth.axis == runner.growth.axis && growth.scene == runner.growth.scene &&
-                growth.technique == runner.growth.technique &&
-                growth.command == runner.growth.command)
-                found.push_back(&growth);
+/// Each runner begins with the sizes that an earlier run had of it, by the same command, and is
+/// stopped where it was. What was lost is tried again.
+void take_over(const BenchWork& work, std::vector<Runner>& runners) {
+    if (work.kept == nullptr) return;
+    for (Runner& runner : runners) {
+        Growth& line = runner.growth;
+        for (const Growth& known : work.kept->growth)
+            if (known.axis == line.axis && known.scene == line.scene &&
+                known.technique == line.technique && known.command == line.command)
+                line = known;
+        for (const BenchLeftOut& out : work.kept->left_out) {
+            if (line.points.empty() || out.loss != Loss::none || out.axis != line.axis ||
+                out.scene != line.scene || out.technique != line.technique)
+                continue;
+            runner.stopped = true;
+            work.run.left_out.push_back(out);
+        }
     }
-    if (found.size() != runners.size()) return false;
-    for (const Growth* growth : found) {
-        work.run.growth.push_back(*growth);
-        for (const BenchLeftOut& out : work.kept->left_out)
-            if (out.scene == growth->scene && out.technique == growth->technique)
-                work.run.left_out.push_back(out);
-    }
-    return true;
 }
 
 /// What a size results in: where its runners then are.
@@ -288,7 +288,7 @@ void measure_as_piece(const BenchWork& work, const Axis& axis, std::vector<Runne
     const std::size_t before = left_out.size();
     const MeasuredSize measured = work.pieces.piece(axis.name + (" " + place), [&] {
         if (scenes.empty()) scenes = axis.scenes(work.options, axis.sizes[i]);
-        measure_size(work, axis, runners, scenes, axis.sizes[i], place);
+        measure_size(work, axis, runners, scenes, i, place);
         MeasuredSize size;
         for (const Runner& runner : runners) {
             size.growth.push_back(runner.growth);
@@ -308,11 +308,19 @@ void measure_as_piece(const BenchWork& work, const Axis& axis, std::vector<Runne
     }
 }
 
+/// Puts the lines that have sizes behind the run's first `before` lines.
+void put_lines(BenchRun& run, std::size_t before, const std::vector<Runner>& runners) {
+    run.growth.resize(before);
+    for (const Runner& runner : runners)
+        if (!runner.growth.points.empty()) run.growth.push_back(runner.growth);
+}
+
 /// Returns whether no worker crashed on the way.
 bool measure_axis(const BenchWork& work, const Axis& axis) {
     std::vector<Runner> runners;
     bool crashed = false;
     const std::size_t sizes = work.options.quick ? axis.quick : axis.sizes.size();
+    const std::size_t before = work.run.growth.size();
     for (std::size_t i = 0; i < sizes; ++i) {
         const std::string place = fmt::format("{} of {}", i + 1, sizes);
         const std::string where = fmt::format("{} {}", axis.name, place);
@@ -322,28 +330,31 @@ bool measure_axis(const BenchWork& work, const Axis& axis) {
                 scenes = work.pieces.step(where + ": reading",
                                           [&] { return axis.scenes(work.options, axis.sizes[i]); });
                 runners = runners_along(work, axis, scenes.front());
-                if (runners.empty() || take_over(work, runners)) return true;
+                take_over(work, runners);
+                put_lines(work.run, before, runners);
             }
+            if (std::ranges::none_of(runners, [&](const Runner& each) { return each.lacks(i); }))
+                continue;
             measure_as_piece(work, axis, runners, std::move(scenes), i, place);
+            put_lines(work.run, before, runners);
+            if (!work.pieces.catching_up()) work.keeper.keep(work.run);
         } catch (const std::bad_alloc&) {
-            work.run.left_out.push_back({axis.name, {}, {}, where + ": " + out_of_memory});
+            work.run.left_out.push_back(
+                {axis.name, {}, {}, where + ": " + out_of_memory, Loss::none, axis.name});
             break;
         } catch (const LostPiece& lost) {
             if (!work.pieces.catching_up()) complain(lost.what());
-            work.run.left_out.push_back({axis.name, {}, {}, lost.what(), lost.loss});
+            work.run.left_out.push_back({axis.name, {}, {}, lost.what(), lost.loss, axis.name});
             crashed = crashed || lost.loss == Loss::crashed;
             break;
         } catch (const Error& error) {
             if (i == 0) throw;
-            work.run.left_out.push_back({axis.name, {}, {}, error.what()});
+            work.run.left_out.push_back({axis.name, {}, {}, error.what(), Loss::none, axis.name});
             break;
         }
     }
-    for (Runner& runner : runners) {
-        crashed = crashed || runner.crashed;
-        if (!runner.growth.points.empty()) work.run.growth.push_back(std::move(runner.growth));
-    }
-    return !crashed;
+    return !crashed &&
+           std::ranges::none_of(runners, [](const Runner& runner) { return runner.crashed; });
 }
 
 } // namespace
@@ -355,10 +366,10 @@ bool measure_growth(const BenchWork& work) {
             complete = measure_axis(work, axis) && complete;
         } catch (const Error& error) {
             if (!work.pieces.catching_up()) complain(error.what());
-            work.run.left_out.push_back({axis.name, {}, {}, error.what()});
+            work.run.left_out.push_back({axis.name, {}, {}, error.what(), Loss::none, axis.name});
             complete = false;
         }
-        work.keeper.keep(work.run);
+        if (!work.pieces.catching_up()) work.keeper.keep(work.run);
     }
     work.console.clear_progress();
     for (const std::string& line : growth_table(work.run)) work.console.line(line);

@@ -31,6 +31,20 @@ std::span<const SweptSetting> swept_settings() {
                          return std::string(name_of(f.color_model.normalisation));
                      }},
         SweptSetting{
+            "cube-size",
+            {"8", "16", "32", "128", "256"}, // and 64, as cube-map alone has it
+            [](const Frame& f, double) { return fmt::format("{}", f.color_model.cube_size); },
+            {},
+            {},
+            {"normalise", name_of(Normalisation::cube_map)}},
+        SweptSetting{
+            "newton-steps",
+            {"0", "2", "3"}, // and 1, as newton-raphson alone has it
+            [](const Frame& f, double) { return fmt::format("{}", f.color_model.newton_steps); },
+            {},
+            {},
+            {"normalise", name_of(Normalisation::newton_raphson)}},
+        SweptSetting{
             "bumps", names_of(all_bump_forms),
             [](const Frame& f, double) { return std::string(name_of(f.color_model.bump_form)); }},
         SweptSetting{
@@ -87,10 +101,28 @@ TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& se
     return options;
 }
 
+namespace {
+
+const std::string* value_of(const BenchSettings& settings, std::string_view name) {
+    const auto found =
+        std::ranges::find_if(settings, [&](const auto& each) { return each.first == name; });
+    return found == settings.end() ? nullptr : &found->second;
+}
+
+/// Whether a setting does anything beside these.
+bool does_something(const SweptSetting& setting, const BenchSettings& beside) {
+    const auto& [name, value] = setting.within;
+    if (name.empty()) return true;
+    const std::string* const is = value_of(beside, name);
+    return is != nullptr && *is == value;
+}
+
+} // namespace
+
 BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit) {
     BenchSettings own;
     for (const SweptSetting& setting : swept_settings())
-        if (heeds(technique, setting.name))
+        if (heeds(technique, setting.name) && does_something(setting, own))
             own.emplace_back(setting.name, setting.own(frame, unit));
     return own;
 }
@@ -114,18 +146,20 @@ std::vector<std::string> values_beside(const SweptSetting& setting, const std::s
 
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
                                  const BenchSettings& own, bool quick) {
-    const auto find = [](const BenchSettings& settings, std::string_view name) {
-        return std::ranges::find_if(settings, [&](const auto& each) { return each.first == name; });
-    };
     std::vector<BenchSettings> all;
     for (const SweptSetting& setting : swept_settings()) {
-        if (!heeds(technique, setting.name) || find(fixed, setting.name) != fixed.end()) continue;
-        const auto its_own = find(own, setting.name);
+        if (!heeds(technique, setting.name) || value_of(fixed, setting.name) != nullptr) continue;
+        BenchSettings beside = fixed;
+        if (!does_something(setting, own)) {
+            const auto& [name, value] = setting.within;
+            if (value_of(fixed, name) != nullptr) continue; // to what makes it do nothing
+            beside.emplace_back(name, value);
+        }
+        const std::string* const its_own = value_of(own, setting.name);
         for (const std::string& value :
-             values_beside(setting, its_own == own.end() ? "" : its_own->second, quick)) {
-            BenchSettings settings = fixed;
-            settings.emplace_back(setting.name, value);
-            all.push_back(std::move(settings));
+             values_beside(setting, its_own == nullptr ? "" : *its_own, quick)) {
+            all.push_back(beside);
+            all.back().emplace_back(setting.name, value);
         }
     }
     return all;

@@ -21,6 +21,8 @@ struct SweptSetting {
     std::vector<std::string_view> costly{}; ///< values that take seconds each: not with --quick
     /// Further values: so many times the technique's own, where lengths fit a scene and no other.
     std::vector<double> factors{};
+    /// Another setting and its value without which this one does nothing: it is set along.
+    std::pair<std::string_view, std::string_view> within{};
 };
 
 /// All of them, in the order in which they are swept.
@@ -30,11 +32,12 @@ std::span<const SweptSetting> swept_settings();
 /// flag does not know a value.
 TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& settings);
 
-/// What a technique takes by itself, by a frame that it made without any setting.
+/// What a technique takes by itself, by a frame that it made without any setting; without settings
+/// that do nothing then.
 BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit);
 
-/// One setting at a time, each value but the technique's own, and but the costly ones where it is
-/// to be `quick`; settings in `fixed` stay.
+/// One setting at a time, with the one that it does nothing without; each value but the technique's
+/// own, and but the costly ones where it is to be `quick`. Settings in `fixed` stay.
 std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings& fixed,
                                  const BenchSettings& own, bool quick);
 

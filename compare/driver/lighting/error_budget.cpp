@@ -30,16 +30,18 @@ VectorRange normalised(const LightingTables& tables, VectorRange vector, const g
     case Normalisation::exact:
         vector.distance += 4 * v;
         break;
-    case Normalisation::newton_raphson:
-        // Half of it to either side of the middle.
+    case Normalisation::newton_raphson: {
+        // Half of its range to either side of the middle.
+        const LengthError error = newton_raphson_error(tables.model.newton_steps);
         for (Interval& component : vector.box)
-            component = (1 - newton_raphson_budget / 2) * component;
-        vector.distance += newton_raphson_budget / 2 + 8 * v;
+            component = (1 + (error.low + error.high) / 2) * component;
+        vector.distance += (error.high - error.low) / 2 + 8 * v;
         break;
+    }
     case Normalisation::cube_map: {
         const glm::dvec3 looked_at = axes * middle(vector.box);
         vector.distance += cube_budget(tables.cube.size, around(looked_at, radius(vector))) +
-                           std::sqrt(3.0) * cube_lookup_error;
+                           std::sqrt(3.0) * cube_lookup_error(tables.cube.size);
         break;
     }
     }

@@ -3,8 +3,8 @@
 // technique's tables. It has these parts and no others:
 //
 //  - normalisation: none where vectors are divided by their length; else the error of a cube map of
-//    n texels and 8 bits, or of one Newton-Raphson step. It applies to the vectors to light and eye
-//    and to the half-angle vector, each by itself. No other part allows a length other than 1.
+//    n texels and 8 bits, or of Newton and Raphson's steps. It applies to the vectors to light and
+//    eye and to the half-angle vector, each by itself. No other part allows a length other than 1.
 //  - bumps: half a step of the texels' format, and the choice of what is filtered bilinearly,
 //    slopes or normals, by the form of the bump map: the perturbed normal may point anywhere
 //    between both. It is normalised: a filtered normal that is left shorter is not in the budget.
@@ -24,11 +24,27 @@ namespace shadowproof {
 /// (`size` texels a side, 8 bits per component), over `vectors`.
 double cube_budget(int size, const Intervals& vectors);
 
-/// Relative error in the length of a vector normalised by one Newton-Raphson step: too short by at
-/// most this, never too long (Lomont 2003). A guess off by a share e comes out off by 1.5 e^2 +
-/// 0.5 e^3, and e is least at -0.034376. Held for all mantissas of two binades, which are all there
-/// are, by tests/raster/lighting/normalise_test.cpp.
-inline constexpr double newton_raphson_budget = 0.0017523;
+/// By which share a length is off: at least `low`, at most `high`.
+struct LengthError {
+    double low = 0;
+    double high = 0;
+};
+
+/// Of a vector normalised by Newton-Raphson steps from a guess by the float's bits (Lomont 2003),
+/// in exact arithmetic. The guess is off by -0.034376 to 0.033961. A step makes of a share e the
+/// share -1.5 e^2 - 0.5 e^3, which is largest, and 0, at e = 0, and falls to both sides of it: it
+/// is least at one of the ends. So one step leaves -0.0017523 to 0, two -4.61e-6 to 0. Held for all
+/// mantissas of two binades, which are all there are, by tests/raster/lighting/normalise_test.cpp.
+constexpr LengthError newton_raphson_error(int steps) {
+    LengthError error{-0.034376, 0.033961};
+    const auto stepped = [](double e) { return -e * e * (1.5 + 0.5 * e); };
+    for (int step = 0; step < steps; ++step) {
+        const double low = stepped(error.low);
+        const double high = stepped(error.high);
+        error = {low < high ? low : high, 0};
+    }
+    return error;
+}
 
 /// The truth's inputs, widened by all that the budget allows.
 LightingInputs budgeted_inputs(const LightingTables& tables, const InputPoint& point);

@@ -14,13 +14,14 @@ namespace {
 
 constexpr double v = float_roundoff;
 
-/// Lomont's reciprocal square root (2003): a guess by halving the exponent, then one step of Newton
-/// and Raphson; its relative error is at most newton_raphson_budget.
-double newton_raphson_root(double square) {
+/// Lomont's reciprocal square root (2003): a guess by halving the exponent, then steps of Newton
+/// and Raphson; newton_raphson_error has its relative error.
+double newton_raphson_root(double square, int steps) {
     const auto x = static_cast<float>(square);
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    const double guess = std::bit_cast<float>(0x5f3759dfU - (bits >> 1U));
-    return guess * (1.5 - 0.5 * square * guess * guess);
+    double root = std::bit_cast<float>(0x5f3759dfU - (bits >> 1U));
+    for (int step = 0; step < steps; ++step) root *= 1.5 - 0.5 * square * root * root;
+    return root;
 }
 
 /// A vector as the technique normalises it, in its own axes.
@@ -28,9 +29,13 @@ double newton_raphson_root(double square) {
 //
 // A Newton-Raphson step: a guess (1 + e) / sqrt(x), |e| at most 0.0344, becomes 1 - 1.5 e^2 -
 // 0.5 e^3 of a length of 1. The guess falls between a quarter as fast as x, in its share, and as
-// fast, so that e moves by at most half of what x does, which is twice what the length does: the
-// length comes out off by (3 e + 1.5 e^2) (1 + e) = 0.11 of its share at most. Its roundings are
-// twice as many.
+// fast, so that e moves by at most half of what x does, which is twice what the length does:
+// without a step the length comes out off by 1 + e < 1.04 of its share, and with one by (3 e + 1.5
+// e^2) (1 + e) = 0.11 of it at most. Further steps shrink that, and the roundings of earlier ones,
+// by 3 e + 1.5 e^2 again. A step has three roundings (of y^2 and of its product with x, halved, and
+// of the difference, together 2 v; of the last product, v); so all steps come to 3 v / (1 - 0.11)
+// at most, the square to 1.5 v, as its root is taken, and the vector's product to v: below 8 v.
+// Without a step the square's 3 v come through whole, which makes 4 v.
 VectorRange normalised(const LightingTables& tables, const VectorRange& range) {
     const glm::dvec3 vector = middle(range.box);
     const double length = glm::length(vector);
@@ -40,13 +45,15 @@ VectorRange normalised(const LightingTables& tables, const VectorRange& range) {
     case Normalisation::exact:
         break;
     case Normalisation::newton_raphson:
-        return {around(newton_raphson_root(length * length) * vector), 0.11 * turn + 8 * v, turn};
+        return {around(newton_raphson_root(length * length, tables.model.newton_steps) * vector),
+                (tables.model.newton_steps == 0 ? 1.04 : 0.11) * turn + 8 * v, turn};
     case Normalisation::cube_map: {
         constexpr Interval any_byte{0, 255};
         Intervals looked_up =
             cube_range(tables.cube.faces, box_around(range), {any_byte, any_byte, any_byte});
         for (Interval& component : looked_up)
-            component = widened(2.0 / 255 * component + around(-1), cube_lookup_error);
+            component =
+                widened(2.0 / 255 * component + around(-1), cube_lookup_error(tables.cube.size));
         return {looked_up};
     }
     }
@@ -130,7 +137,8 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
     }
     assert(model.reflects == scene.environment.has_value());
     assert(!model.reflects || model.axes == ColorModel::Axes::world); // the environment's
-    if (model.normalisation == Normalisation::cube_map) tables.cube = expected_normalisation_cube();
+    if (model.normalisation == Normalisation::cube_map)
+        tables.cube = expected_normalisation_cube(model.cube_size);
     return tables;
 }
 

@@ -25,6 +25,6 @@ BumpTexels expected_bump_texels(const Scene& scene, const Material& material, Bu
 glm::dvec3 expected_normal(std::uint16_t number);
 
 /// As normalisation_cube.h defines it.
-NormalisationCube expected_normalisation_cube(int size = 64);
+NormalisationCube expected_normalisation_cube(int size);
 
 } // namespace shadowproof

@@ -20,7 +20,7 @@ const pointsOf = (run) => (run?.points ?? []).filter(({ scene }) => scene === st
 /** Pixels across: what the window gives, within reason. */
 const plotWidth = () => Math.max(760, Math.min(1400, document.documentElement.clientWidth - 70));
 
-function picture(ink) {
+function pointsPicture(ink) {
   state.layout = benchLayout(pointsOf(state.run), pointsOf(state.older), state.kind, plotWidth());
   return benchPicture(state.layout, state.kind, plotTitle(), ink);
 }
@@ -46,7 +46,9 @@ function showNote(index) {
 function choosePoint(index) {
   const { point } = state.layout.marks[index];
   const before = pointsOf(state.older).find((other) => samePoint(point, other));
-  const verify = point.technique === 'truth' ? `shadowproof render ${point.scene} -o truth.png`
+  const verify = isMean(point)
+    ? `shadowproof render ${point.scene} --aov color --samples ${Math.sqrt(point.settings.samples)} -o truth.png`
+    : point.technique === 'truth' ? `shadowproof render ${point.scene} -o truth.png`
     : point.command.replace('shadowproof bench', 'shadowproof verify');
   found('chosen').replaceChildren(
     element('h2', {}, pointName(point)),
@@ -121,7 +123,7 @@ function draw() {
 }
 
 function drawPoints() {
-  found('plot').replaceChildren(picture(isDark() ? darkInk : lightInk),
+  found('plot').replaceChildren(pointsPicture(isDark() ? darkInk : lightInk),
     element('div', { id: 'note', class: 'note', hidden: true, 'aria-hidden': 'true' }));
   state.at = -1;
   watchMarks();
@@ -137,10 +139,17 @@ function drawGrowth() {
   const axes = [...new Set(state.run.scaling.map(({ axis }) => axis))];
   found('growth').replaceChildren(...axes.map((axis) => {
     const growths = state.run.scaling.filter((each) => each.axis === axis);
+    const name = `growth-${axis.replaceAll(' ', '-')}`;
+    const onPaper = () => growthPicture(growths, axis, lightInk);
     return element('section', {}, element('h2', {}, `Growth with ${axis}`),
+      element('div', { class: 'toolbar' },
+        element('button', { type: 'button', id: `${name}-svg`, 'aria-label': `Save as SVG: growth with ${axis}`,
+                            onclick: () => saveSvg(onPaper(), name) }, 'Save as SVG'),
+        element('button', { type: 'button', id: `${name}-png`, 'aria-label': `Save as PNG: growth with ${axis}`,
+                            onclick: () => savePng(onPaper(), name) }, 'Save as PNG')),
       element('div', { class: 'scroll', tabindex: '0', role: 'region',
                        'aria-label': `Growth with ${axis}` },
-        growthPicture(growths, axis, isDark() ? darkInk : lightInk, plotWidth())),
+        growthPicture(growths, axis, isDark() ? darkInk : lightInk)),
       growthTable(growths));
   }));
 }
@@ -151,23 +160,22 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** The picture on paper, whatever the theme. */
-const svgText = () => new XMLSerializer().serializeToString(picture(lightInk));
+const svgText = (picture) => new XMLSerializer().serializeToString(picture);
 
-function saveSvg() {
-  save(new Blob([svgText()], { type: 'image/svg+xml' }), `bench-${state.scene}.svg`);
+function saveSvg(picture, name) {
+  save(new Blob([svgText(picture)], { type: 'image/svg+xml' }), `bench-${name}.svg`);
 }
 
-function savePng() {
+function savePng(picture, name) {
   const enlarged = 3; // 288 pixels to the inch where CSS has 96
   const image = new Image();
   image.onload = () => {
-    const canvas = element('canvas', { width: enlarged * state.layout.width,
-                                       height: enlarged * state.layout.height });
+    const canvas = element('canvas', { width: enlarged * picture.getAttribute('width'),
+                                       height: enlarged * picture.getAttribute('height') });
     canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
-    canvas.toBlob((blob) => save(blob, `bench-${state.scene}.png`), 'image/png');
+    canvas.toBlob((blob) => save(blob, `bench-${name}.png`), 'image/png');
   };
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText())}`;
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText(picture))}`;
 }
 
 function choice(id, label, options, chosen, choose) {
@@ -196,15 +204,17 @@ function plotSection(run, scenes) {
   const kinds = errorKinds.filter((kind) => run.points.some((point) => kind.of(point) !== null));
   return [
     element('p', {}, 'How wrong each technique is, and what it costs. A bar is the 95 % interval ' +
-      'of the median. The broken line is the front: at each time, the least error that a technique ' +
+      'of the median; dots are the range of samples too few for one. The broken line is the front: at each time, the least error that a technique ' +
       'has by then. Times compare points of one run with each other.'),
     element('div', { class: 'toolbar' },
       choice('scene', 'Scene', scenes.map((name) => [name, name]), state.scene,
              (name) => { state.scene = name; }),
       choice('kind', 'Error', kinds.map(({ id, words: text }) => [id, text]), state.kind.id,
              (id) => { state.kind = errorKinds.find((kind) => kind.id === id); }),
-      element('button', { type: 'button', id: 'svg', onclick: saveSvg }, 'Save as SVG'),
-      element('button', { type: 'button', id: 'png', onclick: savePng }, 'Save as PNG')),
+      element('button', { type: 'button', id: 'svg',
+                          onclick: () => saveSvg(pointsPicture(lightInk), state.scene) }, 'Save as SVG'),
+      element('button', { type: 'button', id: 'png',
+                          onclick: () => savePng(pointsPicture(lightInk), state.scene) }, 'Save as PNG')),
     element('p', { class: 'quiet keys-line' }, 'Keys: Tab to the plot, arrows from point to point, ' +
       'Home, End, Enter for its commands.'),
     element('div', { id: 'plot', class: 'bench-plot' }),

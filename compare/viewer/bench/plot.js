@@ -93,9 +93,11 @@ function arrowOf({ from, to, change }, ink) {
           line([wing(1), tip, wing(-1)], { stroke: color, 'stroke-width': style['stroke-width'] })];
 }
 
-/** The interval of the median. */
+/** The interval of the median; without one, dots from the least sample to the greatest. */
 function barOf({ point, y, low, high }, ink) {
   const style = { stroke: inkOf(groupOf(point), ink), opacity: 0.55 };
+  if (!hasInterval(point.ms))
+    return [line([[low, y], [high, y]], { ...style, 'stroke-width': 1.3, 'stroke-dasharray': '1 3' })];
   return [line([[low, y], [high, y]], { ...style, 'stroke-width': 1.3 }),
           line([[low, y - 3], [low, y + 3]], style), line([[high, y - 3], [high, y + 3]], style)];
 }

@@ -3,7 +3,7 @@
 
 layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h, one layer per face
 
-// `normalisation`, a value of Normalisation, is defined before this text.
+// `normalisation`, a value of Normalisation, and `newton_steps` are defined before this text.
 
 const int normalisation_cube_map = 1;
 const int normalisation_newton_raphson = 2;
@@ -13,11 +13,12 @@ vec3 unit(vec3 v) {
     return square > 0 ? v / sqrt(square) : vec3(0);
 }
 
-// 1 / sqrt(x): an estimate from the float's bits and one step of Newton's method. Its relative
-// error is at most 0.0017523 (Lomont 2003), apart from the rounding of floats.
+// 1 / sqrt(x): an estimate from the float's bits and steps of Newton's method. After one step its
+// relative error is at most 0.0017523 (Lomont 2003), apart from the rounding of floats.
 float reciprocal_root(float x) {
     float y = uintBitsToFloat(0x5f3759dfu - (floatBitsToUint(x) >> 1));
-    return y * (1.5 - 0.5 * x * y * y);
+    for (int step = 0; step < newton_steps; ++step) y *= 1.5 - 0.5 * x * y * y;
+    return y;
 }
 
 vec3 looked_up(vec3 v) {

@@ -54,6 +54,15 @@ TEST(MeasureInRounds, begins_no_sample_after_the_limit) {
     EXPECT_EQ(story.order, "ab ba a ");
 }
 
+TEST(MeasureInRounds, lets_a_point_that_takes_seconds_wait_until_the_others_are_done) {
+    Story story;
+    story.measure({.repeats = 3, .seconds = 100}, {{1, 2}, {5000, 9000}, {3, 4}}, 0.1);
+    EXPECT_EQ(story.order, "abc ca ac b b ");
+    Story short_story;
+    short_story.measure({.repeats = 3, .seconds = 0.5}, {{1, 2}, {5000, 9000}, {3, 4}}, 0.1);
+    EXPECT_EQ(short_story.order, "abc ca ");
+}
+
 TEST(MeasureInRounds, goes_on_with_the_samples_that_there_are) {
     Story story;
     story.samples = {{1, 1, 1, 1, 1, 1}, {1, 1, 1, 1, 1}};

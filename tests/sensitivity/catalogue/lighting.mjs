@@ -5,7 +5,7 @@ const forms = 'scenes/surface/bump_forms.cpp';
 const cubes = 'scenes/surface/normalisation_cube.cpp';
 const inBytes = 'static_cast<float>(std::round(255 * number) / 255)';
 const compressed = 'static_cast<std::uint8_t>(std::lround(255 * (0.5 + 0.5 * n[c])))';
-const cubeMade = 'upload_cube(gl, make_normalisation_cube())';
+const cubeMade = 'upload_cube(gl, make_normalisation_cube(model.cube_size))';
 const selfShadow = 'return clamp(8 * cosine, 0, 1);';
 const frame = 'vec3 tangent = unit(surface.tangent - normal * dot(normal, surface.tangent));';
 const tapsX = 'float x = float(texels) * at - 0.5;';
@@ -59,7 +59,7 @@ export const faults = [
   { name: 'weights_of_8_bits', file: 'raster/glsl/lighting/texels.glsl', right: 'float fraction = x - floor(x);', wrong: 'float fraction = floor((x - floor(x)) * 256 + 0.5) / 256;', why: 'A colour changes by a quarter of a step of 255 at most, less than floats are held to.' },
   { name: 'cube_face_turned', file: 'raster/glsl/lighting/cube_map.glsl', right: 'vec2(v.x < 0 ? v.z : -v.z, -v.y)', wrong: 'vec2(v.x < 0 ? -v.z : v.z, -v.y)' },
   { name: 'cube_not_filtered', file: 'raster/glsl/lighting/cube_map.glsl', right: 'return mix(upper, lower, at.y - float(first.y));', wrong: 'return upper;' },
-  { name: 'newton_left_out', file: 'raster/glsl/lighting/normalise.glsl', right: 'return y * (1.5 - 0.5 * x * y * y);', wrong: 'return y;', why: 'Only where --normalise newton-raphson asks for it.' },
+  { name: 'newton_left_out', file: 'raster/glsl/lighting/normalise.glsl', right: 'y *= 1.5 - 0.5 * x * y * y;', wrong: ';', why: 'Only where --normalise newton-raphson asks for it.' },
   { name: 'reflected_straight', file: 'raster/glsl/lighting/bump_reflection.frag', right: 'return 2 * dot(normal, v) * normal - v;', wrong: 'return v;' },
   { name: 'eye_space_sign', file: 'raster/glsl/lighting/bump_eye_space.frag', right: 'float h_v = -slope.y;', wrong: 'float h_v = slope.y;' },
   { name: 'eye_space_handedness', file: 'raster/glsl/lighting/bump_eye_space.frag', right: 'return normal + surface.hand * (', wrong: 'return normal + (', why: 'No bundled height field lies on a mirrored chart.' },

@@ -216,6 +216,36 @@ TEST(ErrorBudget, holds_the_truth_under_every_setting) {
     }
 }
 
+TEST(ErrorBudget, holds_the_truth_for_any_cube_and_any_number_of_steps) {
+    const Pixel pixel("bumpy_torus");
+    const auto hold = [&](const ColorModel& model) {
+        const LightingTables tables = make_lighting_tables(pixel.scene, model);
+        EXPECT_EQ(tables.cube.size,
+                  model.normalisation == Normalisation::cube_map ? model.cube_size : 0);
+        pixel.visit([&](const InputPoint& point) {
+            const Intervals bound = color_bound(model, budgeted_inputs(tables, point));
+            const glm::dvec3 truth = showable(model, point.shading.color());
+            for (std::size_t k = 0; k < 3; ++k)
+                ASSERT_TRUE(widened(bound[k], 1e-6).contains(truth[static_cast<int>(k)]))
+                    << model.cube_size << " " << model.newton_steps;
+        });
+    };
+    for (const int size : {2, 8, 256})
+        hold({.normalisation = Normalisation::cube_map, .cube_size = size});
+    for (int steps = 0; steps <= most_newton_steps; ++steps)
+        hold({.normalisation = Normalisation::newton_raphson, .newton_steps = steps});
+}
+
+TEST(ErrorBudget, of_newton_and_raphson_is_that_of_lomont_and_of_steps_from_there) {
+    // As tests/raster/lighting/normalise_test.cpp holds them against the driver.
+    EXPECT_EQ(newton_raphson_error(0).low, -0.034376);
+    EXPECT_EQ(newton_raphson_error(0).high, 0.033961);
+    EXPECT_NEAR(newton_raphson_error(1).low, -0.0017523, 1e-7);
+    EXPECT_NEAR(newton_raphson_error(2).low, -4.603e-6, 1e-9);
+    EXPECT_NEAR(newton_raphson_error(3).low, -3.18e-11, 1e-13);
+    for (const int steps : {1, 2, 3}) EXPECT_EQ(newton_raphson_error(steps).high, 0);
+}
+
 /// The budget of a perturbed normal that is kept in bytes: its own texels mixed and divided by
 /// their length are in it, texels of 6 bits are not.
 TEST(ErrorBudget, of_bumps_is_half_a_step_of_their_texels) {
