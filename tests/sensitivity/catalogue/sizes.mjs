@@ -5,7 +5,7 @@ import { camera, moved, other, passes, shift } from './numbers.mjs';
 const bias = 'transform.light = split(light);';
 const light = 's.lights[s.light]';
 const bytes = 'static_cast<float>(std::round(255 * number) / 255)';
-const cube = 'upload_cube(gl, make_normalisation_cube())';
+const cube = 'upload_cube(gl, make_normalisation_cube(model.cube_size))';
 const diffuse = 'return self_shadow(l_normal) * max(0, l_perturbed);';
 const asked = { file: 'raster/glsl/maps/map_light_cube.frag', right: 'texture(map, surface.from_light).r' };
 const compared = { file: 'raster/glsl/maps/map_test.glsl', right: 'stored * planes.y + bias < length(surface.from_light)' };
