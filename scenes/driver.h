@@ -25,6 +25,9 @@ inline constexpr int window_depth_roundings = 8;
 /// The relative error of a number that is kept as the sum of two floats.
 inline constexpr double two_floats_roundoff = 0x1p-47;
 
+/// A float product that comes out smaller than this may be flushed to 0.
+inline constexpr double float_underflow = 0x1p-126;
+
 /// Vertices are snapped to a grid of 2^-subpixel_bits of a pixel: how far that moves a coordinate.
 inline double half_snapping_step(int subpixel_bits) {
     return std::exp2(-subpixel_bits - 1);

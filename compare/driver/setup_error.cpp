@@ -107,12 +107,26 @@ Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
     return {z01, z20, glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area};
 }
 
+double twice_area(const PictureTriangle& triangle) {
+    return std::abs(
+        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place));
+}
+
+/// How much of a corner's value a pixel takes, at most, where it may be drawn `reach` aside.
+double weight_of(const PictureTriangle& triangle, std::size_t corner, const glm::dvec2& pixel,
+                 double reach) {
+    const glm::dvec2 from = triangle[(corner + 1) % 3].place;
+    const glm::dvec2 along = triangle[(corner + 2) % 3].place - from;
+    return (std::abs(cross(along, pixel - from)) + reach * glm::length(along)) /
+           twice_area(triangle);
+}
+
 /// Which corner is the first depends on the driver: any may be. Corners are off, too, each by as
 /// much as it weighs at the pixel: by more than one in sum where snapping makes a triangle cover
 /// what lies beside it, and by far more where that is thin.
 double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
     const auto& [a, b, c] = triangle;
-    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
+    const double area = twice_area(triangle);
     // Seen edge-on; or an end at infinity in no direction at all, so that the area is not a number.
     if (!(area > 0)) return std::numeric_limits<double>::infinity();
     const glm::dvec2 d01 = a.place - b.place;
@@ -122,13 +136,9 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
     const double slope =
         glm::length(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area;
     double corners = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec2 from = triangle[(i + 1) % 3].place;
-        const glm::dvec2 along = triangle[(i + 2) % 3].place - from;
-        const double weight =
-            (std::abs(cross(along, pixel - from)) + reach * glm::length(along)) / area;
-        corners += weight * (triangle[i].depth_error + slope * triangle[i].place_error);
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+        corners += weight_of(triangle, i, pixel, reach) *
+                   (triangle[i].depth_error + slope * triangle[i].place_error);
     return corners + std::max({error_from(a, b, c, pixel, plane_of_depths(a, b, c)),
                                error_from(b, c, a, pixel, plane_of_depths(b, c, a)),
                                error_from(c, a, b, pixel, plane_of_depths(c, a, b))});
@@ -136,16 +146,31 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
 
 /// For a value over depth whose value is nowhere larger than 1: corners are off by their quotient's
 /// and product's roundings, and those of the shader that made them, 8 v in all.
+///
+/// A corner made by clipping gets its value as it gets its place: three roundings more. Its place
+/// is rounded, too, and its value is then that of a place beside it, as in error_of. What moves
+/// corners that are not clipped is the driver's snapping and transform: lateral_error.
 double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel,
-                          double variation) {
+                          double variation, double reach) {
     const auto& [a, b, c] = triangle;
-    const double area = std::abs(cross(b.place - a.place, c.place - a.place));
-    if (!(area > 0)) return std::numeric_limits<double>::infinity();
+    if (!(twice_area(triangle) > 0)) return std::numeric_limits<double>::infinity();
+    const std::array<Plane, 3> planes{steepest_plane(a, b, c, variation),
+                                      steepest_plane(b, c, a, variation),
+                                      steepest_plane(c, a, b, variation)};
+    const double slope = std::min(
+        {glm::length(planes[0].slope), glm::length(planes[1].slope), glm::length(planes[2].slope)});
+    double clipping = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const PicturePoint& corner = triangle[i];
+        if (corner.made_by_clipping)
+            clipping +=
+                weight_of(triangle, i, pixel, reach) *
+                (3 * v * corner.inverse_depth + corner.depth_error + slope * corner.place_error);
+    }
     const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
-    return 8 * v * largest +
-           std::max({error_from(a, b, c, pixel, steepest_plane(a, b, c, variation)),
-                     error_from(b, c, a, pixel, steepest_plane(b, c, a, variation)),
-                     error_from(c, a, b, pixel, steepest_plane(c, a, b, variation))});
+    return 8 * v * largest + clipping +
+           std::max({error_from(a, b, c, pixel, planes[0]), error_from(b, c, a, pixel, planes[1]),
+                     error_from(c, a, b, pixel, planes[2])});
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
@@ -226,10 +251,11 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 // off by up to e: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation) {
-    const double error = largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
-                                       [&](const PictureTriangle& one, const glm::dvec2& place) {
-                                           return attribute_error_of(one, place, variation);
-                                       });
+    const double error =
+        largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
+                      [&](const PictureTriangle& one, const glm::dvec2& place) {
+                          return attribute_error_of(one, place, variation, pixel.reach);
+                      });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);

@@ -1,19 +1,23 @@
 // A shared object for LD_PRELOAD: memory that runs out where a test says so. It counts the
 // allocations of the process from main() to its end, since nobody can answer for those before; of
-// the processes that it forks, each goes on from the count of its parent.
+// the processes that it forks, each goes on from the count of its parent. Counted are places in the
+// code that allocate, each when it does so for the first time.
 //   ALLOCATION_COUNTER  a file of 16 bytes, as uint64: the highest count of any process, and
 //                       whether an allocation has failed; without it nothing is counted
 //   ALLOCATION_AT       the allocation that fails, from 1, in the process that reaches it first;
 //                       none: all are counted and none fails
 //   ALLOCATION_KIND     new: those of operator new alone; else all that come to malloc too
+//   ALLOCATION_EVERY    set: every allocation counts, not the first of each place alone
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -39,6 +43,23 @@ Shared* shared = nullptr;
 unsigned long at = 0;
 bool counts_new = false;
 bool counts_malloc = false;
+bool counts_every = false;
+
+/// Return addresses of calls that have allocated. Open addressing; a place that finds no room in a
+/// full table is never new.
+std::array<std::atomic<std::uintptr_t>, 1U << 16U> places;
+
+bool is_new(const void* caller) {
+    const auto place = reinterpret_cast<std::uintptr_t>(caller);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::uintptr_t held = 0;
+        std::atomic<std::uintptr_t>& slot =
+            places[(place * 0x9e3779b97f4a7c15U + i) >> 7U & 0xffffU];
+        if (slot.compare_exchange_strong(held, place)) return true;
+        if (held == place) return false;
+    }
+    return false;
+}
 
 [[gnu::constructor]] void begin() {
     if (const char* text = std::getenv("ALLOCATION_AT")) at = std::strtoul(text, nullptr, 10);
@@ -54,10 +75,11 @@ bool counts_malloc = false;
     shared = static_cast<Shared*>(mapped);
     counts_new = std::strcmp(kind, "new") == 0;
     counts_malloc = !counts_new;
+    counts_every = std::getenv("ALLOCATION_EVERY") != nullptr;
 }
 
-bool fails(bool counted) {
-    if (!counted || !in_main) return false;
+bool fails(bool counted, const void* caller) {
+    if (!counted || !in_main || !(counts_every || is_new(caller))) return false;
     const unsigned long now = count.fetch_add(1) + 1;
     unsigned long most = shared->most;
     while (now > most && !shared->most.compare_exchange_weak(most, now)) {
@@ -77,20 +99,20 @@ int counted_main(int argc, char** argv, char** environment) {
     return code;
 }
 
-void* allocate(std::size_t size) {
-    void* const memory = fails(counts_new || counts_malloc) ? nullptr : __libc_malloc(size);
+void* allocate(std::size_t size, const void* caller) {
+    void* const memory = fails(counts_new || counts_malloc, caller) ? nullptr : __libc_malloc(size);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
 
-void* aligned(std::size_t alignment, std::size_t size) {
-    return fails(counts_malloc) ? nullptr : __libc_memalign(alignment, size);
+void* aligned(std::size_t alignment, std::size_t size, const void* caller) {
+    return fails(counts_malloc, caller) ? nullptr : __libc_memalign(alignment, size);
 }
 
-void* allocate(std::size_t size, std::align_val_t alignment) {
+void* allocate(std::size_t size, std::align_val_t alignment, const void* caller) {
     const auto bytes = static_cast<std::size_t>(alignment);
     void* const memory =
-        fails(counts_new || counts_malloc) ? nullptr : __libc_memalign(bytes, size);
+        fails(counts_new || counts_malloc, caller) ? nullptr : __libc_memalign(bytes, size);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
@@ -108,25 +130,27 @@ int __libc_start_main(Main* given, int argc, char** argv, void (*begin_all)(),
     return start(counted_main, argc, argv, begin_all, end_all, end_loader, stack_end);
 }
 void* malloc(std::size_t size) noexcept {
-    return fails(counts_malloc) ? nullptr : __libc_malloc(size);
+    return fails(counts_malloc, __builtin_return_address(0)) ? nullptr : __libc_malloc(size);
 }
 void* calloc(std::size_t number, std::size_t size) noexcept {
-    return fails(counts_malloc) ? nullptr : __libc_calloc(number, size);
+    return fails(counts_malloc, __builtin_return_address(0)) ? nullptr
+                                                             : __libc_calloc(number, size);
 }
 void* realloc(void* memory, std::size_t size) noexcept {
-    return fails(counts_malloc) ? nullptr : __libc_realloc(memory, size);
+    return fails(counts_malloc, __builtin_return_address(0)) ? nullptr
+                                                             : __libc_realloc(memory, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) noexcept {
-    return aligned(alignment, size);
+    return aligned(alignment, size, __builtin_return_address(0));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-    return aligned(alignment, size);
+    return aligned(alignment, size, __builtin_return_address(0));
 }
 /// Unlike the others it returns what went wrong.
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
     const bool is_power_of_two = alignment != 0 && (alignment & (alignment - 1)) == 0;
     if (!is_power_of_two || alignment % sizeof(void*) != 0) return EINVAL;
-    void* const got = aligned(alignment, size);
+    void* const got = aligned(alignment, size, __builtin_return_address(0));
     if (got == nullptr) return ENOMEM;
     *memory = got;
     return 0;
@@ -134,16 +158,16 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
 }
 
 void* operator new(std::size_t size) {
-    return allocate(size == 0 ? 1 : size);
+    return allocate(size == 0 ? 1 : size, __builtin_return_address(0));
 }
 void* operator new[](std::size_t size) {
-    return allocate(size == 0 ? 1 : size);
+    return allocate(size == 0 ? 1 : size, __builtin_return_address(0));
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
-    return allocate(size == 0 ? 1 : size, alignment);
+    return allocate(size == 0 ? 1 : size, alignment, __builtin_return_address(0));
 }
 void* operator new[](std::size_t size, std::align_val_t alignment) {
-    return allocate(size == 0 ? 1 : size, alignment);
+    return allocate(size == 0 ? 1 : size, alignment, __builtin_return_address(0));
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);

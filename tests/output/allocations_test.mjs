@@ -1,5 +1,7 @@
 // The commands where memory runs out: exit code 3 and a sentence, or 0 and everything whole.
-// SHADOWPROOF_TRIES=N lets N allocations of each command fail in turn, spread over all.
+// Failing are, in turn, places in the code that allocate, each when it does so for the first time,
+// and allocations spread over the whole run. SHADOWPROOF_TRIES=N tries N of either, and
+// SHADOWPROOF_TRIES=places every place: 20 minutes.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -17,61 +19,68 @@ const commands = {
   verify: [program, 'verify', 'near_plane', '--size', '16x16', '--technique', 'zpass', '--threads', '1',
            '--out', 'report', '-q'],
 };
-/** Of each command and kind: so many allocations fail, evenly spread over all that it makes. */
-const tries = { 'normal-map': 40, render: 30, merge: 40, verify: 20 };
+/** Of each command and kind: so many of them fail, evenly spread. */
+const tries = { places: 40, allocations: 15 };
 
 const counter = join(scratch, 'allocations');
-/** Settings of allocation_faults.cpp; `at`: the allocation that fails. */
-function allocations(kind, at) {
+/** Settings of allocation_faults.cpp; `counts`: places or allocations; `at`: the one that fails. */
+function allocations(kind, counts, at) {
   writeFileSync(counter, Buffer.alloc(16));
   return { LD_PRELOAD: process.env.ALLOCATION_FAULTS, ALLOCATION_KIND: kind,
-           ALLOCATION_COUNTER: counter, ...(at && { ALLOCATION_AT: String(at) }) };
+           ALLOCATION_COUNTER: counter, ...(counts === 'allocations' && { ALLOCATION_EVERY: '1' }),
+           ...(at && { ALLOCATION_AT: String(at) }) };
 }
 const counted = () => Number(readFileSync(counter).readBigUInt64LE(0));
 const hasFailed = () => readFileSync(counter).readBigUInt64LE(8) === 1n;
 
 assert.equal(run([...commands.verify.slice(0, -3), '--out', 'shard']).code, 0);
 
-for (const [name, command] of Object.entries(commands))
-  for (const kind of ['new', 'malloc'])
-    test(`${name}: where an allocation of ${kind} fails, nothing is cut, and a sentence says so`, () => {
-      const below = join(scratch, `${name}-${kind}`);
+const cases = Object.keys(commands).flatMap((name) => ['new', 'malloc'].flatMap((kind) =>
+  Object.keys(tries).map((counts) => ({ name, kind, counts }))));
+for (const { name, kind, counts } of cases)
+  test(`${name}: where one of its ${counts} of ${kind} fails, nothing is cut, and a sentence says so`, () => {
+    const command = commands[name];
+    const below = join(scratch, `${name}-${kind}`);
+    const start = () => {
+      rmSync(below, { recursive: true, force: true });
       mkdirSync(below);
-      const whole = run(command, { cwd: below, env: allocations(kind) });
-      assert.equal(whole.code, 0, whole.err);
-      const count = counted();
-      assert.ok(count > 100, `${count} allocations: the shim counts nothing`);
-      const picture = contentOf(below)['out.png'];
-      /** Nothing, the whole picture, or a report with all files that it lists, and no others. */
-      const isWhole = (all) => {
-        const names = Object.keys(all);
-        if (names.length === 0) return true;
-        if (picture !== undefined) return names.join() === 'out.png' && all['out.png'] === picture;
-        const manifest = JSON.parse(all['report/manifest.json'] ?? '{"files":[]}');
-        const listed = manifest.files.map((file) => `report/${file.name}`);
-        return !names.includes('report.writing') && listed.includes('report/index.html') &&
-          listed.sort().join() === names.filter((file) => all[file] !== 'folder' &&
-            file !== 'report/manifest.json').sort().join() &&
-          manifest.files.every((file) => all[`report/${file.name}`].length === file.size);
-      };
-      const faults = [];
-      let failed = 0;
-      const times = Number(process.env.SHADOWPROOF_TRIES ?? tries[name]);
-      for (let i = 0; i < times; ++i) {
-        const at = 1 + Math.floor((count - 1) * i / (times - 1));
-        rmSync(below, { recursive: true });
-        mkdirSync(below);
-        const done = run(command, { cwd: below, env: allocations(kind, at) });
-        failed += hasFailed() ? 1 : 0;
-        const all = contentOf(below);
-        // Some libraries can do without, and a cell that could not run is said in a whole report.
-        const said = done.code === 0 ? Object.keys(all).length > 0
-                                     : done.code === 3 && /\w/.test(done.err + done.out);
-        if (!said || !isWhole(all))
-          faults.push(`allocation ${at} of ${count}: ${done.code ?? done.signal} ${done.err.slice(0, 300)} ` +
-                      `[${Object.keys(all).join(' ')}]`);
-      }
-      assert.deepEqual(faults, []);
-      // The last may not be reached: what threads allocate is not the same each time.
-      assert.ok(failed > 0.9 * times, `${failed} of ${times} allocations failed`);
-    });
+    };
+    start();
+    const whole = run(command, { cwd: below, env: allocations(kind, counts) });
+    assert.equal(whole.code, 0, whole.err);
+    const count = counted();
+    assert.ok(count > 100, `${count} ${counts}: the shim counts nothing`);
+    const picture = contentOf(below)['out.png'];
+    /** Nothing, the whole picture, or a report with all files that it lists, and no others. */
+    const isWhole = (all) => {
+      const names = Object.keys(all);
+      if (names.length === 0) return true;
+      if (picture !== undefined) return names.join() === 'out.png' && all['out.png'] === picture;
+      const manifest = JSON.parse(all['report/manifest.json'] ?? '{"files":[]}');
+      const listed = manifest.files.map((file) => `report/${file.name}`);
+      return !names.includes('report.writing') && listed.includes('report/index.html') &&
+        listed.sort().join() === names.filter((file) => all[file] !== 'folder' &&
+          file !== 'report/manifest.json').sort().join() &&
+        manifest.files.every((file) => all[`report/${file.name}`].length === file.size);
+    };
+    const faults = [];
+    let failed = 0;
+    const asked = process.env.SHADOWPROOF_TRIES ?? tries[counts];
+    const times = asked !== 'places' ? Number(asked) : counts === 'places' ? count : tries[counts];
+    for (let i = 0; i < times; ++i) {
+      const at = 1 + Math.floor((count - 1) * i / (times - 1));
+      start();
+      const done = run(command, { cwd: below, env: allocations(kind, counts, at) });
+      failed += hasFailed() ? 1 : 0;
+      const all = contentOf(below);
+      // Some libraries can do without, and a cell that could not run is said in a whole report.
+      const said = done.code === 0 ? Object.keys(all).length > 0
+                                   : done.code === 3 && /\w/.test(done.err + done.out);
+      if (!said || !isWhole(all))
+        faults.push(`${at} of ${count}: ${done.code ?? done.signal} ${done.err.slice(0, 300)} ` +
+                    `[${Object.keys(all).join(' ')}]`);
+    }
+    assert.deepEqual(faults, []);
+    // The last may not be reached: what threads allocate is not the same each time.
+    assert.ok(failed > 0.9 * times, `${failed} of ${times} ${counts} failed`);
+  });

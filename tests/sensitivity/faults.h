@@ -16,6 +16,9 @@ inline bool is(int fault) {
     return active == fault;
 }
 
+/// How large the fault is that is switched on, if it may be of any size: AMOUNT in its text.
+inline std::atomic<double> amount = 0;
+
 /// Where a fault takes effect.
 enum class Scope {
     claim,  ///< while a technique draws
@@ -32,6 +35,10 @@ struct Fault {
     std::string_view why; ///< why it changes nothing, or is not caught
     Scope scope = Scope::claim;
     std::string_view scenes; ///< those that it is tried on, by commas; empty: all
+    int largest = 0;         ///< of a fault of any size: tried from 2 to this power, which is < 0
+    int aim = 0;             ///< of such: caught at 2 to this power at the least
+    std::string_view unit;   ///< of such: what its size is measured in
+    std::string_view own;    ///< of such: by how much the rasterizer itself may be off
 };
 
 /// In the order of the catalogue.

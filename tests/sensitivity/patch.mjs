@@ -36,12 +36,14 @@ function placeOf(text, { name, file, right }) {
   return first;
 }
 
+const wrongOf = (n) => faults[n].wrong.replaceAll('AMOUNT', '::shadowproof::faults::amount.load()');
+
 /** What stands for the right text: a choice between it and its faults. */
 function choice(right, numbers) {
   const isStatement = /[;}]$/.test(right.trim());
   if (!isStatement)
-    return `(${numbers.map((n) => `::shadowproof::faults::is(${n}) ? (${faults[n].wrong}) : `).join('')}(${right}))`;
-  return `${numbers.map((n) => `if (::shadowproof::faults::is(${n})) { ${faults[n].wrong} } else `).join('')}{ ${right} }`;
+    return `(${numbers.map((n) => `::shadowproof::faults::is(${n}) ? (${wrongOf(n)}) : `).join('')}(${right}))`;
+  return `${numbers.map((n) => `if (::shadowproof::faults::is(${n})) { ${wrongOf(n)} } else `).join('')}{ ${right} }`;
 }
 
 function patched(file) {
@@ -79,7 +81,8 @@ if (what === 'files') {
     writeFileSync(to, patched(file));
   }
   const rows = faults.map((f) => `    {${[f.name, f.kind, f.techniques, f.file, f.right, f.wrong, f.why].map(quoted).join(', ')}, ` +
-    `Scope::${f.scope ?? 'claim'}, ${quoted(f.scenes)}},\n`);
+    `Scope::${f.scope ?? 'claim'}, ${quoted(f.scenes)}, ${f.largest ?? 0}, ${f.aim ?? 0}, ` +
+    `${quoted(f.unit)}, ${quoted(f.own)}},\n`);
   writeFileSync(join(out, 'catalogue.cpp'),
     '#include "tests/sensitivity/faults.h"\n\nnamespace shadowproof::faults {\n\nnamespace {\n' +
     `const Fault catalogue[] = {\n${rows.join('')}};\n} // namespace\n\n` +

@@ -50,9 +50,9 @@ Interval self_shadow(const Interval& z) {
 }
 
 /// Rounding of floats: a dozen products and sums on the way to a colour, of terms no larger than
-/// their sum.
+/// their sum, any of which may be flushed to 0.
 Interval rounded(const Interval& a) {
-    return widened(a, 12 * v * std::max(std::abs(a.low), std::abs(a.high)));
+    return widened(a, 12 * (v * std::max(std::abs(a.low), std::abs(a.high)) + float_underflow));
 }
 
 struct Terms {

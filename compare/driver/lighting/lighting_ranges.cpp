@@ -145,7 +145,9 @@ DecalRange decal_range(const Scene& scene, const Material& material, const Place
             RangeOf<glm::dvec4>{any_texel, any_texel, any_texel, any_texel});
     }
     // Three roundings of a mixture along rows, as many between them, and the factor's two.
-    const auto rounded = [](const Interval& a) { return widened(a, 8 * v * std::abs(a.high)); };
+    const auto rounded = [](const Interval& a) {
+        return widened(a, 8 * (v * std::abs(a.high) + float_underflow));
+    };
     DecalRange decal;
     if (material.gloss_in_alpha) decal.gloss = rounded(texel[3]);
     for (std::size_t k = 0; k < 3; ++k)

@@ -1,5 +1,6 @@
 // Colours are judged by intervals that are derived, pixel by pixel: what a technique computes is
 // predicted, what it rounds is within its bound, and what is not predicted is told.
+#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/verdict.h"
 #include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -148,6 +150,74 @@ TEST(Colors, of_smooth_surfaces_beside_bumps_are_predicted) {
             EXPECT_EQ(colors.unpredicted, 0U)
                 << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
         }
+    }
+}
+
+/// With all that has bumps stretched along x.
+TracedScene stretched(const std::string& name, float by) {
+    SceneRequest request;
+    request.width = request.height = 48;
+    Scene scene = load_scene(name, request);
+    std::vector<bool> bumpy(scene.positions.size());
+    for (const Mesh& mesh : scene.meshes)
+        for (std::uint32_t t = 0; t < mesh.triangle_count; ++t)
+            for (int k = 0; k < 3; ++k)
+                if (scene.materials[mesh.material].bump != Bump::none)
+                    bumpy[scene.triangles[mesh.first_triangle + t][k]] = true;
+    for (std::size_t i = 0; i < bumpy.size(); ++i)
+        if (bumpy[i]) scene.positions[i].x *= by;
+    return TracedScene(std::move(scene));
+}
+
+/// The clipper makes corners from the triangle's, whose sizes decide how far the new ones are off:
+/// a value interpolated between them is then that of a place beside the pixel.
+TEST(Colors, of_triangles_that_the_clipper_cuts_are_predicted) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"coarse_curve", "bumpy_torus"})
+        for (const float by : {1e2F, 1e6F, 1e7F, 1e8F, 1e9F, 0x1p54F}) {
+            const TracedScene scene = stretched(name, by);
+            for (const Technique* technique : techniques_for(scene.scene)) {
+                SCOPED_TRACE(name + (", " + std::to_string(by)) + std::string(technique->name));
+                const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
+                const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+                EXPECT_EQ(colors.unpredicted, 0U)
+                    << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+            }
+        }
+}
+
+/// Where the clipper's errors are small, they excuse little: of the rest the texels explain, of
+/// which a pixel covers many.
+TEST(Colors, of_triangles_that_the_clipper_cuts_are_unexplained_two_steps_off) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"coarse_curve", "bumpy_torus"}) {
+        const TracedScene scene = stretched(name, 100);
+        for (const char* technique : {"bump_tangent_space", "bump_eye_space"}) {
+            Frame frame = render(*find_technique(technique), scene.scene, scene.plan, gpu);
+            for (glm::vec3& color : frame.color.pixels) color += 2.F / 255;
+            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            EXPECT_GT(colors.unpredicted, colors.judged / 2);
+        }
+    }
+}
+
+/// A driver flushes products to 0 that are too small for a float's exponent.
+TEST(Colors, that_floats_do_not_hold_are_predicted) {
+    Gpu gpu(GlPlatform::osmesa);
+    SceneRequest request;
+    request.width = request.height = 48;
+    Scene given = load_scene("bumpy_sphere", request);
+    for (Material& material : given.materials) material.color = {1e-40, 5e-324, 0.5};
+    const TracedScene scene(std::move(given));
+    for (const Technique* technique : techniques_for(scene.scene)) {
+        SCOPED_TRACE(technique->name);
+        Frame frame = render(*technique, scene.scene, scene.plan, gpu);
+        const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+        EXPECT_EQ(colors.unpredicted, 0U);
+        if (!is_exact(frame.color_model)) continue;
+        EXPECT_EQ(colors.beyond, 0U);
+        for (glm::vec3& color : frame.color.pixels) color.g += 0x1p-100F;
+        EXPECT_GT(check_colors(scene.tracer, scene.truth, frame).beyond, 500U);
     }
 }
 
