@@ -18,9 +18,8 @@ struct TimeInterval {
 inline constexpr std::size_t least_samples = 6;
 
 /// The sample median and the order statistics that hold the true median between them in 95 % of
-/// cases, whatever the distribution (the sign test's interval; Conover 1999, section 3.2). It
-/// assumes that samples are independent. Of fewer than least_samples: the least and the greatest.
-/// Of none: zero.
+/// cases, whatever the distribution (the sign test's interval; Conover 1999, section 3.2). It takes
+/// samples for independent. Of fewer than least_samples: the least and the greatest. Of none: zero.
 TimeInterval median_interval(std::vector<double> samples);
 
 /// Whether there are enough samples and both ends lie within 5 % of the median.
