@@ -54,7 +54,7 @@ inline constexpr std::array<CauseWords, 19> all_causes{{
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
     {Cause::range, "range", "outside the light's near and far plane"},
     {Cause::filter, "filter", "averaged with its neighbours: its own texel is right"},
-    {Cause::missed, "missed", "a float ray slipped between triangles, or hit one that it misses"},
+    {Cause::missed, "missed", "a float ray slipped between triangles, or hit one beside it"},
     {Cause::precision, "precision", "within the rounding of depths or rays"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
