@@ -9,16 +9,20 @@ import { filesBelow, shadowproof } from './shadowproof.mjs';
 
 const controllers = fileURLToPath(
   new URL('../node_modules/@webxr-input-profiles/assets/dist/profiles', import.meta.url));
+// A sanitizer makes a run some twenty times as long, and controllers are much like each other.
+const sanitized = Boolean(process.env.SHADOWPROOF_SANITIZED);
+const techniques = sanitized ? 'zfail_geometry_shader' : 'zpass_capped,zfail_half_edge,zfail_geometry_shader,auto';
+const size = sanitized ? '32x32' : '96x96';
 const folders = ['/usr/share/assimp/models/glTF2', '/usr/share/assimp/models/glTF', controllers];
 
 for (const folder of folders) {
   test(`the package of test assets is installed: ${folder}`, () => assert.ok(existsSync(folder)));
   const assets = existsSync(folder)
     ? filesBelow(folder).filter((file) => /\.(gltf|glb)$/.test(file)) : [];
-  for (const asset of assets)
+  const step = sanitized && folder === controllers ? 10 : 1;
+  for (const asset of assets.filter((_, i) => i % step === 0))
     test(`${asset} verifies, or is refused with one sentence`, () => {
-      const run = shadowproof(['verify', join(folder, asset), '--size', '96x96', '-q',
-                                 '--technique', 'zpass_capped,zfail_half_edge,zfail_geometry_shader,auto'],
+      const run = shadowproof(['verify', join(folder, asset), '--size', size, '-q', '--technique', techniques],
                               { seconds: 300 });
       assert.equal(run.signal, null, `ended by ${run.signal}`);
       assert.ok([0, 1, 3].includes(run.code), `exit code ${run.code}`);
