@@ -11,7 +11,7 @@ namespace {
 
 ChangedScene same_triangles(const Scene& scene) {
     ChangedScene changed{.scene = scene,
-                       .original = std::vector<std::uint32_t>(scene.triangles.size())};
+                         .original = std::vector<std::uint32_t>(scene.triangles.size())};
     std::iota(changed.original.begin(), changed.original.end(), 0U);
     return changed;
 }
