@@ -12,7 +12,7 @@
 
 namespace shadowproof {
 
-/// A setting with a flag of its own (add_technique_flags), and the values of that flag to try.
+/// A setting that has a flag of its own (add_technique_flags). Its values are the flag's.
 struct SweptSetting {
     std::string_view name; ///< of the flag, without its dashes
     std::vector<std::string_view> values;
@@ -30,7 +30,7 @@ std::span<const SweptSetting> swept_settings();
 /// flag does not know a value.
 TechniqueOptions with_settings(TechniqueOptions options, const BenchSettings& settings);
 
-/// The technique's own settings, read from a frame that it made without any flag.
+/// What a technique takes by itself, by a frame that it made without any setting.
 BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit);
 
 /// One setting at a time, each value but the technique's own, and but the costly ones where it is
