@@ -17,8 +17,8 @@ namespace shadowproof {
 void refuse_blank(std::string_view technique, const GroundTruth& truth, const Frame& frame,
                   bool some_unexplained);
 
-/// Throws Error naming the scene if its picture shows no surface: every claim would agree, and that
-/// would say nothing.
+/// Throws Error naming the scene if its picture shows no surface: every claim would agree with it,
+/// which would mean nothing.
 void refuse_blank_truth(const std::string& scene, const GroundTruth& truth);
 
 /// A note for a picture without any shadow, or without any light; none if both are seen.

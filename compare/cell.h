@@ -28,10 +28,11 @@ struct Cell {
     std::string technique;
     std::string family;  ///< family of claims, which decides how it is judged
     std::string summary; ///< one clause: how the technique works
-    /// Words that make this cell again, where it is no technique: those after the program's name.
+    /// Where no technique made the cell: the command that makes it again, as words after the
+    /// program's name.
     std::vector<std::string> command;
-    std::string error; ///< if not empty, the cell has no result: the other members are meaningless,
-                       ///< except the verdict if it is timed_out
+    std::string error; ///< if not empty, the cell has no result, and the other members are
+                       ///< meaningless, except the verdict if it is timed_out
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
     std::vector<std::string> left_out;            ///< what the technique omitted as not needed

@@ -136,7 +136,7 @@ void look_across_coarse_outlines(const Case& tried, const std::vector<PixelPlace
     });
 }
 
-/// Tries for the last time.
+/// The last attempt to explain pixels: by all faces, wherever they lie.
 void look_at_all_faces(const Case& tried, const std::vector<PixelPlace>& places,
                        std::vector<Finding>& findings) {
     std::vector<std::size_t> open;

@@ -19,16 +19,16 @@ struct FirstDifference {
     Cause cause = Cause::unexplained;
 };
 
-/// What the shares of light come to that a claim has.
+/// Totals over a claim's shares of light.
 struct ShareFigures {
     std::uint64_t partly_lit = 0; ///< pixels
-    double wrongness = 0; ///< light by which all pixels that differ are off, those of edge apart
+    double wrongness = 0; ///< sum of wrongness() over all pixels that differ, except those of edge
 };
 
 struct Comparison {
     Image<std::uint8_t> cause; ///< Cause, or no_difference
-    /// CauseSet::bits of the further causes without which `cause` alone makes no difference to the
-    /// pixel; empty if no pixel has any.
+    /// CauseSet::bits of further limitations that must be lifted together with `cause` to make the
+    /// pixel right; empty if no pixel has any.
     Image<std::uint32_t> also;
     std::uint64_t several = 0;         ///< pixels with such further causes
     Image<std::uint8_t> evidence_miss; ///< 1 where the pixel is EvidenceCheck::unexplained
@@ -48,8 +48,8 @@ inline std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
     return comparison.causes[static_cast<std::size_t>(cause)];
 }
 
-/// How far a claim is from the truth at a pixel that differs, given by its index: by a share of the
-/// light where it is partly lit; by 1 elsewhere, and where the truth is background.
+/// How wrong a claim is at a pixel that differs, given by its index: by a share of the light where
+/// the claim is partly lit; by 1 elsewhere, and where the truth is background.
 double wrongness(const Image<Visibility>& truth, const Frame& frame, std::size_t pixel);
 
 /// All pictures must have the same size (asserted). `judge`: the frame's (judge_of). After

@@ -1,6 +1,6 @@
-// What of a claim's evidence is unexplained, in words: what was read back and the surfaces shown,
-// colours, and what its family adds (EvidenceSummary::unexplained). The verdict and all writers
-// read it here.
+// In words, which evidence of a claim is unexplained: values read back and surfaces shown, colours,
+// and what its family adds (EvidenceSummary::unexplained). The verdict and all writers use these
+// functions.
 #pragma once
 
 #include "compare/classify.h"

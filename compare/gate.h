@@ -40,7 +40,7 @@ using CausePixels = std::array<std::uint64_t, all_causes.size()>;
 /// with a baseline, only pixels count that are new since or have changed cause. A cause that is
 /// allowed, and has no more such pixels than allowed, counts none; one that has more counts all.
 /// Of a cause that was accepted in the baseline, only new and changed pixels count, under either
-/// gate. Else `unexplained` always counts: neither a baseline nor an allowance excuses it.
+/// gate. Otherwise `unexplained` always counts: neither a baseline nor an allowance excuses it.
 CausePixels pixels_that_fail(const Cell& cell, const Gate& gate);
 
 /// The pixels that would count without the gate's allowances, and do not with them.

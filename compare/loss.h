@@ -1,4 +1,4 @@
-// Why something has no result, though nothing refused it.
+// Why something has no result although it was not refused.
 #pragma once
 
 #include <cstdint>

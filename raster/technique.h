@@ -1,5 +1,6 @@
 // A technique: what it is called, what it needs, what it is known to fail at, and the function that
-// draws or traces a scene with it. Which family judges its claim, its frames say (Frame::family).
+// draws or traces a scene with it. Its frames name the family that judges its claim
+// (Frame::family).
 #pragma once
 
 #include "scenes/cause.h"
@@ -29,11 +30,11 @@ struct Technique {
     /// Those of them that almost any scene provokes: no scene need declare them.
     std::vector<Cause> by_nature = {};
     bool needs_bump_maps = false; ///< it lights them, and is for bump-lit scenes only
-    /// It reflects one. A technique that lights bumps and does not reflect is only for scenes
-    /// without one.
+    /// It reflects the scene's environment. A technique that lights bump maps without reflections
+    /// is only for scenes without an environment.
     bool needs_environment = false;
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
-    /// The flags that it heeds and not all techniques do, without their dashes.
+    /// The flags that affect it, but not all techniques; without their dashes.
     std::vector<std::string_view> settings = {};
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };

@@ -1,5 +1,5 @@
 // The perspective camera, and THE definition of which ray belongs to which pixel: the reference
-// traces it, the rasterizer's matrices are made from it.
+// traces these rays, and the rasterizer's matrices follow from the same numbers.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace shadowproof {
 
-/// Most pixels along a side: what a 32-bit float's 24 bits and every OpenGL 4.5 framebuffer hold.
+/// The largest number of pixels along a side: a float's 24 bits and every OpenGL 4.5 framebuffer
+/// hold it.
 inline constexpr int largest_side = 16384;
 
 /// World units are the scene's own; depth is measured along `forward`.

@@ -22,13 +22,13 @@ enum class Cause : std::uint8_t {
     resolution,   ///< the texel's ray from the light does not go through the pixel's point
     acne,         ///< the receiver shadows itself: the bias or epsilon is too small
     leak,         ///< an occluder lies within the bias or epsilon, which is too large
-    range,        ///< outside of what the light's camera keeps
+    range,        ///< outside the range of depths that the light's camera draws
     filter,       ///< the texels around the point's own were averaged with it
-    missed,       ///< a float ray slipped between two triangles, or met one that it passes
-    precision,    ///< disappears when the surface moves by one quantum of the depth format, or
-                  ///< when a float ray is not rounded
-    shading,      ///< colour beyond its derived bound
-    unexplained,  ///< no prediction matches: always a failure
+    missed,    ///< a float ray slipped between two triangles, or hit one that the exact ray misses
+    precision, ///< disappears when the surface moves by one quantum of the depth format, or
+               ///< when a float ray is not rounded
+    shading,   ///< colour beyond its derived bound
+    unexplained, ///< no prediction matches: always a failure
 };
 
 struct CauseWords {
@@ -54,7 +54,7 @@ inline constexpr std::array<CauseWords, 19> all_causes{{
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
     {Cause::range, "range", "outside the light's near and far plane"},
     {Cause::filter, "filter", "averaged with its neighbours: its own texel is right"},
-    {Cause::missed, "missed", "a float ray slipped between triangles, or met one that it passes"},
+    {Cause::missed, "missed", "a float ray slipped between triangles, or hit one beside it"},
     {Cause::precision, "precision", "within the rounding of depths or rays"},
     {Cause::shading, "shading", "the colour is beyond its bound"},
     {Cause::unexplained, "unexplained", "no prediction matches"},
@@ -81,7 +81,7 @@ public:
     constexpr void add(Cause cause) { bits_ |= bit(cause); }
     friend constexpr bool operator==(CauseSet, CauseSet) = default;
 
-    /// How pictures keep it.
+    /// The set as pictures store it.
     constexpr std::uint32_t bits() const { return bits_; }
     static constexpr CauseSet of(std::uint32_t bits) {
         CauseSet set;

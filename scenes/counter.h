@@ -1,5 +1,5 @@
-// The counter of shadow volumes: how a technique counts, which is all that is needed to predict
-// what it counts, and what was read back.
+// The counter of shadow volumes: how a technique counts, from which its counter is predicted, and
+// the counter that was read back.
 #pragma once
 
 #include "scenes/image.h"
@@ -96,7 +96,8 @@ enum class NearPlane : std::uint8_t {
 struct VolumeFaces {
     /// Which edges of light-facing triangles are extruded to sides.
     enum class Sides : std::uint8_t {
-        surplus, ///< edges that more of them run one way than the other, once per surplus triangle
+        surplus,    ///< edges that more of these triangles run in one direction than in the other,
+                    ///< once per surplus triangle
         half_edges, ///< each half-edge whose twin (half_edge.h) is missing or does not face
                     ///< the light
         all,        ///< all three of every triangle
@@ -125,8 +126,9 @@ struct CounterEvidence {
     Image<std::uint32_t> counter; ///< as read back, before the light pass
     Counting counting;
     VolumeFaces volume_faces{};
-    std::uint64_t volume_fragments = 0; ///< that the volumes' faces cover, hidden or not
-    /// How many of them are not behind what is seen, at most 255: the volumes as a picture.
+    std::uint64_t volume_fragments = 0; ///< of all volume faces, hidden or not
+    /// A picture of the volumes: how many of their faces are not behind the visible surface, at
+    /// most 255.
     Image<std::uint8_t> volumes;
     std::optional<Savings> saved; ///< by leaving out what the scene did not need
 };

@@ -1,4 +1,4 @@
-// Window depth: how a technique makes it, and how a depth buffer keeps it.
+// Window depth: how a technique computes it, and how a depth buffer stores it.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,17 @@
 
 namespace shadowproof {
 
-/// How window depth is made and stored.
+/// How window depth is computed and stored.
 struct DepthModel {
     enum class Projection : std::uint8_t { finite, finite_reversed, infinite, infinite_reversed };
     Projection projection = Projection::finite;
     double near = 0.1;
     double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
     bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
-    bool eye_relative = false; ///< vertices are made relative to the eye before the matrix
+    bool eye_relative = false; ///< the eye is subtracted from vertices before the matrix is applied
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
-    double front = 0;   ///< window depth of the near plane; above 0, smaller depths are kept free
-    bool clamp = false; ///< GL_DEPTH_CLAMP: what lies past the near and far planes is kept
+    double front = 0;          ///< window depth of the near plane; smaller ones are reserved
+    bool clamp = false;        ///< GL_DEPTH_CLAMP: what lies past the near and far planes is kept
 
     /// Window depth decreases away from the eye, from 1 at the near plane to 0.
     bool reversed() const {

@@ -1,6 +1,6 @@
-// How often an OpenGL driver rounds, and to which grid it snaps: with roundoff.h the constants that
-// every bound of its errors is made of. Bounds for the judge are derived in compare/driver, those
-// for what is decided before drawing in scenes/plan and scenes/mesh; bytes are in
+// How often an OpenGL driver rounds, and to which grid it snaps. All bounds of its errors are made
+// of these constants and those of roundoff.h. Bounds for the judge are derived in compare/driver,
+// those for what is decided before drawing in scenes/plan and scenes/mesh; bytes are in
 // scenes/byte_blending.h.
 #pragma once
 
@@ -10,15 +10,16 @@
 
 namespace shadowproof {
 
-/// Of one coordinate that a float matrix transforms: its entry (1), the product (1), the sums (3).
+/// Roundings of one coordinate that a float matrix transforms: matrix entry (1), product (1), sums
+/// (3).
 inline constexpr int transform_roundings = 5;
 
-/// At each plane that clips, a new corner's coordinate is divided, subtracted, multiplied and
-/// added.
+/// Roundings of a new corner's coordinate at each plane that clips: a division, a subtraction, a
+/// multiplication and an addition.
 inline constexpr int clipping_roundings = 4;
 
-/// Of window depth, in units of its largest value: at 1/w, z/w and the viewport's sum, at the pixel
-/// in two products and two sums of its plane, and half a step of fixed point. That is 7.5.
+/// Roundings of window depth, in units of its largest value: 1/w, z/w and the viewport's sum, two
+/// products and two sums of its plane at the pixel, and half a step of fixed point: 7.5 together.
 inline constexpr int window_depth_roundings = 8;
 
 /// The relative error of a number that is kept as the sum of two floats.

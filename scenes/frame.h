@@ -19,8 +19,8 @@
 
 namespace shadowproof {
 
-/// What a pixel shows; the values are those of the class map, 8-bit gray. Only claims are partly
-/// lit, never the truth: how much, Frame::share says.
+/// What a pixel shows; the values are those of the class map, 8-bit gray. Only claims can be partly
+/// lit, never the truth; Frame::share then says how much.
 enum class Visibility : std::uint8_t { background = 0, shadowed = 64, partly_lit = 160, lit = 255 };
 
 /// A part of a frame, and its time.
@@ -30,13 +30,13 @@ struct Stage {
 };
 
 struct Frame {
-    /// By what the claim is judged: the name of its family (compare/families.inc).
+    /// The name of its family of claims (compare/families.inc), which decides how it is judged.
     std::string_view family;
     Image<Visibility> claim;
     /// How much of the light is claimed at each pixel, 0 to 1; read where the claim is partly lit.
     /// Empty where the claim is all or nothing.
     Image<double> share{};
-    /// The surface that is shown at each pixel; empty where the claim tells of none.
+    /// The surface that is shown at each pixel; empty where the claim shows none.
     Image<std::uint32_t> triangle; ///< index into Scene::triangles, or no_triangle
     Image<float> depth;            ///< window depth in [0, 1]
     DepthFormat depth_format{};    ///< of the buffer, as the driver names it
@@ -53,7 +53,8 @@ struct Frame {
     std::optional<TracedRays> rays;          ///< traced shadows: the rays as they were shot
     double milliseconds = 0; ///< making the evidence, drawing and finishing, without the read-back
     std::vector<Stage> stages{};       ///< of one more frame, which waited for each; may be empty
-    std::vector<std::string> left_out; ///< what this scene did not need of it, one clause each
+    std::vector<std::string> left_out; ///< what the technique omitted because the scene does not
+                                       ///< need it, one clause each
 
     bool shows_surface() const { return !triangle.pixels.empty(); }
 };

@@ -74,7 +74,7 @@ struct LightingSettings {
     std::optional<BumpForm> bump_form{};
 };
 
-/// How a technique makes its colours: all that is needed to predict them.
+/// How a technique computes its colours, from which they are predicted.
 struct ColorModel {
     enum class Arithmetic : std::uint8_t {
         floating,     ///< 32-bit floats from beginning to end

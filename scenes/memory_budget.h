@@ -1,6 +1,6 @@
 // How much memory a run may take, and the account of what it holds. Large allocations are requested
-// here first: one that fails in the middle of the work ends it without a reason and, where the
-// kernel gives more than it has, by killing some process.
+// here first: one that fails in the middle of the work would end it without giving a reason and,
+// where the kernel overcommits memory, by killing some process.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct MemoryBudget {
     std::string origin = "no limit"; ///< "--memory", or "three quarters of what is available"
 };
 
-/// Something that is about to be allocated.
+/// An allocation that is about to be made.
 struct MemoryNeed {
     std::uint64_t bytes = 0;
     std::string where;  ///< names the file and the place in it, or the flag

@@ -8,15 +8,15 @@ namespace shadowproof {
 
 /// (b - a) x (c - a) . (l - w a): positive where the triangle is wound counter-clockwise as seen
 /// from the homogeneous point (l, w), negative where clockwise. The sign is exact, and zero exactly
-/// where there is no area or the point lies in the plane; the size is that of doubles. All inputs
-/// must be finite.
+/// where there is no area or the point lies in the plane; the magnitude is computed in double. All
+/// inputs must be finite.
 double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                    const glm::dvec4& point);
 
 /// The sign (-1, 0 or 1) of ((w a - l) x (b - a)) . (place - a): the side of the plane through the
 /// edge and the light L = (l, w) on which a place lies. Exact, with ties broken as if the place
 /// were moved by (e, e^2, e^3) with an infinitesimal e (Edelsbrunner & Muecke 1990, Simulation of
-/// Simplicity): a count of faces by it takes a place on an edge for one beside it. Zero only where
+/// Simplicity): so counting faces treats a place on an edge like one beside it. Zero only where
 /// there is no such plane.
 int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b,
                  const glm::dvec3& place);

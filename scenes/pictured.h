@@ -1,4 +1,4 @@
-// Shadows read from pictures: the evidence of a claim that somebody's renderer made.
+// Shadows read from pictures: the evidence of a claim that another renderer made.
 #pragma once
 
 #include "scenes/image.h"
@@ -17,7 +17,7 @@ struct PicturedShadows {
                                  ///< is then the truth, and the pixel is not judged
     bool antialiased = false;    ///< pixels across outlines lie between light and shadow
     std::uint64_t undecidable =
-        0; ///< pixels that see a surface facing the light and are not decided
+        0; ///< pixels that show a surface facing the light and are not decided
 };
 
 } // namespace shadowproof

@@ -101,7 +101,7 @@ struct Scene {
                                         ///< two, 1 unless the file's scale is extreme (admission.h)
     std::vector<glm::vec3> positions;   ///< world space; the same array goes to OpenGL
     std::vector<glm::uvec3> triangles;  ///< into positions; counter-clockwise from the front, the
-                                        ///< flip of mirroring nodes already made
+                                        ///< winding of mirrored nodes is already restored
     std::vector<Mesh> meshes;           ///< cover all triangles, in order, without gaps
     std::vector<Material> materials;    ///< at least one
     std::vector<Surface> surfaces;      ///< three per triangle, in the order of its corners; empty
@@ -114,10 +114,11 @@ struct Scene {
                                                      ///< around in world axes, linear: the same
                                                      ///< texels go to OpenGL
     Camera camera;
-    std::vector<Light> lights;      ///< at least one
-    std::size_t light = 0;          ///< the one that is judged
-    std::vector<Cause> provokes;    ///< extras.shadowproof.provokes
-    std::vector<Cause> may_provoke; ///< extras.shadowproof.mayProvoke: at some picture sizes
+    std::vector<Light> lights;   ///< at least one
+    std::size_t light = 0;       ///< the one that is judged
+    std::vector<Cause> provokes; ///< extras.shadowproof.provokes
+    std::vector<Cause>
+        may_provoke; ///< extras.shadowproof.provokesWide, in pictures that are wider than high
     bool declares_provokes = false; ///< whether the file says what it provokes
     bool default_framing = false;   ///< camera or light are not the file's (default_view.h)
     std::vector<std::string> notes; ///< for the console: defaults taken, things not evaluated

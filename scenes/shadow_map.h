@@ -1,6 +1,6 @@
-// Shadow maps: pictures of the casters as the light sees them. How a technique makes and asks its
-// map, which is all that is needed to predict it, and what was read back. Also THE definition of
-// which camera draws which face.
+// Shadow maps: pictures of the casters as the light sees them. How a technique draws and looks up
+// its map, from which the map is predicted, and what was read back. Also THE definition of which
+// camera draws which face.
 #pragma once
 
 #include "scenes/camera.h"
@@ -118,7 +118,7 @@ struct MapModel {
     MapAverage average = MapAverage::comparisons;
 
     std::size_t faces() const { return shape == Shape::cube ? 6 : 1; }
-    /// How many texels a point asks.
+    /// How many texels are read for one point.
     int asked() const { return filter > 0 ? filter * filter : 1; }
 };
 

@@ -1,5 +1,5 @@
-// Shadow rays traced in float: how a technique starts them, and what it shot at each pixel, which
-// is all that is needed to trace the very same rays exactly.
+// Shadow rays traced in float: how a technique starts them, and the rays that it shot at each
+// pixel, so that the very same rays can be traced exactly.
 #pragma once
 
 #include "scenes/image.h"
@@ -19,7 +19,7 @@ struct FloatRay {
     float far = std::numeric_limits<float>::infinity();
 };
 
-/// By what a shadow ray is kept from meeting the surface that it starts on.
+/// How a shadow ray is kept from hitting the surface that it starts on.
 struct RayModel {
     enum class Start : std::uint8_t {
         epsilon, ///< hits nearer than a constant do not count
@@ -36,7 +36,7 @@ struct RaySettings {
     std::optional<double> offset{};
 };
 
-/// The constant that tutorials and renderers have: pbrt's RAY_EPSILON (Pharr & Humphreys 2004), and
+/// The constant that tutorials and renderers use: pbrt's RAY_EPSILON (Pharr & Humphreys 2004), and
 /// the tnear of shadow rays in the tutorials of Embree.
 inline constexpr double customary_epsilon = 1e-3;
 

@@ -4,7 +4,9 @@
 #   - every include is of the own folder or of one that is listed, and every one listed is used;
 #   - no folder includes itself by way of others;
 #   - scenes <- reference | raster <- compare;
-#   - no folder has more units than a person finds their way in.
+#   - no folder has more units than a person finds their way in;
+#   - no two headers have types of one name in one namespace: linked together, the functions of one
+#     could be taken for those of the other (C++ forbids it, and no compiler sees it).
 # compare/command, the program, may know every folder; scenes/bundled/author, a program of its own, is
 # not looked at.
 cmake_minimum_required(VERSION 3.25)
@@ -126,3 +128,26 @@ if(remaining)
     string(REPLACE ";" ", " remaining "${remaining}")
     message(SEND_ERROR "there is a cycle of includes among ${remaining}")
 endif()
+
+# Type names at the beginning of a line, with the namespace that its header opens first.
+set(types)
+foreach(room ${rooms})
+    file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/${room}/*.h)
+    foreach(header ${headers})
+        file(STRINGS ${SOURCE}/${header} spaces REGEX "^namespace [a-z0-9_:]+ {" LIMIT_COUNT 1)
+        file(STRINGS ${SOURCE}/${header} definitions
+            REGEX "^(struct|class|enum|enum class) [A-Za-z0-9]+( final)? [:{]")
+        foreach(definition ${definitions})
+            string(REGEX REPLACE "^(enum class|enum|struct|class) ([A-Za-z0-9]+).*" "\\2" name
+                "${definition}")
+            string(REGEX REPLACE "^namespace ([a-z0-9_:]+) .*" "\\1::${name}" name "${spaces}")
+            if(name IN_LIST types)
+                string(MAKE_C_IDENTIFIER ${name} key)
+                message(SEND_ERROR "${header}: ${name} is also a type of ${header_of_${key}}")
+            endif()
+            list(APPEND types ${name})
+            string(MAKE_C_IDENTIFIER ${name} key)
+            set(header_of_${key} ${header})
+        endforeach()
+    endforeach()
+endforeach()

@@ -85,4 +85,9 @@ foreach(i RANGE 1 27)
 endforeach()
 expect("raster/gl: has more than 26 units")
 
+# Two types of one name, as different as they may be.
+copy_house()
+file(APPEND ${WORK}/raster/gl/gl.h "enum class Scene : std::uint8_t { one };\n")
+expect("shadowproof::Scene is also a type of")
+
 file(REMOVE_RECURSE ${WORK})

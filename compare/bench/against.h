@@ -1,4 +1,4 @@
-// Two runs of a benchmark beside each other: what became slower or more wrong.
+// Compares two runs of a benchmark: what became slower or more wrong.
 #pragma once
 
 #include "compare/bench/bench_run.h"

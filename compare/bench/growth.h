@@ -21,7 +21,7 @@ struct Exponent {
     double high = 0;
 };
 
-/// Where one power law does not do: the size from which on another one holds.
+/// Where one power law does not fit: the size from which on another one holds.
 struct GrowthBreak {
     double size = 0;
     Exponent below{};

@@ -1,5 +1,5 @@
 // Which point of a benchmark is measured next: all in turn, round after round, so that a moment of
-// noise hits all alike.
+// noise affects all alike.
 #pragma once
 
 #include <cstddef>

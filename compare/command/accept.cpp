@@ -49,7 +49,7 @@ ResultsJson reasons_in(const ResultsJson& cell) {
     return reasons;
 }
 
-/// Nothing that did not run can have been reviewed, and nobody knows what unexplained pixels hide.
+/// A cell that did not run cannot have been reviewed, and unexplained pixels may hide any fault.
 void require_name(const AcceptOptions& options, const std::string& place, const std::string& name) {
     if (name.empty())
         throw Error(options.results, place + " has unexplained pixels",
@@ -91,7 +91,8 @@ std::string words_of(const std::string& name, const Found& found) {
                        counted(found.cells, "cell"), found.first);
 }
 
-/// The reason for each name, given now or earlier. Says which are missing, or given for nothing.
+/// The reason for each name, given now or earlier. Says which are missing, and which are given but
+/// not needed.
 bool find_reasons(const AcceptOptions& options, const std::map<std::string, Found>& found,
                   const ResultsJson& earlier, ResultsJson& reasons) {
     bool complete = true;

@@ -44,7 +44,7 @@ Clock::duration seconds_long(double seconds) {
     return std::chrono::ceil<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// Seconds without a word after which a line says what is being done. Tests have less time.
+/// Seconds without a message after which a line says what is being done. Tests have less time.
 double longest_silence() {
     const char* text = std::getenv("SHADOWPROOF_SILENCE");
     constexpr double minute = 60;

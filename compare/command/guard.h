@@ -1,5 +1,5 @@
 // Runs a command's work in a child process, so that a crash of this program or a library ends with
-// a message and exit code 3, and nothing takes a minute without a word.
+// a message and exit code 3, and a line says what has been taking longer than a minute.
 #pragma once
 
 #include "compare/command/options.h"
@@ -12,7 +12,7 @@ namespace shadowproof {
 /// Runs the work and prints what it throws to standard error. Returns its exit code.
 int run_to_exit_code(const Work& work) noexcept;
 
-/// Work that says what it is doing: by a Console with this pipe as its watcher.
+/// Work that reports what it is doing, by a Console with this pipe as its watcher.
 using WatchedWork = std::function<int(int watcher)>;
 
 /// The same in a child process. `report`: the folder of the report that the work writes; empty if

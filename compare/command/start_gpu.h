@@ -8,8 +8,8 @@
 
 namespace shadowproof {
 
-/// It gets a minute, whatever the time limit: compilers of shaders start with it. Where a driver
-/// crashes or hangs here, the run cannot go on: throws Error.
+/// Starting is given a minute at least, whatever the time limit, because it also starts compilers
+/// of shaders. Where a driver crashes or hangs here, the run cannot go on: throws Error.
 inline std::unique_ptr<Gpu> start_gpu(Pieces& pieces, GlPlatform platform) {
     constexpr double least_seconds = 60;
     try {

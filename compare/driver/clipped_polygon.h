@@ -50,7 +50,7 @@ struct ViewCorner {
 /// A homogeneous world point (p, w) after the float transform.
 ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& drawing);
 
-/// Where the near and far planes cut: the floats that decide on which side a corner lies have
+/// Where the near and far planes cut. The floats that decide on which side a corner lies have
 /// errors, too.
 enum class PlaneCut : std::uint8_t {
     nominal, ///< at their own depths

@@ -1,5 +1,5 @@
-// On which side of a spot light's cone a surface lies that is shown at a pixel, as far as its
-// interpolated place tells.
+// The side of a spot light's cone on which the surface shown at a pixel lies, within the error of
+// its interpolated position.
 #pragma once
 
 #include "scenes/depth_model.h"
@@ -14,9 +14,9 @@ struct ConeSides {
     bool outside = false;
 };
 
-/// Where a shader may put the point of a triangle that the pixel's centre sees: inside or outside
-/// the cone of the chosen light. Lights that are no spots shine everywhere. `far`: the far plane of
-/// what is drawn.
+/// Whether a shader may place the point of a triangle that the pixel's centre sees inside or
+/// outside the cone of the chosen light. Lights that are no spots have no outside. `far`: the far
+/// plane of what is drawn.
 ConeSides cone_sides(const Scene& scene, const DepthModel& model, double far,
                      std::uint32_t triangle, int x, int y);
 

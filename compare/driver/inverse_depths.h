@@ -17,8 +17,8 @@ WindowRoundings window_roundings(const DepthModel& model);
 /// Of a window depth.
 double inverse_depth(const DepthModel& model, double window_depth);
 
-/// The inverse view depths, read back, that a face must reach in order not to be behind what is
-/// seen. A background is behind everything.
+/// The inverse view depths of what was read back, pixel by pixel: a face is behind it where its own
+/// is less. A background is behind everything.
 Image<double> inverse_depths(const Frame& frame);
 
 } // namespace shadowproof

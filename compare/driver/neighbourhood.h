@@ -40,7 +40,7 @@ double spread(const Neighbourhood& around);
 /// Whether the triangle may cover the picture point of `direction` with corners moved by up to
 /// `error` a component of a direction. An edge seen from the eye spans a plane; the point lies on
 /// its inner side, or no further out than its ends can move: |plane|_1 error. Corners behind the
-/// eye need no care, as nothing is divided.
+/// eye are no special case, because nothing is divided.
 bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction,
                double error);
 

@@ -21,7 +21,7 @@ struct PixelRun {
     int length() const { return end > first ? end - first : 0; }
 };
 
-/// The least run that holds both; an empty one does not count.
+/// The smallest run that contains both; an empty one does not count.
 PixelRun either(const PixelRun& one, const PixelRun& other);
 
 /// A convex region of the picture, in pixels.

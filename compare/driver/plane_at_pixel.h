@@ -35,14 +35,14 @@ public:
     /// Of the pixel's centre.
     const glm::dvec3& direction() const { return centre_; }
 
-    /// Half a step of the snapping grid and the roundings of a depth are part of any pixel's
-    /// bounds, and nearly always enough.
+    /// A quick lower bound of error(), which nearly always suffices: half a step of the snapping
+    /// grid and the roundings of a depth.
     double least_error(double window_depth) const;
     /// Of the inverse depth, where the triangle is drawn aside: moving the pixel's centre changes
     /// it by the slope.
     double error_of_place() const { return lateral() * slope_; }
-    /// The same, and what set-up and window depth's roundings add. depth_error is for two depths
-    /// that are compared; this is one depth.
+    /// The same, plus the errors of set-up and of window depth's roundings. depth_error is for two
+    /// depths that are compared; this is one depth.
     double error() const;
     /// Largest error of a direction's component at the picture's corners.
     double spread() const;

@@ -1,4 +1,4 @@
-// How closely pixels are looked at.
+// How closely pixels are examined.
 #pragma once
 
 #include <cstdint>

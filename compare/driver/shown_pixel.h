@@ -1,5 +1,5 @@
-// What one pixel of a frame shows, and how what is drawn lies beside it: whether a face covers the
-// pixel, and whether it is in front.
+// What one pixel of a frame shows, and how the faces that are drawn relate to it: whether a face
+// covers the pixel, and whether it is in front.
 #pragma once
 
 #include "compare/driver/inverse_depths.h"
@@ -60,7 +60,7 @@ InverseDepths inverse_depths_of(const PicturedFace& face, const ShownPixel& pixe
 Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel);
 
 /// Whether a face that may cover the pixel, or not, is off by more than the pixel's neighbourhood
-/// is wide: then what is true there does not tell what is drawn.
+/// is wide: then the truth there does not determine what is drawn.
 bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel);
 
 /// Whether a pixel may show what it shows, by the errors of all triangles that are seen.

@@ -12,10 +12,10 @@ namespace shadowproof {
 
 using ResultsJson = nlohmann::ordered_json; ///< members in the order of the file
 
-/// What to do about a file of JSON that is no good.
+/// The remedies that errors about a JSON file name.
 struct JsonRemedies {
-    const char* name = "";  ///< where it is not there, or no file
-    const char* whole = ""; ///< where its text is not the whole
+    const char* name = "";  ///< where the file does not exist, or is no regular file
+    const char* whole = ""; ///< where its text is incomplete
 };
 
 /// The text of a file of JSON, and its values, which no schema was applied to yet. Both throw Error

@@ -1,5 +1,5 @@
-// The base of the judges of claims that are classes alone, without surface or counter. Nothing but
-// the claim is predicted, and a pixel that differs is `edge` or unexplained.
+// The base class of judges of claims that consist of classes alone, without surface or counter.
+// Nothing but the claim is predicted, and a pixel that differs is `edge` or unexplained.
 #pragma once
 
 #include "compare/judge/judge.h"
@@ -25,7 +25,8 @@ protected:
 private:
     JudgedClaim claim_;
 
-    /// How far from its centre a pixel may show what is true there, beside the driver's own error.
+    /// How far from its centre, in pixels, a pixel may show the truth, in addition to the driver's
+    /// own error.
     virtual double footprint() const { return 0; }
     /// Whether what is true along a ray of its neighbourhood may make the pixel's claim.
     virtual bool allows(PixelPlace p, const RayTruth& truth) const;

@@ -1,5 +1,5 @@
-// The evidence of a cell beside its claim: words and figures, which are sent between processes, and
-// pictures and data of the report, which are written by the process that makes them.
+// The evidence of a cell: words and figures, which are sent between processes, and pictures and
+// data for the report, which are written by the process that makes them.
 #pragma once
 
 #include "scenes/frame.h"

@@ -35,7 +35,7 @@ struct JudgedClaim {
     bool differs(PixelPlace p) const {
         return frame.claim.at(p.x, p.y) != traced.truth().visibility.at(p.x, p.y);
     }
-    /// Whether the triangle shown is the one truly seen; so where the claim shows no surface.
+    /// Whether the triangle shown is the one truly seen; true where the claim shows no surface.
     bool surface_as_true(PixelPlace p) const {
         return !frame.shows_surface() ||
                frame.triangle.at(p.x, p.y) == traced.truth().triangle.at(p.x, p.y);
@@ -45,7 +45,7 @@ struct JudgedClaim {
 /// Why one pixel differs.
 struct PixelCause {
     Cause cause = Cause::unexplained;
-    /// Causes without which that one alone makes no difference to the pixel.
+    /// Further limitations that must be lifted together with `cause` to make the pixel right.
     CauseSet also{};
 };
 
@@ -76,7 +76,7 @@ public:
     /// claim, if it differs from the truth, follows from that; `cause` is then named.
     virtual bool settles(PixelPlace p, std::optional<PixelCause>& cause) const = 0;
 
-    /// How far to each side what is drawn at each pixel may lie. `places`: of one region.
+    /// For each pixel, how far aside what is drawn there may lie. `places`: of one region.
     virtual std::vector<BandRadius> radii(std::span<const PixelPlace> places) const = 0;
 
     /// Name: what may be drawn at the region's pixels within their neighbourhoods, one per place.
@@ -95,10 +95,10 @@ public:
     /// Outlines that the clipper may draw far aside, of surfaces and of what else is drawn.
     virtual CoarseOutlines coarse_outlines() const = 0;
 
-    /// What the evidence tells of the claim as a whole. `cause`: Comparison::cause.
+    /// What the evidence says about the claim as a whole. `cause`: Comparison::cause.
     virtual EvidenceSummary summary(const EvidenceCheck& check,
                                     const Image<std::uint8_t>& cause) const = 0;
-    /// What a report shows of it; null where that is nothing.
+    /// What a report shows of the evidence; null where that is nothing.
     virtual std::shared_ptr<const EvidenceReport>
     report(const Image<std::uint8_t>& cause) const = 0;
 

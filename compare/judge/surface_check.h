@@ -1,5 +1,5 @@
-// Checks the surface that a technique shows beside its claim: a triangle that may be drawn, at the
-// depth of its plane; or, where it shows none, the values to which the buffers were cleared.
+// Checks the surface that a technique shows: a triangle that may be drawn, at the depth of its
+// plane; or, where it shows none, the values to which the buffers were cleared.
 #pragma once
 
 #include "reference/trace/trace.h"

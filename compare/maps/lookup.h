@@ -1,5 +1,5 @@
-// Where a point is looked up in a shadow map, and what its own value is compared with there:
-// exactly, and within the bounds of what a driver may make of it.
+// Where a point is looked up in a shadow map, and the value that is compared there: exactly, and
+// within bounds of the driver's errors.
 #pragma once
 
 #include "compare/maps/light_view.h"

@@ -1,4 +1,4 @@
-// Why an answer of a shadow map is wrong: by its counterfactuals.
+// Why an answer of a shadow map is wrong, found by counterfactuals.
 #pragma once
 
 #include "compare/judge/judge.h"

@@ -1,4 +1,4 @@
-// What a shadow map's claim says of the light at a pixel: all, none or a share of it.
+// How much of the light a shadow map's claim shows at a pixel: all, none or a share of it.
 #pragma once
 
 #include "compare/judge/judge.h"

@@ -1,6 +1,6 @@
 #include "compare/picture/controls.h"
 
-#include "compare/picture/light_view.h"
+#include "compare/picture/light_sampling.h"
 #include "scenes/camera.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ void add_casters(const TracedScene& traced, std::vector<Control>& controls) {
     const int threads = traced.tracer().threads();
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         if (!scene.meshes[m].casts) continue;
-        controls.push_back({"caster_missing", scene.meshes[m].name + " throws no shadow",
+        controls.push_back({"caster_missing", scene.meshes[m].name + " casts no shadow",
                             truth_of(
                                 [&scene, m] {
                                     Scene without = scene;
@@ -94,7 +94,7 @@ void add_lost_triangle(const TracedScene& traced, const ShadowedPixels& shadowed
     if (lost == no_triangle) return;
     controls.push_back(
         {"triangle_missing",
-         fmt::format("triangle {} of {} throws no shadow",
+         fmt::format("triangle {} of {} casts no shadow",
                      lost - scene.meshes[mesh_of(scene, lost)].first_triangle,
                      scene.meshes[mesh_of(scene, lost)].name),
          truth_of(

@@ -13,7 +13,7 @@ Diagnosed diagnose(const TracedScene& traced, const Frame& frame,
     if (trial.wrong() == 0) return {{}, Image<std::uint8_t>(cause.width, cause.height)};
     const VolumeCounts counts(traced);
     using Try = std::function<void()>;
-    // The cheap ones first: what explains all and contradicts nothing needs no rival.
+    // The cheap ones first: once one explains all and contradicts nothing, no other is tried.
     for (const Try& attempt : std::initializer_list<Try>{
              [&] { try_operations(trial); }, [&] { try_lights(trial); }, [&] { try_meshes(trial); },
              [&] { try_one_sided(trial); }, [&] { try_counters(trial, counts); },

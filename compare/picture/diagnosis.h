@@ -19,7 +19,7 @@ struct Diagnosis {
     std::string hypothesis;
     std::vector<std::pair<std::string, double>> parameters; ///< "range", 12
     std::uint64_t explained = 0;                            ///< wrong pixels that it predicts
-    std::uint64_t contradicted = 0; ///< right ones that would be wrong by it
+    std::uint64_t contradicted = 0; ///< right pixels that it predicts to be wrong
     std::string words;              ///< "the shadow of `lamp` is missing"
 };
 
@@ -30,8 +30,8 @@ struct Diagnosed {
     Image<std::uint8_t> left;
 };
 
-/// `frame`: of family "picture"; `cause`: Comparison::cause. Five hypotheses at most, none where no
-/// pixel is wrong but at edges.
+/// `frame`: of family "picture"; `cause`: Comparison::cause. Five hypotheses at most, none where
+/// only pixels at edges are wrong.
 Diagnosed diagnose(const TracedScene& traced, const Frame& frame, const Image<std::uint8_t>& cause);
 
 } // namespace shadowproof

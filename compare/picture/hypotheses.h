@@ -1,5 +1,4 @@
-// The hypotheses of a diagnosis, in groups. Each considers what it has for a picture's wrong
-// pixels.
+// The hypotheses of a diagnosis, in groups. Each function adds those of its group to the trial.
 #pragma once
 
 #include "compare/picture/trial.h"

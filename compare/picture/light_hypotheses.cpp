@@ -1,5 +1,5 @@
 #include "compare/picture/hypotheses.h"
-#include "compare/picture/light_view.h"
+#include "compare/picture/light_sampling.h"
 
 #include <fmt/format.h>
 
@@ -54,12 +54,12 @@ std::optional<BestBias> best_bias(const Trial& trial, const std::vector<double>&
     return best;
 }
 
-void consider_map(Trial& trial, const LightView& view, double bias) {
+void consider_map(Trial& trial, const LightSampling& view, double bias) {
     Parameters parameters{{"resolution", view.texels}, {"bias", bias}};
     std::string words =
         fmt::format("a shadow map, cube of {} texels a side, bias {:.3g}", view.texels, bias);
-    if (view.culled != LightView::Culled::none) {
-        const bool front = view.culled == LightView::Culled::front;
+    if (view.culled != LightSampling::Culled::none) {
+        const bool front = view.culled == LightSampling::Culled::front;
         parameters.emplace_back(front ? "culls_front" : "culls_back", 1);
         words += front ? ", of back faces" : ", of front faces";
     }
@@ -125,14 +125,14 @@ void try_light_view(Trial& trial) {
     constexpr int smallest = 64; // texels: engines offer powers of two
     constexpr int largest = 8192;
     std::optional<BestBias> best;
-    LightView best_view;
-    const auto look = [&](const Tracer& tracer, const LightView& view) {
+    LightSampling best_view;
+    const auto look = [&](const Tracer& tracer, const LightSampling& view) {
         const auto found = best_bias(trial, excesses(trial.traced(), tracer, view, trial.sample()));
         if (!found || (best && found->score <= best->score)) return;
         best = found;
         best_view = view;
     };
-    using Culled = LightView::Culled;
+    using Culled = LightSampling::Culled;
     for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
         const Scene from_light = seen_from_light(trial.scene(), culled);
         if (from_light.triangles.empty()) return;
@@ -145,7 +145,7 @@ void try_light_view(Trial& trial) {
     if (!best) return;
     if (const Parameters* found = trial.best_of("shadow_map")) { // the range alone
         const Scene from_light = seen_from_light(trial.scene(), best_view.culled);
-        LightView ended = best_view;
+        LightSampling ended = best_view;
         ended.range = found->front().second;
         look(Tracer(from_light, trial.traced().tracer().threads()), ended);
     }

@@ -1,4 +1,5 @@
-// Parts of a picture: hypotheses are weighed on some before they are predicted for the whole.
+// Parts of a picture. Hypotheses are compared on some of them before they are predicted for the
+// whole.
 #pragma once
 
 #include "scenes/image.h"

@@ -78,7 +78,7 @@ std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {
 
 Family picture_family() {
     return {.name = "picture",
-            .summary = "a picture that somebody's renderer made",
+            .summary = "a picture that another renderer made",
             .judge = judge,
             .check_results = check_picture_results};
 }

@@ -1,4 +1,5 @@
-// Wrong pixels that lie together: where they are, and whose shadow it is on what.
+// Connected regions of wrong pixels: where they are, and which caster's shadow on which receiver is
+// wrong.
 #pragma once
 
 #include "reference/predict/traced_scene.h"
@@ -22,8 +23,8 @@ struct WrongRegion {
                             ///< lit"
 };
 
-/// The largest, by pixels, of the regions into which the flagged pixels fall; pixels are together
-/// that have a side or a corner in common and show the same class.
+/// The largest, by pixels, of the regions into which the flagged pixels fall; pixels are connected
+/// if they have a side or a corner in common and show the same class.
 std::vector<WrongRegion> largest_regions(const TracedScene& traced, const Frame& frame,
                                          const Image<std::uint8_t>& flags, std::size_t most);
 

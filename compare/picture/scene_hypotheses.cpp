@@ -16,7 +16,8 @@ Predict truth_without(const Trial& trial, std::function<Scene()> make) {
     return truth_of(std::move(make), trial.traced().tracer().threads());
 }
 
-/// Where light would tell whether it is drawn: else it is as if it threw no shadow.
+/// Whether a pixel sees a side of the mesh that faces the light; if none does, a missing mesh looks
+/// like one without a shadow.
 bool is_seen(const Trial& trial, std::size_t mesh) {
     const Image<std::uint32_t>& seen = trial.truth().triangle;
     for (std::size_t i = 0; i < seen.pixels.size(); ++i)
@@ -107,7 +108,7 @@ void try_meshes(Trial& trial) {
             trial.consider("mesh_missing", number, mesh.name + " is not drawn",
                            with_mesh_missing(trial, m));
         if (mesh.casts)
-            trial.consider("caster_missing", number, mesh.name + " throws no shadow",
+            trial.consider("caster_missing", number, mesh.name + " casts no shadow",
                            truth_without(trial, [&scene, m] {
                                Scene without = scene;
                                without.meshes[m].casts = false;

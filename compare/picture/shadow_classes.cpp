@@ -65,7 +65,7 @@ std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
 
 /// What is known of one mesh's colours.
 struct MeshColors {
-    std::vector<glm::dvec3> averted; ///< from the light: dark, whatever throws shadows
+    std::vector<glm::dvec3> averted; ///< of surfaces that face away from the light
     std::array<std::vector<glm::dvec3>, angle_groups> facing;
     std::optional<Typical> shadow;
     std::array<std::optional<Typical>, angle_groups> light;

@@ -1,6 +1,6 @@
-// The shadows that a picture shows: which of its pixels are lit, which are shadowed, and which it
-// does not tell. No threshold is tuned: light and shadow are what the picture itself shows where
-// the truth knows them.
+// The shadows that a picture shows: which of its pixels are lit, which are shadowed, and which are
+// undecided. No threshold is tuned: light and shadow are what the picture itself shows where the
+// truth knows them.
 #pragma once
 
 #include "reference/predict/traced_scene.h"
@@ -12,7 +12,7 @@
 
 namespace shadowproof {
 
-/// Somebody's picture of the scene, and perhaps another one of the same view.
+/// A renderer's picture of the scene, and perhaps another one of the same view.
 struct PictureFiles {
     std::string picture;
     std::string mask;  ///< black where shadowed, white where lit; empty: none
@@ -33,8 +33,8 @@ struct PictureFiles {
 ///   - they differ by no more than two steps of the file's integers plus four times the scatter of
 ///     the shadow's pixels.
 ///
-/// Throws Error, naming the file, where a picture is of one colour, or tells light from shadow
-/// nowhere.
+/// Throws Error, naming the file, where a picture is of one colour, or nowhere distinguishes light
+/// from shadow.
 Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
                    const std::optional<Picture>& twin);
 

@@ -1,4 +1,4 @@
-// Hypotheses about a picture's wrong pixels, weighed by what they explain and what they contradict.
+// Hypotheses about a picture's wrong pixels, ranked by what they explain and what they contradict.
 #pragma once
 
 #include "compare/picture/diagnosis.h"
@@ -17,7 +17,7 @@ using Parameters = std::vector<std::pair<std::string, double>>;
 /// How well a predicted picture fits.
 struct Fit {
     std::uint64_t explained = 0;    ///< wrong pixels that it predicts
-    std::uint64_t contradicted = 0; ///< right ones that would be wrong by it
+    std::uint64_t contradicted = 0; ///< right pixels that it predicts to be wrong
     std::int64_t score() const {
         return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);
     }
@@ -43,7 +43,7 @@ public:
     std::uint64_t wrong() const { return wrong_; }
     bool is_wrong(int x, int y) const;
     bool is_right(int x, int y) const; ///< decided, and no difference
-    /// Where hypotheses are weighed before the best are predicted for the whole picture.
+    /// Where hypotheses are compared before the best are predicted for the whole picture.
     const std::vector<Patch>& sample() const { return sample_; }
 
     /// On the sample.
@@ -56,7 +56,8 @@ public:
     /// nothing by the next, the right one lies in between, and is found by bisection.
     void search(const Parametric& family, double from, double to);
 
-    /// Some hypothesis explains all of the sample and contradicts nothing: it needs no rival.
+    /// Whether some hypothesis explains all of the sample and contradicts nothing: then no other
+    /// need be tried.
     bool is_settled() const;
     /// The parameters of the best hypothesis so far by that name; null where there is none.
     const Parameters* best_of(const std::string& hypothesis) const;

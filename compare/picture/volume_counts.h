@@ -1,5 +1,5 @@
-// What pictures show where shadow volumes are counted in some way: quickly for a few patches again
-// and again, since the volumes' faces along their rays stay the same.
+// What pictures show where shadow volumes are counted in some way. Repeated predictions for the
+// same few patches are quick, because the volumes' faces along their rays stay the same.
 #pragma once
 
 #include "compare/picture/predict.h"

@@ -9,8 +9,8 @@
 
 namespace shadowproof {
 
-/// What a cause in a cell is accepted by: its name; of a picture's unexplained pixels, that of its
-/// best hypothesis. Empty where there is none.
+/// The name by which a cause in a cell is accepted: the cause's own; for a picture's unexplained
+/// pixels, that of its best hypothesis. Empty where there is none.
 std::string accepted_name(const ResultsJson& cell, Cause cause);
 
 /// Sets Cell::since, and Cell::accepted, where the baseline has the same cell of the same content

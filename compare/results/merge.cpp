@@ -18,43 +18,44 @@ namespace {
 using Json = ResultsJson;
 
 /// Where two values differ: a JSON pointer, and both values there.
-struct Parting {
+struct Difference {
     std::string pointer;
     std::string first;
     std::string second;
 };
 
 /// The first difference of two values, object by object; `apart` holds pointers that may differ.
-std::optional<Parting> parting(const Json& a, const Json& b, const std::string& pointer,
-                               const std::set<std::string>& apart) {
+std::optional<Difference> difference(const Json& a, const Json& b, const std::string& pointer,
+                                     const std::set<std::string>& apart) {
     if (a == b || apart.contains(pointer)) return std::nullopt;
-    if (!a.is_object() || !b.is_object()) return Parting{pointer, shown(a), shown(b)};
+    if (!a.is_object() || !b.is_object()) return Difference{pointer, shown(a), shown(b)};
     for (const auto& [name, value] : a.items()) {
         const std::string at = pointer + "/" + name;
         if (apart.contains(at)) continue;
-        if (!b.contains(name)) return Parting{at, shown(value), "missing"};
-        if (auto found = parting(value, b.at(name), at, apart)) return found;
+        if (!b.contains(name)) return Difference{at, shown(value), "missing"};
+        if (auto found = difference(value, b.at(name), at, apart)) return found;
     }
     for (const auto& [name, value] : b.items()) {
         const std::string at = pointer + "/" + name;
-        if (!a.contains(name) && !apart.contains(at)) return Parting{at, "missing", shown(value)};
+        if (!a.contains(name) && !apart.contains(at))
+            return Difference{at, "missing", shown(value)};
     }
     return std::nullopt;
 }
 
 /// `in`: where the pointer starts in the second file.
 [[noreturn]] void refuse(const ResultsFile& first, const ResultsFile& second, const std::string& in,
-                         const Parting& parting, const char* remedy) {
+                         const Difference& difference, const char* remedy) {
     throw Error(second.path.string(),
-                fmt::format("{}{} is {}, but {} in {}", in, parting.pointer, parting.second,
-                            parting.first, first.path.string()),
+                fmt::format("{}{} is {}, but {} in {}", in, difference.pointer, difference.second,
+                            difference.first, first.path.string()),
                 remedy);
 }
 
 void check_same_settings(const ResultsFile& first, const ResultsFile& second) {
     // Notes on a baseline concern the scenes that a run tried.
     const std::set<std::string> apart{"/passed", "/ms", "/report_ms", "/scenes", "/baseline/notes"};
-    if (const auto found = parting(first.json, second.json, "", apart))
+    if (const auto found = difference(first.json, second.json, "", apart))
         refuse(first, second, "", *found,
                "join runs of one version on one driver with the same settings");
 }
@@ -163,7 +164,7 @@ void check_same_scene(const Joining& joining, const Json& first, std::size_t fir
                                       "/reference/build_ms",
                                       "/techniques",
                                       "/no_longer_provoked"};
-    if (const auto found = parting(first, second, "", apart))
+    if (const auto found = difference(first, second, "", apart))
         refuse(joining.runs[first_run], joining.runs[run],
                fmt::format("{} (scene {})", in, shown(second.at("name"))), *found,
                "join runs of the same scene and size, or give the scenes' files other names");

@@ -13,7 +13,7 @@ namespace shadowproof {
 struct KnownTechnique {
     std::string name;
     std::vector<Cause> fails_at;
-    bool on_every_scene = true; ///< if not, another technique that is has the same shadows
+    bool on_every_scene = true; ///< if not, another technique, which is, has the same shadows
 };
 
 /// What a whole run tries.

@@ -1,5 +1,5 @@
-// How near a technique's numbers are to failing: worked out from the truth and the arithmetic of a
-// driver, and never from what was drawn.
+// How near a technique's numbers are to failing: computed from the truth and the arithmetic of a
+// driver, never from what was drawn.
 #pragma once
 
 #include "compare/stencil/pixel_cause.h"

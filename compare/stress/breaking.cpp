@@ -24,7 +24,7 @@ StressTally tally_of(const StressRun& run) {
                 ++tally.points;
                 tally.asked += point.witness.asked;
                 tally.disagreements += point.witness.disagreements;
-                tally.retold += point.relations.tried.size();
+                tally.relations_tried += point.relations.tried.size();
                 tally.changed += point.relations.changed;
                 for (const StressCell& cell : point.cells) {
                     ++tally.cells;

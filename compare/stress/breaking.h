@@ -13,9 +13,9 @@ namespace shadowproof {
 /// "refused", or a loss's name.
 std::string refusal(Loss loss);
 
-/// A value between one that holds and one that fails, of three digits, about as many times one as
-/// the other is; none where they are within a tenth of each other, or nothing is between them. Zero
-/// has nothing between itself and the nearest value that was tried.
+/// The geometric mean of a value that holds and one that fails, rounded to three digits, or to a
+/// whole number; none where they are within a tenth of each other, where it is not between them, or
+/// where one of them is zero.
 std::optional<double> value_between(double holds, double fails, bool whole);
 
 /// Each technique's breaking point, measured and derived, on one side of the scene's own value, as
@@ -23,8 +23,8 @@ std::optional<double> value_between(double holds, double fails, bool whole);
 /// are left out. A value counts only up to the first that fails.
 std::vector<Breaking> breaking_points(const StressAlong& along, bool up);
 
-/// The value that tells most about the side's breaking points, none where all are near enough. With
-/// the techniques that are to be tried there.
+/// The next value to try in search of the side's breaking points, with the techniques to be tried
+/// there; none where all are known well enough.
 struct Search {
     double value = 0;
     std::vector<std::string> techniques{};

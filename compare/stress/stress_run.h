@@ -98,8 +98,8 @@ struct StressTally {
     std::uint64_t unexplained = 0; ///< cells
     std::uint64_t asked = 0;       ///< pixels, of the witness
     std::uint64_t disagreements = 0;
-    std::uint64_t retold = 0;  ///< scenes told otherwise, by a relation
-    std::uint64_t changed = 0; ///< pixels whose truth a relation changed
+    std::uint64_t relations_tried = 0; ///< on all scenes together
+    std::uint64_t changed = 0;         ///< pixels whose truth a relation changed
 };
 StressTally tally_of(const StressRun& run);
 

@@ -1,5 +1,5 @@
-// What Embree's float arithmetic may make of one ray and one triangle. Its answer differs from the
-// exact one only where a number that it compares is nearer to zero than its rounding errors.
+// What Embree's float arithmetic may report for one ray and one triangle. Its answer differs from
+// the exact one only where a number that it compares is nearer to zero than its rounding errors.
 #pragma once
 
 #include "reference/trace/any_rays.h"

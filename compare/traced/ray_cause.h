@@ -1,5 +1,5 @@
-// Why a traced pixel is wrong, though its rays are as they must be: by tracing exactly the very
-// rays that were shot, and others in which one limitation is lifted.
+// Why a traced pixel is wrong although its rays are as they must be: found by tracing exactly the
+// very rays that were shot, and others in which one limitation is lifted.
 #pragma once
 
 #include "compare/traced/ray_check.h"

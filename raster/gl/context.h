@@ -32,7 +32,7 @@ public:
     /// call.
     void make_current();
 
-    /// Whether frames tell the time of each stage (Frame::stages). They do not unless asked to.
+    /// Whether frames measure the time of each stage (Frame::stages). By default they do not.
     bool tells_stages() const { return tells_stages_; }
     void tell_stages(bool tell) { tells_stages_ = tell; }
 

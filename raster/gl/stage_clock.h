@@ -10,16 +10,16 @@
 
 namespace shadowproof {
 
-/// Runs from its making.
+/// Starts when it is constructed.
 class StageClock {
 public:
     enum class Waits {
-        once,          ///< for OpenGL at the frame's end: its time alone is told
+        once,          ///< for OpenGL at the frame's end: only the frame's time is known
         at_each_stage, ///< which makes the frame slower, more so on graphics cards
     };
     StageClock(const GlFunctions& gl, Waits waits);
 
-    /// To be called after what belongs to the stage was asked for.
+    /// To be called after the stage's last OpenGL call.
     void end(std::string_view stage);
     void end_frame();
 

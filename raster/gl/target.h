@@ -34,11 +34,11 @@ void add_color(const GlFunctions& gl, Target& target, bool in_bytes);
 void begin_adding(const GlFunctions& gl, const Target& target);
 void end_adding(const GlFunctions& gl);
 
-/// Where faces are counted, and the light pass learns of shadows.
+/// Where faces are counted, and from where the light pass reads shadows.
 enum class Counter : std::uint8_t {
     stencil,
     sum,  ///< in a colour, by blending; exact to 24 bits
-    none, ///< faces are not counted: the light pass has a shader of its own that tells
+    none, ///< faces are not counted: the light pass finds shadows by a shader of its own
 };
 
 /// The format that the driver reports, whatever was requested.

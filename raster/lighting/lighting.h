@@ -29,13 +29,13 @@ struct LightingStep {
 /// Everything in which ways of lighting differ.
 struct LightingRecipe {
     std::vector<LightingStep> steps{};
-    ColorModel model{}; ///< the colour buffer holds bytes unless it is all floating
+    ColorModel model{}; ///< the colour buffer holds bytes unless its arithmetic is floating
 };
 
 /// Ambient light everywhere and, added to it on lit pixels, the result of a shader.
 std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit);
 
-/// The result of such a shader, added everywhere. The recipe's model must reflect.
+/// The result of such a shader, added everywhere. The recipe's model must have `reflects` set.
 LightingStep add_reflection(const ShaderText& reflection);
 
 /// A run of triangles that are lit alike.

@@ -19,7 +19,7 @@ struct MapRecipe {
     MapMaking making = MapMaking::pass_per_face;
 };
 
-/// A spot's map as the documents have it: window depths of 24 bits.
+/// A spot's map as in the source documents: window depths of 24 bits.
 inline MapModel spot_model() {
     return {.shape = MapModel::Shape::spot, .value = MapValue::depth, .format = MapFormat::d24};
 }
@@ -34,13 +34,13 @@ inline std::vector<Cause> map_failings_by_nature() {
     return {Cause::resolution, Cause::acne, Cause::leak};
 }
 
-/// The flags that all of them heed (Technique::settings).
+/// The flags that affect all of them (Technique::settings).
 inline std::vector<std::string_view> map_settings() {
     return {"map-size",    "map-bias", "map-value", "map-format",
             "map-culling", "map-near", "map-far"};
 }
 
-/// Draws the scene's surfaces as zfail_reversed does, and asks the map in the light pass. Draws
+/// Draws the scene's surfaces as zfail_reversed does, and looks up the map in the light pass. Draws
 /// once more beforehand, so that the driver finishes deferred compilation; the quickest of up to
 /// three frames is the time. Throws Error where the driver fails, or the light has no position.
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe);

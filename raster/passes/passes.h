@@ -101,7 +101,7 @@ void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Trian
 /// from zero in each draw call.
 void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Triangles& faces);
 
-/// Sets the state of a whole frame: how depth is made, which side is the front.
+/// Sets the state of a whole frame: how depth is computed, which side is the front.
 void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& geometry,
                  const DepthModel& depth_model);
 /// Back to OpenGL's initial values.

@@ -1,8 +1,8 @@
-// A scene in Embree, as anybody would set it up: its triangles with the float vertices that go to
-// OpenGL, default build and traversal, sixteen rays at a time. One setting is not the default: of
-// the processor's instruction sets it uses SSE2 alone, so that each machine claims the same. Tests
-// choose another by the environment variable SHADOWPROOF_TEST_TRACED_INSTRUCTION_SET (sse2, sse4.2,
-// avx, avx2, avx512), to see that the judge's bounds hold whatever Embree computes with.
+// A scene in Embree, as applications commonly set it up: its triangles with the float vertices that
+// go to OpenGL, default build and traversal, sixteen rays at a time. One setting is not the
+// default: of the processor's instruction sets it uses SSE2 alone, so that each machine claims the
+// same. Tests choose another by the environment variable SHADOWPROOF_TEST_TRACED_INSTRUCTION_SET
+// (sse2, sse4.2, avx, avx2, avx512), to check that the judge's bounds hold for all of them.
 #pragma once
 
 #include "scenes/scene.h"
@@ -29,7 +29,8 @@ struct FloatRays {
     Each<std::uint32_t> hit{}; ///< nearest, or some; no_triangle: none
 };
 
-/// Triangles and which of them rays of either kind meet. Keeps a reference to the scene.
+/// The triangles, and which of them eye rays and shadow rays can meet. Keeps a reference to the
+/// scene.
 class EmbreeWorld {
 public:
     /// Throws Error where Embree fails.

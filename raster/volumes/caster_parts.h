@@ -11,7 +11,8 @@ namespace shadowproof {
 /// Casters that are all counted alike.
 struct CasterPart {
     Counting::Caster caster;
-    /// Only these casters. Its meshes are empty: they do not say which triangles are whose.
+    /// Only these casters. It has no meshes, so it does not say which triangle belongs to which
+    /// mesh.
     Scene scene;
     /// Indices of its triangles in the whole scene; indices past its end are triangles that fill
     /// holes.

@@ -1,4 +1,5 @@
-// Stencil shadow volumes: the passes of W (surface, volume, light) as configured by a recipe.
+// Stencil shadow volumes: the surface pass, the volume pass and the light pass, as configured by a
+// recipe.
 #pragma once
 
 #include "raster/gl/context.h"

@@ -10,9 +10,9 @@
 namespace shadowproof {
 
 /// Sets volumes and volume_fragments of a frame whose depths are in the target: how many faces are
-/// not behind each pixel's surface, summed without sorting, as W shows volumes; and how many
-/// fragments all faces have, by an occlusion query without depth test. `draw_volumes` draws all
-/// faces of the passes given; the target needs its sum.
+/// not behind each pixel's surface, summed without sorting; and how many fragments all faces have,
+/// by an occlusion query without depth test. `draw_volumes` draws all faces of the passes given;
+/// the target needs its sum.
 void measure_volumes(const GlFunctions& gl, const Target& target, const DepthModel& depth_model,
                      std::span<const VolumePass* const> passes,
                      const std::function<void()>& draw_volumes, Frame& frame);

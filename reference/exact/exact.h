@@ -1,6 +1,6 @@
-// Exact arithmetic: integers of few digits on the stack, times powers of two, which nearly all
-// inputs allow; and integers of any length (GMP) for inputs so large or small that those would not
-// do. Seen by predicates.cpp alone.
+// Exact arithmetic: integers of few digits on the stack, times powers of two, which suffice for
+// nearly all inputs; and integers of any length (GMP) for inputs that are too large or too small
+// for those. Seen by predicates.cpp alone.
 #pragma once
 
 #include <gmpxx.h>
@@ -12,8 +12,8 @@
 
 namespace shadowproof {
 
-/// An integer times a power of 2^64, exactly: few digits, kept in place, so that no memory is asked
-/// for, and aligned to each other, so that nothing is shifted by bits.
+/// An integer times a power of 2^64, exactly: few digits, kept in place, so that no memory is
+/// allocated, and aligned to each other, so that nothing is shifted by bits.
 class Limbs {
 public:
     /// See limbs_smallest: what the predicates need.

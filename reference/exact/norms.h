@@ -1,4 +1,4 @@
-// Sizes of vectors, as error bounds use them.
+// Norms of vectors, as error bounds use them.
 #pragma once
 
 #include <algorithm>
@@ -7,12 +7,12 @@
 
 namespace shadowproof {
 
-/// The largest component's size.
+/// The largest absolute value of a component.
 inline double largest(const glm::dvec3& w) {
     return std::max({std::abs(w.x), std::abs(w.y), std::abs(w.z)});
 }
 
-/// The sum of the components' sizes.
+/// The sum of the components' absolute values.
 inline double sum_of(const glm::dvec3& w) {
     return std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
 }

@@ -1,6 +1,6 @@
-// The limitations of stencil techniques, and the same technique without some of them: what would
-// its counter read then? This is the first half of a counterfactual;
-// compare/stencil/counterfactual.h has the second.
+// The limitations of stencil techniques, and the counting model of the same technique without some
+// of them. This is the first half of a counterfactual; compare/stencil/counterfactual.h has the
+// second.
 #pragma once
 
 #include "scenes/cause.h"

@@ -32,8 +32,8 @@ std::string_view name_of(Counting::Start start);         ///< "near_plane"
 /// What the counter holds before the first face.
 std::int32_t start_of(const Counting& counting, std::int32_t at_eye, std::int32_t at_near);
 
-/// A count after steps that add up to `by`, all one way. One that saturates stops at its limits,
-/// any other continues.
+/// A count after steps that add up to `by`, all in one direction. One that saturates stops at its
+/// limits, any other continues.
 std::int64_t stepped(std::int64_t count, std::int64_t by, const Counting& counting);
 
 /// A face that may be counted, or certainly is.

@@ -1,4 +1,4 @@
-// A scene beside its truth: what claims are judged against, worked out once for all of them.
+// A scene and its truth, against which claims are judged; computed once for all of them.
 #pragma once
 
 #include "reference/predict/ledger.h"
@@ -10,8 +10,8 @@
 
 namespace shadowproof {
 
-/// A scene under its chosen light, traced. What only some families of claims need is worked out
-/// when it is first asked for, by any thread. Keeps references.
+/// A scene under its chosen light, traced. What only some families of claims need is computed on
+/// first use, by any thread. Keeps references.
 class TracedScene {
 public:
     TracedScene(const Tracer& tracer, const GroundTruth& truth);

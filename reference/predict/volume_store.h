@@ -29,9 +29,9 @@ public:
     const GroundTruth& truth() const { return *truth_; }
     const ShadowDepths& depths() const { return *depths_; }
 
-    /// Those that a technique counts. They are kept for good where they need no scene but the
-    /// casters'; of the others the last ones are. May be called by any thread; refers to what the
-    /// store refers to.
+    /// Those that a technique counts. Those that need no scene but the casters' are kept for good;
+    /// of the others, only the latest. May be called by any thread; refers to what the store refers
+    /// to.
     std::shared_ptr<const CountedVolumes> counted(const Counting& counting) const;
 
 private:

@@ -1,5 +1,5 @@
-// Rays from anywhere to anywhere: which triangles they may meet, and which they meet exactly. For
-// the rays that a float tracer shot, whose floats are taken as exact.
+// Rays of any origin and direction: which triangles they may meet, and which they meet exactly. For
+// rays that a float tracer shot; their floats are taken as exact.
 #pragma once
 
 #include "reference/exact/predicates.h"
@@ -25,14 +25,14 @@ struct AnyRays {
     alignas(64) std::array<Lanes<double>, 3> origin{};
     alignas(64) std::array<Lanes<double>, 3> direction{};
     alignas(64) Lanes<double> near{};
-    alignas(64) Lanes<double> far{}; ///< what lies beyond is not looked for
-    std::uint32_t lanes = 0;         ///< one bit per ray that is still looking
+    alignas(64) Lanes<double> far{}; ///< hits beyond it are not searched for
+    std::uint32_t lanes = 0;         ///< one bit per ray whose search goes on
 
     void set(int lane, const AnyRay& ray);
     AnyRay ray(int lane) const;
 };
 
-/// Is told of the triangles that rays come near. It may lower AnyRays::far, and clear bits of
+/// Receives the triangles that rays come near. It may lower AnyRays::far, and clear bits of
 /// AnyRays::lanes.
 class NearbyTriangles {
 public:
@@ -44,8 +44,8 @@ public:
     virtual void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) = 0;
 };
 
-/// The smallest component of a direction that Embree's traversal tells from zero: it takes this one
-/// in place of smaller ones (min_rcp_input of its math/constants.h, in rcp_safe).
+/// The smallest component of a direction that Embree's traversal distinguishes from zero: it
+/// replaces smaller ones by this (min_rcp_input of its math/constants.h, in rcp_safe).
 inline constexpr double least_component = 1e-18;
 
 /// Visits at least all triangles whose own box a ray meets when it is enlarged, on each axis, by
@@ -63,17 +63,17 @@ bool meets(const AnyRay& ray, const Corners& t);
 /// Sign of t(T) - t(U), the places at which the ray meets their planes; neither may hold it.
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u);
 
-/// Whether the light, seen from the exact point where the ray meets the plane of `seen`, is behind
-/// the triangle: as the truth decides it (Visibility).
+/// Whether the triangle lies between the light and the exact point where the ray meets the plane of
+/// `seen`, decided as for the truth (Visibility).
 bool stands_between(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen,
                     std::uint32_t triangle);
 
 /// Whether that point lies in the light's cone; true where the light has none.
 bool within_cone(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen);
 
-/// Whether the light is on that side of the triangle's plane that the scene's eye sees.
+/// Whether the light is on the side of the triangle's plane that the scene's eye sees.
 bool faces_light(const Tracer& tracer, std::uint32_t triangle);
-/// Whether shadows fall on it.
+/// Whether the triangle receives shadows.
 bool receives_shadows(const Tracer& tracer, std::uint32_t triangle);
 
 } // namespace shadowproof

@@ -56,8 +56,8 @@ inline double depth_on_plane(const glm::dvec3& eye, const glm::dvec3& direction,
     return -glm::dot(eye - through, plane) / glm::dot(direction, plane);
 }
 
-/// The same of the plane of a triangle of the scene, from the scene's eye: the depth of a ray that
-/// hits it.
+/// The same for the plane of a triangle of the scene, from the scene's eye: the depth of a ray that
+/// hits the triangle.
 inline double depth_on_triangle(const Scene& scene, std::uint32_t triangle,
                                 const glm::dvec3& direction) {
     const Corners t = from_short_edge(

@@ -1,6 +1,6 @@
 // Which of the processor's instruction sets the reference uses: the best by default. The
 // environment variable SHADOWPROOF_INSTRUCTION_SET selects one (sse2, ssse3, sse4, avx2, avx512, or
-// best), for tests that all of them give the same bytes.
+// best), so that tests can check that all of them give the same bytes.
 #pragma once
 
 #include <string>

@@ -331,7 +331,7 @@ double power_that_normalises(double size) {
 
 } // namespace
 
-void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
+void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
     const double size = largest(w.direction);

@@ -50,12 +50,12 @@ RayPacket empty_packet();
 
 /// Sets a lane's ray and activates it. `limits`: 1/s in units of the direction as given. `skip`: a
 /// plane whose triangles are ignored, or no_plane.
-struct Limits {
+struct HitLimits {
     float lower_lo = 0, lower_hi = 0;
     float upper_lo = std::numeric_limits<float>::infinity();
     float upper_hi = std::numeric_limits<float>::infinity();
 };
-void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const Limits& limits,
+void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip);
 
 /// Ends the search of a lane's ray.

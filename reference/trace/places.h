@@ -1,4 +1,5 @@
-// Triangles that lie in one place, or in one plane: what is decided of one of them holds of all.
+// Triangles with the same corners, or in the same plane: what is decided for one of them holds for
+// all.
 #pragma once
 
 #include "reference/exact/predicates.h"
@@ -13,7 +14,7 @@ namespace shadowproof {
 struct Places {
     std::vector<std::uint32_t> first; ///< the first with the same three corners, in any order
     std::vector<std::uint32_t> next;  ///< the next such one, or no_triangle
-    std::vector<std::uint32_t> plane; ///< two with one number lie exactly in one plane
+    std::vector<std::uint32_t> plane; ///< triangles with the same number lie exactly in one plane
 
     /// The first of each place, in ascending order.
     std::vector<std::uint32_t> firsts() const;
@@ -22,8 +23,8 @@ struct Places {
 /// Whether two triangles have the same corners, in any order.
 bool have_same_corners(const Corners& t, const Corners& u);
 
-/// Triangles in one plane may have different numbers where rounding parts them, and those of hardly
-/// any area always have. O(n) time.
+/// Triangles in one plane may have different numbers because of rounding, and those with almost no
+/// area always do. O(n) time.
 Places find_places(const Scene& scene, const Predicates& predicates, int threads);
 
 } // namespace shadowproof

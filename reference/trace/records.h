@@ -20,10 +20,10 @@ enum class Part : std::uint8_t {
 template <class T>
 using PerTriangle = std::array<T, cluster_capacity>;
 
-/// The triangles of a cluster that take part, side by side so that vectors make all at once.
-/// For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
-/// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then
-/// 1/s = w . inverse.
+/// The triangles of a cluster that take part, side by side so that vector instructions test all at
+/// once. For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
+/// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then 1/s
+/// = w . inverse.
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
 /// Where rays are parallel, a = (u, v, 1) and w likewise: the same holds of the ray that runs up at
 /// (u, v), and w . inverse is the height h at which it meets the triangle's plane.

@@ -1,6 +1,6 @@
 // Coordinates in which all rays to a light run straight up: of a directional light, and of one that
-// is so far away that its rays are nearly parallel. A ray is then a point (u, v) of the ground, a
-// triangle's edge a line there, and occluders are what stands higher.
+// is so far away that its rays are nearly parallel. Looking along the rays, a ray is a point (u,
+// v), a triangle's edge is a line, and occluders are what lies higher.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // (shadow rays run from the light to the surface). Relative to its origin, the distance at which a
 // ray meets a box or a plane is a single product, so rounding errors stay relative and bounds
 // tight. The rays of a directional light have a common direction instead, and the scene is sheared;
-// the same is done where a light is so far away that the scene would be a speck as seen from there.
+// the same is done where a light is so far away that the scene would look tiny from there.
 #pragma once
 
 #include "reference/exact/predicates.h"

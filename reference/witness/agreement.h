@@ -9,7 +9,7 @@
 
 namespace shadowproof {
 
-/// A pixel about which truth and witness differ.
+/// A pixel at which truth and witness differ.
 struct Disagreement {
     int x = 0;
     int y = 0;
@@ -26,9 +26,9 @@ struct Agreement {
     std::optional<Disagreement> first{}; ///< by row, then column
 };
 
-/// Has the witness decide pixels of the picture again: half of them, or fewer where there are not
-/// so many, among those that the truth's filters could not decide, evenly spread, the others at
-/// random, always the same. Takes time in proportion to pixels and triangles.
+/// Lets the witness decide pixels of the picture again. Half of them, or fewer if there are not so
+/// many, are pixels that the truth's filters could not decide, evenly spread; the others are
+/// random, but the same in every run. Takes time in proportion to pixels and triangles.
 Agreement ask_witness(const Scene& scene, const GroundTruth& truth, std::uint64_t pixels,
                       int threads);
 

@@ -90,14 +90,14 @@ void note_change(RelationCheck& check, const std::string& words) {
     if (check.changed++ == 0) check.first = words;
 }
 
-void compare(RelationCheck& check, std::string_view relation, const RetoldScene& retold,
+void compare(RelationCheck& check, std::string_view relation, const ChangedScene& changed,
              const GroundTruth& before, int threads) {
-    const GroundTruth after = trace(Tracer(retold.scene, threads));
+    const GroundTruth after = trace(Tracer(changed.scene, threads));
     for (int y = 0; y < before.visibility.height; ++y)
         for (int x = 0; x < before.visibility.width; ++x) {
             const std::uint32_t number = after.triangle.at(x, y);
             const std::uint32_t seen =
-                number == no_triangle ? no_triangle : retold.original[number];
+                number == no_triangle ? no_triangle : changed.original[number];
             ++check.compared;
             if (seen == before.triangle.at(x, y) &&
                 after.visibility.at(x, y) == before.visibility.at(x, y))
@@ -139,9 +139,9 @@ std::optional<std::array<bool, 2>> mutual_visibility(const Scene& scene, const g
 RelationCheck check_relations(const Scene& scene, const GroundTruth& truth, int threads) {
     RelationCheck check;
     for (const Relation& relation : relations()) {
-        const std::optional<RetoldScene> retold = relation.retell(scene);
-        (retold ? check.tried : check.left_out).emplace_back(relation.name);
-        if (retold) compare(check, relation.name, *retold, truth, threads);
+        const std::optional<ChangedScene> changed = relation.change(scene);
+        (changed ? check.tried : check.left_out).emplace_back(relation.name);
+        if (changed) compare(check, relation.name, *changed, truth, threads);
     }
     check_exchange(check, scene);
     return check;

@@ -16,7 +16,7 @@ namespace shadowproof {
 
 struct RelationCheck {
     std::vector<std::string> tried{};
-    std::vector<std::string> left_out{}; ///< the scene's numbers do not admit them
+    std::vector<std::string> left_out{}; ///< not exact for the scene's numbers
     std::uint64_t compared = 0;          ///< pixels, of all relations together
     /// Of these, pixels with another answer though a tie was met: which of two triangles at the
     /// same place is seen depends on their order.
@@ -28,9 +28,9 @@ struct RelationCheck {
 /// Traces the scene anew for each relation, and compares classes and triangles with its truth.
 RelationCheck check_relations(const Scene& scene, const GroundTruth& truth, int threads);
 
-/// Whether the light at b reaches a, and whether the light at a reaches b, past all that casts: the
-/// same. None where this cannot be asked exactly, or a triangle lies so near to one of the points
-/// that it would be seen instead.
+/// Whether a light at b reaches a, and whether a light at a reaches b, past all casters; the two
+/// must be equal. None where this cannot be decided exactly, or where a triangle lies so near to
+/// one of the points that it would be seen instead.
 std::optional<std::array<bool, 2>> mutual_visibility(const Scene& scene, const glm::vec3& a,
                                                      const glm::vec3& b);
 

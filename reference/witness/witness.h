@@ -1,7 +1,7 @@
 // The witness: visibility and shadow depth by brute force over rationals, triangle by triangle. It
 // shares no code with the rest of reference/ but the scene's own structs, and uses other formulas:
-// hit points, not edge planes. Triangles that lie far from a line, told by balls around them with a
-// margin a million times the error of doubles, are passed over.
+// hit points, not edge planes. Triangles far from a line are skipped, by bounding spheres with a
+// margin a million times the error of doubles.
 #pragma once
 
 #include "scenes/frame.h"
@@ -24,7 +24,7 @@ struct Plane {
     bool seen_from_behind = false;
     bool casts = true;
     bool receives = true;
-    glm::dvec3 center{0, 0, 0}; ///< of a ball that holds the triangle, about
+    glm::dvec3 center{0, 0, 0}; ///< of an approximate bounding sphere
     double radius = 0;
 };
 
@@ -51,8 +51,8 @@ public:
     int side_of_eye(std::uint32_t triangle) const;   ///< 1: the front is seen
     int side_of_light(std::uint32_t triangle) const; ///< 1: the front is lit
 
-    /// Where the cosine of the angle that the spot light sees p under stands against that of its
-    /// outer cone: -1 outside, 0 on the cone, 1 within. 1 where the light is no spot.
+    /// The side of the spot light's outer cone on which p lies, by cosines: -1 outside, 0 on the
+    /// cone, 1 inside. 1 where the light is no spot.
     int side_of_cone(const Point& p) const;
 
 private:

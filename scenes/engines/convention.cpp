@@ -86,7 +86,7 @@ const std::array<Convention, 7>& conventions() {
          .node_axes = looks_down_x,
          .view_axes = looks_down_z,
          .horizontal_field_of_view = true,
-         .depth_range = DepthRange::one_to_zero,
+         .depth_range = NdcDepth::one_to_zero,
          .infinite_far = true},
     }};
     return all;

@@ -1,5 +1,5 @@
-// How other engines write a camera down: axes, handedness, units, field of view, depth range.
-// Where a glTF file's vertices go is what the engine's usual importer does.
+// How other engines describe a camera: axes, handedness, units, field of view, depth range. glTF's
+// vertices are placed as the engine's usual importer places them.
 #pragma once
 
 #include <array>
@@ -8,23 +8,23 @@
 
 namespace shadowproof {
 
-/// Window or clip depth from the near plane to the far one, over w.
-enum class DepthRange : std::uint8_t { minus_one_to_one, zero_to_one, one_to_zero };
+/// Depth in normalized device coordinates, from the near plane to the far plane.
+enum class NdcDepth : std::uint8_t { minus_one_to_one, zero_to_one, one_to_zero };
 
 struct Convention {
     std::string_view name;   ///< for --engine: "three"
     std::string_view engine; ///< "three.js"
     std::string_view axes;   ///< of its world, in words
-    /// glTF's world axes to the engine's, without lengths: orthogonal, mirroring where the engine
-    /// is left-handed.
+    /// From glTF's world axes to the engine's, without scaling: orthogonal, and mirroring where the
+    /// engine is left-handed.
     glm::dmat3 world_from_gltf{1};
-    double units = 1; ///< engine units in one of glTF's, a metre
-    /// What the camera's own axes are: right, up and forward in them, as columns. Of its node, and
-    /// of its view matrix, which may differ.
+    double units = 1; ///< engine units per glTF unit (a metre)
+    /// The camera's right, up and forward directions, as columns, in the axes of its node and in
+    /// those of its view matrix; the two may differ.
     glm::dmat3 node_axes{1};
     glm::dmat3 view_axes{1};
     bool horizontal_field_of_view = false; ///< else vertical
-    DepthRange depth_range = DepthRange::minus_one_to_one;
+    NdcDepth depth_range = NdcDepth::minus_one_to_one;
     bool infinite_far = false; ///< its cameras can do without a far plane
 };
 

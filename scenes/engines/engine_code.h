@@ -8,8 +8,8 @@
 
 namespace shadowproof {
 
-/// `camera` and `light` are objects of the engine that are there already; in OGRE, `cameraNode` and
-/// `lightNode` their nodes. `view`: view_in(convention, scene).
+/// The code expects the engine's objects `camera` and `light` to exist; in OGRE, also their nodes,
+/// `cameraNode` and `lightNode`. `view`: view_in(convention, scene).
 std::vector<std::string> engine_code(const Convention& convention, const Scene& scene,
                                      const EngineView& view);
 

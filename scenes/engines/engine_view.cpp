@@ -43,22 +43,22 @@ double farthest_depth(const Scene& scene) {
 ///   [-1, 1]: a = (f + n) / (f - n), b = -2 f n / (f - n);   without far plane 1, -2 n
 ///   [ 0, 1]: a = f / (f - n),       b = -f n / (f - n);     1, -n
 ///   [ 1, 0]: a = -n / (f - n),      b = f n / (f - n);      0, n
-glm::dvec2 depth_row(DepthRange range, double near, const std::optional<double>& far) {
+glm::dvec2 depth_row(NdcDepth range, double near, const std::optional<double>& far) {
     const double n = near;
     const double span = far ? *far - n : 1;
     switch (range) {
-    case DepthRange::minus_one_to_one:
+    case NdcDepth::minus_one_to_one:
         return far ? glm::dvec2((*far + n) / span, -2 * *far * n / span) : glm::dvec2(1, -2 * n);
-    case DepthRange::zero_to_one:
+    case NdcDepth::zero_to_one:
         return far ? glm::dvec2(*far / span, -*far * n / span) : glm::dvec2(1, -n);
-    case DepthRange::one_to_zero:
+    case NdcDepth::one_to_zero:
         break;
     }
     return far ? glm::dvec2(-n / span, *far * n / span) : glm::dvec2(0, n);
 }
 
 /// From right, up, depth, 1 to clip space.
-glm::dmat4 clip_from_frame(const Camera& camera, const EngineView& view, DepthRange range) {
+glm::dmat4 clip_from_frame(const Camera& camera, const EngineView& view, NdcDepth range) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec2 depth = depth_row(range, view.near, view.far);
     glm::dmat4 clip(0.0);

@@ -13,7 +13,7 @@ namespace shadowproof {
 /// Lengths are the engine's, matrices for column vectors.
 struct EngineView {
     glm::dmat4 world_from_gltf{1};
-    glm::dmat4 world_from_camera{1}; ///< the camera's node: a rotation and its place
+    glm::dmat4 world_from_camera{1}; ///< the camera's node: rotation and position
     glm::dmat4 view_from_world{1};
     glm::dmat4 clip_from_view{1}; ///< x and y to the right and up
     glm::dvec3 position{0, 0, 0};
@@ -22,10 +22,10 @@ struct EngineView {
     double horizontal_field_of_view = 0; ///< radians
     double near = 0;
     std::optional<double> far{}; ///< none: there is no far plane
-    bool far_is_made_up = false; ///< the scene has none, the engine needs one
+    bool far_is_made_up = false; ///< the scene has no far plane, but the engine needs one
     glm::dvec3 light_position{0, 0, 0};
-    glm::dvec3 light_direction{0, 0, -1};  ///< where it shines to; none of a point light's
-    glm::dquat light_rotation{1, 0, 0, 0}; ///< of a node that looks there as cameras do
+    glm::dvec3 light_direction{0, 0, -1};  ///< meaningless for a point light
+    glm::dquat light_rotation{1, 0, 0, 0}; ///< of a node that looks in that direction as cameras do
 };
 
 /// `scene` is in the file's units. An engine that needs a far plane gets one at twice the depth of

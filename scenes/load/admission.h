@@ -1,5 +1,5 @@
-// Which scenes are admitted: those whose coordinates the arithmetic of all rooms can hold. Checked
-// once, after loading, whatever the file's format.
+// Which scenes are admitted: those whose coordinates the arithmetic of all libraries can hold.
+// Checked once, after loading, whatever the file's format.
 #pragma once
 
 #include "scenes/roundoff.h"
@@ -14,24 +14,24 @@ namespace shadowproof {
 /// arithmetic takes any finite double (reference/exact/exact.h).
 inline constexpr double largest_coordinate = 0x1p62;
 
-/// How many times as far from the eye as half of all corners a corner may be. At their distance a
-/// step of the grid to which rasterizers snap, 1/256 of a pixel in 512, is 2^-17; the judges'
-/// doubles are off by 2^-53 of the largest number. Further out they could not tell one pixel from
-/// the next.
+/// The largest distance of a corner from the eye, as a multiple of the median distance of all
+/// corners. At the median distance a step of the grid to which rasterizers snap, 1/256 of a pixel
+/// in 512, is 2^-17; the judges' doubles are off by 2^-53 of the largest number. Further out they
+/// could not tell one pixel from the next.
 inline constexpr double largest_spread = 0x1p36;
 
-/// How near to the eye a corner may be, as a share of the distance of half of all corners, unless
-/// it is in the eye. In a scene of ordinary size floats hold the squares of such distances: those
-/// above 2^-126. Where they do not, what lighting makes of it vanishes.
+/// The smallest distance of a corner from the eye, unless it is at the eye, as a share of the
+/// median distance of all corners. In a scene of ordinary size floats hold the squares of such
+/// distances: those above 2^-126. Where they do not, what lighting makes of it vanishes.
 inline constexpr double smallest_share = 0x1p-62;
 
-/// The smallest component of the eye, a light's place or its direction, 0 apart. Doubles hold
+/// The smallest component, except 0, of the eye, a light's position or its direction. Doubles hold
 /// products of three such.
 inline constexpr double smallest_number = 0x1p-340;
 
-/// The smallest half of a picture's width or height at depth 1. A place's view coordinates are
-/// three products each, added in floats, and off by up to five roundings of its distance: in a
-/// picture that is narrower than that, floats place nothing.
+/// The smallest half of a picture's width or height at depth 1. Each view coordinate of a point is
+/// a sum of three products in floats, and off by up to five roundings of the point's distance. In a
+/// narrower picture, floats cannot place any point.
 inline constexpr double smallest_half_extent = 5 * float_roundoff;
 
 /// Largest colour, intensity and scale of bumps.

@@ -1,4 +1,4 @@
-// Of things that are the same, the first: found by hashes.
+// Finds equal items by their hashes.
 #pragma once
 
 #include <bit>
@@ -25,9 +25,9 @@ inline std::uint64_t hash_of(const glm::dvec3& v) {
     return hash;
 }
 
-/// For each of some things the index of the first that is the same. `hashes` must be equal where
-/// things are the same; `same(i, k)` is asked where they are, at most `patience` times for each
-/// thing, after which some may be missed. O(n) time where most hashes differ.
+/// For each item, the index of the first item that is equal to it. Equal items must have equal
+/// hashes; where two hashes are equal, `same(i, k)` decides. It is called at most `patience` times
+/// per item, after which equal items may be missed. O(n) time where most hashes differ.
 template <class Same>
 std::vector<std::uint32_t> first_of_same(std::span<const std::uint64_t> hashes, const Same& same,
                                          int patience = std::numeric_limits<int>::max()) {

@@ -18,7 +18,7 @@ namespace shadowproof {
 /// nothing touches the light. Equal positions are represented by the first of them. The maps give
 /// indices into `directions`.
 struct SplitFarEnds {
-    /// From the light, normalised, off by a few 2^-53.
+    /// From the light, normalised, with an error of a few 2^-53.
     std::vector<glm::dvec3> directions;
     /// By triangle: the direction to its point nearest to the light. The dark cap becomes a fan
     /// about it, whose parts do not overlap. Every triangle that faces the light and touches it has

@@ -15,7 +15,7 @@ struct CasterPlan {
     std::uint32_t mesh = 0;
     std::string left_out; ///< why nothing seen can lie in its shadow; empty where something may
     /// Its volume may contain the eye, a point of the near plane's rectangle, or a point between:
-    /// then faces in front of a surface do not tell how often the surface is in shadow.
+    /// then counting faces in front of a surface does not give the number of volumes around it.
     bool meets_near = true;
     bool reaches_infinity = true; ///< its volume may be seen at infinity
 };

@@ -1,4 +1,4 @@
-#include "scenes/relations/retellings.h"
+#include "scenes/relations/relation_table.h"
 #include "scenes/scaling.h"
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace shadowproof {
 
 namespace {
 
-RetoldScene same_triangles(const Scene& scene) {
-    RetoldScene retold{.scene = scene,
-                       .original = std::vector<std::uint32_t>(scene.triangles.size())};
-    std::iota(retold.original.begin(), retold.original.end(), 0U);
-    return retold;
+ChangedScene same_triangles(const Scene& scene) {
+    ChangedScene changed{.scene = scene,
+                         .original = std::vector<std::uint32_t>(scene.triangles.size())};
+    std::iota(changed.original.begin(), changed.original.end(), 0U);
+    return changed;
 }
 
 /// Whether a sum of doubles is exact.
@@ -51,25 +51,25 @@ double exact_offset(const Scene& scene, int axis) {
     return 0;
 }
 
-std::optional<RetoldScene> move(const Scene& scene) {
+std::optional<ChangedScene> move(const Scene& scene) {
     glm::dvec3 offset(0, 0, 0);
     for (int axis = 0; axis < 3; ++axis) offset[axis] = exact_offset(scene, axis);
     if (offset == glm::dvec3(0, 0, 0)) return std::nullopt;
-    RetoldScene retold = same_triangles(scene);
-    for (glm::vec3& position : retold.scene.positions)
+    ChangedScene changed = same_triangles(scene);
+    for (glm::vec3& position : changed.scene.positions)
         position = glm::vec3(glm::dvec3(position) + offset);
-    retold.scene.camera.eye += offset;
-    for (Light& light : retold.scene.lights) light.position += offset;
-    return retold;
+    changed.scene.camera.eye += offset;
+    for (Light& light : changed.scene.lights) light.position += offset;
+    return changed;
 }
 
-std::optional<RetoldScene> scale_by_power(const Scene& scene) {
+std::optional<ChangedScene> scale_by_power(const Scene& scene) {
     // Up or down, so far that a length which some code takes for a length of 1 shows.
     for (const int power : {10, -10, 3, -3}) {
         if (!scales_exactly(scene, power)) continue;
-        RetoldScene retold = same_triangles(scene);
-        scale(retold.scene, std::ldexp(1.0, power));
-        return retold;
+        ChangedScene changed = same_triangles(scene);
+        scale(changed.scene, std::ldexp(1.0, power));
+        return changed;
     }
     return std::nullopt;
 }
@@ -77,9 +77,9 @@ std::optional<RetoldScene> scale_by_power(const Scene& scene) {
 /// Applies a map of vectors, which only exchanges and negates components, to all that has a place
 /// or a direction.
 template <class Map>
-RetoldScene mapped(const Scene& scene, const Map& map) {
-    RetoldScene retold = same_triangles(scene);
-    Scene& result = retold.scene;
+ChangedScene mapped(const Scene& scene, const Map& map) {
+    ChangedScene changed = same_triangles(scene);
+    Scene& result = changed.scene;
     for (glm::vec3& position : result.positions) position = map(position);
     for (Surface& surface : result.surfaces) {
         surface.normal = map(surface.normal);
@@ -94,12 +94,12 @@ RetoldScene mapped(const Scene& scene, const Map& map) {
     }
     // Its texels would have to be turned too; what they change is no visibility.
     result.environment.reset();
-    return retold;
+    return changed;
 }
 
 /// By 90 degrees about an axis.
 template <int axis>
-std::optional<RetoldScene> turn(const Scene& scene) {
+std::optional<ChangedScene> turn(const Scene& scene) {
     return mapped(scene, [](auto v) {
         constexpr int u = (axis + 1) % 3;
         constexpr int w = (axis + 2) % 3;
@@ -112,30 +112,30 @@ std::optional<RetoldScene> turn(const Scene& scene) {
 
 /// Across the plane x = 0, the camera with all else: its right and up then are those of a mirror's
 /// picture, and the pixels stay.
-std::optional<RetoldScene> mirror(const Scene& scene) {
-    RetoldScene retold = mapped(scene, [](auto v) {
+std::optional<ChangedScene> mirror(const Scene& scene) {
+    ChangedScene changed = mapped(scene, [](auto v) {
         v.x = -v.x;
         return v;
     });
-    for (glm::uvec3& triangle : retold.scene.triangles) std::swap(triangle.y, triangle.z);
-    for (std::size_t i = 0; i + 2 < retold.scene.surfaces.size(); i += 3)
-        std::swap(retold.scene.surfaces[i + 1], retold.scene.surfaces[i + 2]);
-    for (Surface& surface : retold.scene.surfaces) surface.tangent.w = -surface.tangent.w;
-    return retold;
+    for (glm::uvec3& triangle : changed.scene.triangles) std::swap(triangle.y, triangle.z);
+    for (std::size_t i = 0; i + 2 < changed.scene.surfaces.size(); i += 3)
+        std::swap(changed.scene.surfaces[i + 1], changed.scene.surfaces[i + 2]);
+    for (Surface& surface : changed.scene.surfaces) surface.tangent.w = -surface.tangent.w;
+    return changed;
 }
 
 } // namespace
 
 std::vector<Relation> motions() {
     return {
-        {.name = "moved", .words = "all is moved by powers of two", .retell = move},
-        {.name = "scaled", .words = "all lengths times a power of two", .retell = scale_by_power},
-        {.name = "turned_about_x", .words = "a quarter turn about x", .retell = turn<0>},
-        {.name = "turned_about_y", .words = "a quarter turn about y", .retell = turn<1>},
-        {.name = "turned_about_z", .words = "a quarter turn about z", .retell = turn<2>},
+        {.name = "moved", .words = "all is moved by powers of two", .change = move},
+        {.name = "scaled", .words = "all lengths times a power of two", .change = scale_by_power},
+        {.name = "turned_about_x", .words = "a quarter turn about x", .change = turn<0>},
+        {.name = "turned_about_y", .words = "a quarter turn about y", .change = turn<1>},
+        {.name = "turned_about_z", .words = "a quarter turn about z", .change = turn<2>},
         {.name = "mirrored",
          .words = "all is mirrored, the camera too",
-         .retell = mirror,
+         .change = mirror,
          .keeps_camera_right_handed = false},
     };
 }

@@ -23,8 +23,9 @@ struct StressParameter {
     bool (*suits)(const Scene& scene) = nullptr;
     /// The value that the scene has, or that leaves it as it is; positive.
     double (*own)(const Scene& scene) = nullptr;
-    /// Takes a scene that suits to a value. Vertices are rounded to float, once. Throws Error where
-    /// there is no such scene. Null where the parameter is no scene's.
+    /// Changes a suitable scene so that it has the value. Vertices are rounded to float, once.
+    /// Throws Error where there is no such scene. Null where the parameter is a setting of
+    /// techniques.
     void (*take)(Scene& scene, double value) = nullptr;
     /// A setting of techniques instead: its flag, without dashes, for those that heed it, and what
     /// the flag takes for a value.
@@ -50,9 +51,9 @@ struct Stress {
     double value = 0;
 };
 
-/// The scene at a value of a parameter that is a scene's. It provokes what it may: what its file
-/// says of that is of the scene as it was. Throws Error where the parameter is unknown, does not
-/// suit the scene, or has no such value.
+/// The scene at a value of one of its parameters. It may provoke any cause, because what its file
+/// declares is true only of the scene as it was. Throws Error where the parameter is unknown, does
+/// not suit the scene, or has no such value.
 Scene stressed(Scene scene, const Stress& stress);
 
 /// "near_plane=1e-06", as --stress takes it.

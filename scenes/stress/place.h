@@ -8,8 +8,8 @@
 
 namespace shadowproof {
 
-/// The median distance of the vertices from the eye: what is far away, as a huge floor's corners,
-/// does not decide. World units; positive, 1 where all vertices are at the eye.
+/// The median distance of the vertices from the eye: a few far ones, such as a huge floor's
+/// corners, have no influence. World units; positive, 1 where all vertices are at the eye.
 double size_of(const Scene& scene);
 
 /// The mesh that casts and has most triangles; none where nothing casts.

@@ -14,7 +14,7 @@
 
 namespace shadowproof {
 
-/// A scene of more is no stress of techniques, but of patience.
+/// Larger scenes would take longer and test nothing more.
 inline constexpr std::size_t most_triangles = 2'000'000;
 
 /// Gives every triangle of some meshes others instead. `split` takes its number and appends them.

@@ -1,5 +1,5 @@
-// The yardstick: the same eye and shadow rays, answered by Embree in float, in its fastest way for
-// them (packets of 16, robust). Its answers are not exact; its speed is what one would have.
+// What the reference's speed is compared with: the same eye and shadow rays traced by Embree in
+// float, in its fastest mode for them (packets of 16, robust). Its answers are not exact.
 #pragma once
 
 #include "reference/trace/trace.h"

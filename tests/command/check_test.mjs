@@ -145,7 +145,7 @@ test('rays that miss what is close are told, and how close', () => {
   assert.ok(Math.abs(parameters.epsilon - 0.2) < 0.02, `${parameters.epsilon}`);
 });
 
-test('a mesh that is not drawn, and one that throws no shadow, are told from each other', () => {
+test('a mesh that is not drawn, and one that casts no shadow, are told from each other', () => {
   const gltf = JSON.parse(readFileSync(join(process.env.SHADOWPROOF_SCENES, 'ordinary.gltf'), 'utf8'));
   const torus = gltf.nodes.find(({ name }) => name === 'torus');
   const firstOf = (file) => {
@@ -160,7 +160,7 @@ test('a mesh that is not drawn, and one that throws no shadow, are told from eac
   };
   torus.extras = { shadowproof: { casts: false } };
   writeFileSync(path('no_caster.gltf'), JSON.stringify(gltf));
-  assert.equal(firstOf('no_caster.gltf'), 'torus throws no shadow');
+  assert.equal(firstOf('no_caster.gltf'), 'torus casts no shadow');
   delete torus.mesh;
   writeFileSync(path('no_mesh.gltf'), JSON.stringify(gltf));
   assert.equal(firstOf('no_mesh.gltf'), 'torus is not drawn');
@@ -180,7 +180,7 @@ test('controls are caught, or it is said why not; the picture is judged as witho
   assert.ok(one < two && two < five);
   for (const control of ['range', 'shadow_shifted', 'triangle_missing'])
     assert.equal(named(control).length, 1, control);
-  assert.match(out, /control: caught: box throws no shadow, by [\d,]+ pixels/);
+  assert.match(out, /control: caught: box casts no shadow, by [\d,]+ pixels/);
   assert.match(out, /controls: \d+ of 1\d caught; the smallest: /);
   const { cells: [without] } = checked('ordinary', good);
   assert.equal(without.controls, undefined);

@@ -82,12 +82,12 @@ for (const scene of ['ordinary', 'overlapping', 'near_plane']) {
     const off = Math.hypot(...['x', 'y', 'z'].map((axis, i) => parameters[axis] - by[i]));
     assert.ok(off <= 0.02 * Math.hypot(...light.position), JSON.stringify(parameters));
   });
-  test(`a caster of ${scene} that throws no shadow`, () => {
+  test(`a caster of ${scene} that casts no shadow`, () => {
     const name = { ordinary: 'ball', overlapping: 'copper', near_plane: 'planet' }[scene];
     const { words } = diagnosed(scene, changed(scene, ({ nodes }) => {
       nodes.find((node) => node.name === name).extras = { shadowproof: { casts: false } };
     }), 'caster_missing');
-    assert.equal(words, `${name} throws no shadow`);
+    assert.equal(words, `${name} casts no shadow`);
   });
 }
 

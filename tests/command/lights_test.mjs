@@ -115,7 +115,7 @@ test('explain says where a sun shines to and draws its arrow', () => {
   assert.match(run.out, /light     sun shining along \(/);
 });
 
-test('what does not cast throws no shadow, and what does not receive shows none', () => {
+test('what does not cast casts no shadow, and what does not receive shows none', () => {
   const litWith = (flags) => {
     const gltf = structuredClone(ordinary);
     for (const [node, says] of Object.entries(flags))

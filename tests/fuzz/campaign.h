@@ -1,4 +1,4 @@
-// Mutated assets through the program itself, many to a call, and whatever is odd again by itself.
+// Runs the program itself on mutated assets, many in one call, and again on each odd one alone.
 #pragma once
 
 #include "tests/fuzz/mutants.h"

@@ -27,7 +27,7 @@ std::vector<Json*> values_of(Json& root) {
     return found;
 }
 
-/// A value of any type, with a bent for those that break assumptions.
+/// A value of any type, often one that breaks assumptions.
 template <class Json>
 Json hostile_value(std::span<const std::string_view> words, Dice& dice) {
     switch (dice.below(12)) {

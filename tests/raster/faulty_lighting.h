@@ -1,6 +1,6 @@
 // What renderers get wrong when they light bump maps, one fault each: in the scene that is drawn,
-// or in a fragment shader, of which one piece is replaced by another. What they say of themselves
-// is what the right ones say.
+// or in a fragment shader, of which one piece is replaced by another. They declare the same as the
+// right ones do.
 #pragma once
 
 #include "raster/gl/context.h"

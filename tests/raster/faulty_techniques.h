@@ -1,5 +1,5 @@
-// Stencil techniques with one fault each, built from the parts of the right ones. What they say of
-// themselves (counting, depth model) is what the right ones say, so a ledger must catch them.
+// Stencil techniques with one fault each, built from the parts of the right ones. They declare the
+// same counting and depth model as the right ones, so a ledger must catch them.
 #pragma once
 
 #include "raster/gl/context.h"

@@ -1,5 +1,5 @@
-// The ledger of one eye ray, from all triangles whose volumes may come near it: the long way round,
-// for the regions' short one to be held against.
+// The ledger of one eye ray, from all triangles whose volumes may come near it: slow and simple, to
+// test the ledgers of regions with.
 #pragma once
 
 #include "reference/predict/ledger.h"

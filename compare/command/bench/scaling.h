@@ -8,8 +8,8 @@ namespace shadowproof {
 
 /// Appends a Growth for each axis and technique to the run. Pixels and texels grow on the first
 /// scene that was named (ordinary), the rest on generated ones; texels for shadow maps alone. A
-/// technique that becomes too slow, or what needs too much memory, is left out from there on, and
-/// said. Returns whether nothing failed otherwise.
+/// technique that becomes too slow, or a size that needs too much memory, is left out from there
+/// on, and the console says so. Returns whether nothing else failed.
 bool measure_growth(const BenchWork& work);
 
 } // namespace shadowproof

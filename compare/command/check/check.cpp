@@ -40,7 +40,7 @@ SceneResult judged_scene(const Run& run, const SceneInputs& inputs) {
                       });
 }
 
-/// A scene that cannot be tried is one of many: the others are.
+/// A scene that cannot be tried does not end the run.
 SceneResult rendered_scene(const Run& run, const std::string& scene) {
     SceneResult result;
     result.argument = scene;

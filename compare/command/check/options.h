@@ -24,13 +24,13 @@ struct CheckOptions {
     OutputOptions output;
     bool alignment = true; ///< pictures of another view are refused
     bool diagnosis = true;
-    bool controls = false;          ///< faults are made, and must be caught
+    bool controls = false;          ///< negative controls: faults are injected, and must be caught
     double timeout = usual_timeout; ///< seconds for a picture, for a run of the renderer, or for
                                     ///< tracing the scene; 0: no limit
 };
 
-/// The view of a scene that others draw: what is in its file, without a floor of ours unless that
-/// is asked for.
+/// The view of a scene that other renderers draw: what is in its file, without the default floor
+/// unless that is requested.
 inline SceneOptions drawn_by_others(SceneOptions view) {
     view.floor = view.floor.value_or(false);
     return view;
@@ -42,8 +42,8 @@ struct SceneInputs {
     std::vector<std::string> pictures;
     std::string mask; ///< empty: none
     std::string unlit;
-    std::filesystem::path work{}; ///< of the renderer: messages leave it out, as the report's
-                                  ///< copies of its pictures have the rest of their names
+    std::filesystem::path work{}; ///< folder of the renderer's files; messages omit it, because the
+                                  ///< report names its copies by the rest of the path
 };
 
 } // namespace shadowproof

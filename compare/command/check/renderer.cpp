@@ -57,7 +57,7 @@ std::string replaced(const std::string& word, const Value& value) {
     return made;
 }
 
-/// What a renderer is told: the scene's file, and the view as JSON.
+/// What a renderer is given: the scene's file, and the view as JSON.
 struct ToldView {
     std::string file{};
     std::string json{};

@@ -1,4 +1,4 @@
-// Negative controls of a picture: would this check of this scene have caught such a fault?
+// Negative controls of a picture: whether this check of this scene would have caught such a fault.
 #pragma once
 
 #include "compare/gate.h"
@@ -14,7 +14,7 @@ struct ControlOutcome {
     std::string control; ///< Control::control
     std::string words;
     std::uint64_t changed = 0; ///< pixels of the truth
-    std::uint64_t wrong = 0;   ///< pixels that the check counts against it; edge not counted
+    std::uint64_t wrong = 0;   ///< pixels that the check counts against it; without edge
     bool caught = false;       ///< by the gate
     std::string why_not;       ///< where it is not caught
 };

@@ -23,7 +23,7 @@ struct Message {
     std::string name{};
     std::uint64_t place = 0;  ///< among those within the same piece
     bool again = false;       ///< an earlier worker has begun it, too
-    double least_seconds = 0; ///< it is not given up before, whatever the time limit
+    double least_seconds = 0; ///< that it is given at least, whatever the time limit
 };
 
 /// Throws Error if the pipe has no reader any more.

@@ -31,8 +31,8 @@ struct LostPiece : Error {
 /// around it are done again.
 class Pieces {
 public:
-    /// `record`: what earlier workers did. It must outlive this. What is said on the console up to
-    /// the last loss was said by them, and is not said again.
+    /// `record`: what earlier workers did. It must outlive this. The console is muted up to the
+    /// last loss: earlier workers have printed those lines already.
     Pieces(int pipe, const WorkRecord& record, Console& console);
 
     /// The work's result, or that of an earlier worker: either way as it was sent. Throws LostPiece
@@ -48,8 +48,8 @@ public:
         return unpacked<Result>(result);
     }
 
-    /// The same where the result cannot be sent: each worker does it again. `least_seconds`: it is
-    /// not given up before.
+    /// The same where the result cannot be sent: each worker does it again. `least_seconds`: that
+    /// it is given at least, whatever the time limit.
     template <class Work>
     auto step(const std::string& name, const Work& work, double least_seconds = 0) {
         enter(name, least_seconds);

@@ -1,4 +1,4 @@
-// What workers have done so far, piece by piece, as their supervisor writes it down.
+// What workers have done so far, piece by piece, as their supervisor records it.
 #pragma once
 
 #include "compare/loss.h"

@@ -1,4 +1,4 @@
-// The supervisor process: starts a worker, writes down what it does, and if it crashes or takes too
+// The supervisor process: starts a worker, records what it does, and if it crashes or takes too
 // long, starts another one that goes on after the piece that was lost.
 #pragma once
 

@@ -22,9 +22,9 @@ public:
     void progress(const std::string& text);
     /// Clears the progress line.
     void clear_progress();
-    /// The progress line of another process, which has ended, is cleared.
+    /// Clears the progress line of another process, which has ended.
     void take_over();
-    /// While muted, nothing is printed: an earlier process said it all.
+    /// While muted, nothing is printed: an earlier process has printed it already.
     void mute(bool muted) { muted_ = muted; }
     /// A line of results; not printed where quiet.
     void line(const std::string& text);

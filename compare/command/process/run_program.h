@@ -1,4 +1,4 @@
-// Runs somebody else's program: without a shell, and not for ever.
+// Runs another program, without a shell and with a time limit.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace shadowproof {
 
-/// How it ended: by itself with a code, by a signal, or because its time was up.
+/// How it ended: by itself with a code, by a signal, or at the time limit.
 struct ProgramEnd {
     std::optional<int> code{};
     int signal = 0;

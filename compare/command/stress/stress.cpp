@@ -135,7 +135,7 @@ Losses losses_of(const StressRun& run) {
     return losses;
 }
 
-/// What the run comes to, said; and the exit code.
+/// Prints the outcome of the run, and returns the exit code.
 int conclude(const StressOptions& options, const StressRun& run, Console& console) {
     const StressTally tally = tally_of(run);
     for (const StressScene& scene : run.scenes)
@@ -159,7 +159,7 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
                     "otherwise {} changes {}; page in {}",
                     counted(tally.cells, "cell"), counted(tally.points, "point"),
                     grouped(tally.disagreements), counted(tally.asked, "pixel"),
-                    counted(tally.retold, "time"), counted(tally.changed, "pixel"),
+                    counted(tally.relations_tried, "time"), counted(tally.changed, "pixel"),
                     (std::filesystem::path(options.out) / page_name).string()));
     const bool unread = std::ranges::any_of(
         run.scenes, [](const StressScene& scene) { return !scene.error.empty(); });

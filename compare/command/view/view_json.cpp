@@ -33,13 +33,13 @@ Json length_or_null(const std::optional<double>& length) {
     return length ? Json(*length) : Json(nullptr);
 }
 
-std::string_view name_of(DepthRange range) {
+std::string_view name_of(NdcDepth range) {
     switch (range) {
-    case DepthRange::minus_one_to_one:
+    case NdcDepth::minus_one_to_one:
         return "-1 to 1";
-    case DepthRange::zero_to_one:
+    case NdcDepth::zero_to_one:
         return "0 to 1";
-    case DepthRange::one_to_zero:
+    case NdcDepth::one_to_zero:
         break;
     }
     return "1 to 0";

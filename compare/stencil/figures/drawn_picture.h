@@ -1,4 +1,4 @@
-// All faces that a technique draws as volumes, as they come out in its picture.
+// All faces that a technique draws as volumes, as they appear in its picture.
 #pragma once
 
 #include "compare/driver/pictured_face.h"

@@ -1,7 +1,7 @@
 // What the viewer shows of a claim's evidence, by family. A family's section is a file of its own;
 // a family without one shows its claim and causes alone.
 
-/** What a section has that says nothing else. */
+/** The defaults of a section. */
 const plainSection = {
   /** The lengths of its blocks in cell.js, by name; null: any. */
   blocks: (pixels, differing) => ({}),

@@ -1,4 +1,4 @@
-// The section of shadow maps: the texel that a pixel asks, and the comparison, drawn along the ray
+// The section of shadow maps: the texel that a pixel reads, and the comparison, drawn along the ray
 // from the light.
 
 /** As many digits as a float has without its last. */

@@ -1,4 +1,4 @@
-// The section of pictures that somebody's renderer made: what would explain their wrong pixels.
+// The section of pictures that another renderer made: what would explain their wrong pixels.
 
 /** "z-pass, which ...: explains 67,754 wrong pixels, contradicts 0" */
 const diagnosisWords = ({ words, explained, contradicted }) =>

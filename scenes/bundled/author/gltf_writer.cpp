@@ -1,124 +1,20 @@
 #include "scenes/bundled/author/gltf_writer.h"
 
+#include "scenes/bundled/author/gltf_buffer.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace shadowproof::author {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// Numbers of the glTF 2.0 specification.
-constexpr int component_unsigned_byte = 5121;
-constexpr int component_unsigned_short = 5123;
-constexpr int component_float = 5126;
-constexpr int target_vertices = 34962;
-constexpr int target_indices = 34963;
-constexpr int filter_linear = 9729;
-
-Json array(const glm::dvec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
-Json array(const glm::dquat& q) {
-    return Json::array({q.x, q.y, q.z, q.w});
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t length = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < length ? bytes[i + k] : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= length ? digits[group >> (18 - 6 * k) & 63U] : '=';
-    }
-    return text;
-}
-
-/// The buffer, and the accessors and views into it, as they grow.
-struct Buffer {
-    std::vector<std::uint8_t> bytes;
-    Json views = Json::array();
-    Json accessors = Json::array();
-
-    void append(std::uint32_t word, unsigned size) {
-        for (unsigned i = 0; i < size; ++i)
-            bytes.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-    }
-
-    /// Index of a new view from `offset` to the end, the buffer then padded to whole words. Key
-    /// frames have no target.
-    std::size_t close_view(std::size_t offset, std::optional<int> target) {
-        Json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size() - offset}};
-        if (target) view["target"] = *target;
-        views.push_back(view);
-        while (bytes.size() % 4 != 0) bytes.push_back(0);
-        return views.size() - 1;
-    }
-};
-
-/// Index of the new accessor.
-std::size_t add_positions(Buffer& buffer, const std::vector<glm::dvec3>& vertices,
-                          std::optional<int> target = target_vertices) {
-    const std::size_t offset = buffer.bytes.size();
-    glm::vec3 low(vertices.front());
-    glm::vec3 high = low;
-    for (const glm::dvec3& vertex : vertices) {
-        const glm::vec3 rounded(vertex);
-        low = glm::min(low, rounded);
-        high = glm::max(high, rounded);
-        for (int k = 0; k < 3; ++k) buffer.append(std::bit_cast<std::uint32_t>(rounded[k]), 4);
-    }
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target)},
-                                {"componentType", component_float},
-                                {"count", vertices.size()},
-                                {"type", "VEC3"},
-                                {"min", array(low)},
-                                {"max", array(high)}});
-    return buffer.accessors.size() - 1;
-}
-
-/// Float vectors without bounds: normals, tangents, texture coordinates.
-template <class Vector>
-std::size_t add_vectors(Buffer& buffer, const std::vector<Vector>& vectors) {
-    const std::size_t offset = buffer.bytes.size();
-    for (const Vector& vector : vectors)
-        for (int k = 0; k < vector.length(); ++k)
-            buffer.append(std::bit_cast<std::uint32_t>(static_cast<float>(vector[k])), 4);
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
-                                {"componentType", component_float},
-                                {"count", vectors.size()},
-                                {"type", "VEC" + std::to_string(Vector::length())}});
-    return buffer.accessors.size() - 1;
-}
-
-/// JOINTS_0, in bytes.
-std::size_t add_joints(Buffer& buffer, const std::vector<Influence>& influences) {
-    const std::size_t offset = buffer.bytes.size();
-    for (const Influence& influence : influences)
-        for (int k = 0; k < 4; ++k) buffer.append(influence.joints[k], 1);
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_vertices)},
-                                {"componentType", component_unsigned_byte},
-                                {"count", influences.size()},
-                                {"type", "VEC4"}});
-    return buffer.accessors.size() - 1;
-}
-
-std::size_t add_weights(Buffer& buffer, const std::vector<Influence>& influences) {
-    std::vector<glm::dvec4> weights;
-    weights.reserve(influences.size());
-    for (const Influence& influence : influences) weights.push_back(influence.weights);
-    return add_vectors(buffer, weights);
-}
+constexpr int filter_linear = 9729; // glTF 2.0's number
 
 Json attributes_of(Buffer& buffer, const Placed& thing) {
     const Shape& shape = thing.shape;
@@ -145,31 +41,7 @@ Json targets_of(Buffer& buffer, const std::vector<Morph>& morphs) {
     return targets;
 }
 
-std::size_t add_indices(Buffer& buffer, const std::vector<glm::uvec3>& triangles) {
-    const std::size_t offset = buffer.bytes.size();
-    for (const glm::uvec3& triangle : triangles)
-        for (int k = 0; k < 3; ++k) buffer.append(triangle[k], 2);
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, target_indices)},
-                                {"componentType", component_unsigned_short},
-                                {"count", 3 * triangles.size()},
-                                {"type", "SCALAR"}});
-    return buffer.accessors.size() - 1;
-}
-
-/// Seconds, of the key frames of an animation.
-std::size_t add_times(Buffer& buffer, const std::vector<float>& times) {
-    const std::size_t offset = buffer.bytes.size();
-    for (const float time : times) buffer.append(std::bit_cast<std::uint32_t>(time), 4);
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, std::nullopt)},
-                                {"componentType", component_float},
-                                {"count", times.size()},
-                                {"type", "SCALAR"},
-                                {"min", Json::array({times.front()})},
-                                {"max", Json::array({times.back()})}});
-    return buffer.accessors.size() - 1;
-}
-
-void wear(Json& material, const Look& look) {
+void set_look(Json& material, const Look& look) {
     if (look.decal) material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *look.decal}};
     Json ours = Json::object();
     if (look.bump) {
@@ -190,7 +62,7 @@ Json material_of(const Placed& thing) {
                   {"pbrMetallicRoughness",
                    {{"baseColorFactor", color}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}}};
     if (thing.double_sided) material["doubleSided"] = true;
-    wear(material, thing.look);
+    set_look(material, thing.look);
     return material;
 }
 
@@ -300,20 +172,6 @@ Json animations_of(Buffer& buffer, const Lamp& lamp, std::size_t node) {
         {{"name", "way of the light"},
          {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}},
          {"samplers", {{{"input", times}, {"interpolation", "LINEAR"}, {"output", places}}}}}};
-}
-
-/// Index of the new accessor.
-std::size_t add_key_values(Buffer& buffer, const Track& track) {
-    const std::size_t offset = buffer.bytes.size();
-    for (const double value : track.values)
-        buffer.append(std::bit_cast<std::uint32_t>(static_cast<float>(value)), 4);
-    const std::size_t width =
-        track.path == "weights" ? 1 : track.values.size() / track.times.size();
-    buffer.accessors.push_back({{"bufferView", buffer.close_view(offset, std::nullopt)},
-                                {"componentType", component_float},
-                                {"count", track.values.size() / width},
-                                {"type", width == 1 ? "SCALAR" : "VEC" + std::to_string(width)}});
-    return buffer.accessors.size() - 1;
 }
 
 /// All tracks as the only animation of the file.

@@ -28,7 +28,7 @@ std::vector<Placed> desk() {
 }
 
 /// A floor nine centimetres wide, in metres: a thousandth is a millimetre, and what touches the
-/// floor throws no shadow on it that near.
+/// floor casts no shadow on it that near.
 Stage in_metres() {
     Stage stage = looking_along_floor("in_metres",
                                       "Small things in metres: an epsilon of 1e-3 is a "

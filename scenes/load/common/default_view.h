@@ -1,6 +1,5 @@
-// The camera and the light of a scene whose file has none. Needs the scene's positions; notes in
-// scene.notes what was chosen,
-// and sets scene.default_framing.
+// The camera and the light of a scene whose file has none. Needs the scene's positions. Says in
+// scene.notes what was chosen, and sets scene.default_framing.
 #pragma once
 
 #include "scenes/load/common/scene_request.h"

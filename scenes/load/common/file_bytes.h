@@ -1,4 +1,4 @@
-// Bytes of files, with their sizes checked before memory is taken.
+// Bytes of files, with their sizes checked before memory is allocated.
 #pragma once
 
 #include "scenes/load/common/place.h"

@@ -1,5 +1,5 @@
-// Libraries of this program that are loaded once something needs them: what comes with them takes
-// time, or has symbols that must not meet ours.
+// Libraries of this program that are loaded only when something needs them: their dependencies take
+// time to load, or export symbols that would clash with ours.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a word that is not known may have been meant to be.
+// The name that a misspelt word probably means.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace shadowproof {
 
-/// The name that a word becomes by the fewest letters put in, left out, replaced or exchanged with
-/// their neighbour: at most one for each three of the word's letters. Empty where there is none;
-/// of several that are as near, the first.
+/// The name with the smallest edit distance from the word (letters inserted, left out, replaced, or
+/// exchanged with their neighbour): at most one edit for each three of the word's letters. Empty
+/// where there is none; the first of several that are equally near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// " (did you mean NAME?)", or nothing.

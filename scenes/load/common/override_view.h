@@ -6,9 +6,9 @@
 
 namespace shadowproof {
 
-/// Puts what is given in place of what the file says, and notes it. The scene is in the file's
-/// units. Throws Error where the matrix places no camera (transposed, mirrored, sheared, not
-/// finite) or the light has no position.
+/// Replaces what the file says by what is given, and says so in the scene's notes. The scene is in
+/// the file's units. Throws Error where the matrix cannot place a camera (transposed, mirrored,
+/// sheared, not finite) or the light has no position.
 void override_view(const ViewOverride& view, Scene& scene);
 
 } // namespace shadowproof

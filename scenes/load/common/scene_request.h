@@ -11,7 +11,7 @@
 
 namespace shadowproof {
 
-/// What stands in place of the file's view: as a renderer has it that was not given the file's.
+/// A view that replaces the file's, for pictures by renderers that do not use the file's own.
 struct ViewOverride {
     /// The camera's node, column by column as glTF and OpenGL write matrices: it looks down its -z,
     /// with its y up. In the file's axes and units.
@@ -32,8 +32,8 @@ struct SceneRequest {
     int height = 512;                  ///< pixels
     bool camera_aspect = false;     ///< the picture is as wide as the camera's aspect ratio says,
                                     ///< where it says one, rather than `width`
-    ViewOverride view{};            ///< taken once the file is read, before the stress
-    std::optional<Stress> stress{}; ///< takes the scene there once it is read
+    ViewOverride view{};            ///< applied once the file is read, before the stress
+    std::optional<Stress> stress{}; ///< applied once the scene is read
     MemoryBudget memory{};          ///< of the run: files that need more to be read are refused
 };
 

@@ -1,8 +1,8 @@
 #include "scenes/load/compressed/draco.h"
 
 #include "scenes/load/common/module.h"
-#include "scenes/load/compressed/apart.h"
 #include "scenes/load/compressed/draco_library.h"
+#include "scenes/load/compressed/isolated.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ constexpr std::uint64_t bytes_of_vertex = 150;
 constexpr std::uint64_t bytes_of_byte = 5;
 constexpr std::uint64_t bytes_beside = 32'000'000;
 
-/// What the child tells, at the head of the shared bytes.
+/// What the child reports, at the head of the shared bytes.
 struct Told {
     std::uint64_t begun = 0;  ///< meshes that it has begun with
     std::uint64_t part = 0;   ///< of the mesh at fault, or all of it
@@ -69,16 +69,16 @@ std::uint64_t bytes_to_decode(const DracoMesh& mesh) {
     place.refuse(told.words.data(), "compress the asset again");
 }
 
-[[noreturn]] void refuse(const DracoMesh& mesh, ApartEnd end) {
+[[noreturn]] void refuse(const DracoMesh& mesh, IsolatedEnd end) {
     const std::string again = "compress the asset again, or export it without Draco";
     switch (end) {
-    case ApartEnd::no_process:
+    case IsolatedEnd::no_process:
         mesh.place.refuse("cannot be decoded: no process can be started for it",
                           "see the limits on processes and memory (ulimit -u)");
-    case ApartEnd::out_of_memory:
+    case IsolatedEnd::out_of_memory:
         mesh.place.refuse("takes more memory to decode than its accessors' counts account for",
                           again);
-    case ApartEnd::out_of_time:
+    case IsolatedEnd::out_of_time:
         mesh.place.refuse("takes longer to decode than its accessors' counts account for", again);
     default:
         mesh.place.refuse("is damaged: Draco's decoder crashed on it", again);
@@ -118,7 +118,7 @@ void decode_draco(std::vector<DracoMesh>& meshes, MemoryAccount& memory) {
     unsigned char* const target = shared.bytes().data() + sizeof(Told);
     // Measured: 40 MB a second, at the encoder's slowest speed. This allows for a fortieth of it.
     const std::uint64_t seconds = 10 + (parts + stream) / 1'000'000;
-    const ApartEnd end = run_apart({most, seconds}, [&] {
+    const IsolatedEnd end = run_isolated({most, seconds}, [&] {
         unsigned char* at = target;
         for (const DracoMesh& mesh : meshes) {
             ++told.begun;
@@ -129,7 +129,7 @@ void decode_draco(std::vector<DracoMesh>& meshes, MemoryAccount& memory) {
     });
     const std::size_t last = std::clamp<std::size_t>(told.begun, 1, meshes.size()) - 1;
     told.words.back() = 0;
-    if (end != ApartEnd::finished) refuse(meshes[last], end);
+    if (end != IsolatedEnd::finished) refuse(meshes[last], end);
     if (told.failed != 0) refuse(meshes[last], told);
     take_parts(meshes, {target, parts}, memory);
 }

@@ -1,5 +1,6 @@
 // Meshes that are compressed by Draco (KHR_draco_mesh_compression), decoded by Google's library in
-// a process of its own (apart.h): damaged streams may crash it, or bring it to ask for any memory.
+// a process of its own (isolated.h): damaged streams may crash it, or make it allocate without
+// bound.
 #pragma once
 
 #include "scenes/load/compressed/byte_reader.h"
@@ -26,7 +27,7 @@ struct DracoPart {
     std::size_t size() const { return count * components * component_bytes; }
 };
 
-/// A compressed mesh, and what is wanted of it.
+/// A compressed mesh, and which parts of it are to be decoded.
 struct DracoMesh {
     Bytes stream;
     Place place; ///< of the primitive's extension

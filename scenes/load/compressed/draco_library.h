@@ -1,5 +1,5 @@
-// What Google's Draco does. Its library has a tinygltf of its own, another than ours, and exports
-// its symbols; so it is part of a module, which shows none of them.
+// The functions of Google's Draco library. It contains another version of tinygltf than ours and
+// exports its symbols; so it is linked into a module that hides them.
 #pragma once
 
 #include "scenes/load/compressed/draco.h"
@@ -8,7 +8,7 @@
 
 namespace shadowproof {
 
-/// What is wrong with a stream; no words where nothing is.
+/// What is wrong with a stream; `words` is empty where nothing is.
 struct DracoFault {
     static constexpr std::uint64_t no_part = ~std::uint64_t{0};
     std::string words;
@@ -21,8 +21,8 @@ struct DracoLibrary {
     DracoFault (*decode)(const DracoMesh& mesh, unsigned char* target);
 };
 
-/// The name under which the module exports a function that returns them. Its number changes with
-/// what passes between both.
+/// The name under which the module exports a function that returns a DracoLibrary. Its number
+/// changes whenever this interface does.
 inline constexpr const char* draco_entry = "shadowproof_draco_1";
 
 } // namespace shadowproof

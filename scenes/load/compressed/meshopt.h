@@ -13,7 +13,7 @@ namespace shadowproof {
 enum class MeshoptMode : std::uint8_t { attributes, triangles, indices };
 enum class MeshoptFilter : std::uint8_t { none, octahedral, quaternion, exponential, color };
 
-/// What the extension says of a stream. The rules that bind its members are check_meshopt's.
+/// What the extension says of a stream. check_meshopt holds the rules for its members.
 struct MeshoptLayout {
     MeshoptMode mode = MeshoptMode::attributes;
     MeshoptFilter filter = MeshoptFilter::none; ///< of attributes only

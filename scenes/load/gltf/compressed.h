@@ -1,7 +1,7 @@
 // Compressed data of a document: buffer views by EXT_meshopt_compression or
 // KHR_meshopt_compression, primitives by KHR_draco_mesh_compression. Before tinygltf reads the JSON
-// they are taken out of it and get buffers of their own, which are filled afterwards; nobody else
-// sees a difference to a file that is not compressed.
+// they are taken out of it and get buffers of their own, which are filled afterwards; to all other
+// code the file looks as if it were not compressed.
 #pragma once
 
 #include "scenes/load/compressed/meshopt.h"
@@ -40,16 +40,16 @@ struct CompressedMesh {
 struct Compressed {
     std::vector<CompressedView> views;
     std::vector<CompressedMesh> meshes;
-    /// One flag per buffer: it has no bytes of its own, but is filled by `decompress`, or is the
-    /// place of what is not compressed in readers that do not know the extension.
+    /// One flag per buffer: it has no bytes of its own, but is filled by `decompress`, or it is the
+    /// fallback for readers that do not know the extension.
     std::vector<bool> placeholders;
 };
 
 /// After check_json. `has_chunk`: the file is a GLB with a chunk for buffer 0.
 Compressed take_compressed(const Place& root, nlohmann::json& document, bool has_chunk);
 
-/// Fills the buffers that take_compressed added. The account has to have room for what the file
-/// declares before it is decoded. Throws Error.
+/// Fills the buffers that take_compressed added. The account must have room for what the file
+/// declares before anything is decoded. Throws Error.
 void decompress(const Place& root, const Compressed& compressed, tinygltf::Model& model,
                 MemoryAccount& memory);
 

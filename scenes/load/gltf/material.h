@@ -11,8 +11,8 @@
 
 namespace shadowproof::gltf {
 
-/// Where a texture finds its coordinates: a set of the mesh, and what KHR_texture_transform makes
-/// of it.
+/// Where a texture's coordinates come from: a set of the mesh, transformed as KHR_texture_transform
+/// says.
 struct Coordinates {
     std::size_t set = 0;
     glm::dmat3 transform{1.0}; ///< of (u, v, 1)

@@ -8,7 +8,7 @@
 
 namespace shadowproof::gltf {
 
-/// What a JSON text is made of.
+/// The sizes of a JSON text.
 struct JsonCounts {
     std::uint64_t values = 1;               ///< of any kind
     std::uint64_t containers = 0;           ///< objects and arrays

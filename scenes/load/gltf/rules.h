@@ -1,5 +1,5 @@
-// What glTF 2.0 and the extensions that are evaluated say of a file's JSON, value by value, as far
-// as it is read. check.cpp holds files to it.
+// The rules of glTF 2.0 and of the evaluated extensions for a file's JSON, value by value, for
+// everything that is read. check.cpp checks files against them.
 #pragma once
 
 #include "scenes/limits.h"
@@ -17,7 +17,8 @@ enum class Kind : std::uint8_t {
     numbers,        ///< an array of `most` numbers
     whole,          ///< an integer from `least` to `most`
     index,          ///< into `array`
-    component_type, ///< as tinygltf::GetComponentSizeInBytes knows them, but what glTF has not
+    component_type, ///< those that tinygltf::GetComponentSizeInBytes knows, except any that glTF
+                    ///< does not have
     accessor_type,
 };
 

@@ -7,8 +7,8 @@
 
 namespace shadowproof {
 
-/// `pixels`: all, without gaps, as `layout` says. The same bytes at any time of day. Throws Error
-/// naming `file`, to which they will be written.
+/// `pixels`: all, without gaps, as `layout` says. The same pixels always give the same bytes.
+/// Throws Error naming `file`, to which they will be written.
 std::string encode_picture(const PictureLayout& layout, const void* pixels,
                            const std::string& file);
 

@@ -1,6 +1,6 @@
-// What OpenImageIO does: reads JPEG and OpenEXR, and writes OpenEXR and PNG. It comes with 240
-// libraries, whose loading takes a fifth of a second. So it is a library of its own, loaded once a
-// picture needs it.
+// The functions of OpenImageIO: reading JPEG and OpenEXR, writing OpenEXR and PNG. It depends on
+// 240 libraries, which take a fifth of a second to load; so it is in a module that is loaded only
+// when a picture needs it.
 #pragma once
 
 #include "scenes/load/picture/picture.h"
@@ -17,7 +17,8 @@ namespace shadowproof {
 /// thrown.
 struct OpenImageIo {
     /// Decodes a picture whose file would be called `name`, as "memory.jpg", into `picture`, which
-    /// may hold values that are not finite. Wrong unless it has the size that its head tells of.
+    /// may hold values that are not finite. It is an error if the picture does not have the size
+    /// that its header says.
     std::string (*decode)(const char* name, std::span<const unsigned char> bytes,
                           const PictureHead& head, Picture& picture);
     /// Encodes all pixels, which lie as `layout` says, without gaps.
@@ -25,11 +26,11 @@ struct OpenImageIo {
                           std::vector<unsigned char>& bytes);
 };
 
-/// The library's, loaded at the first call. Throws Error where it is not found.
+/// The library's functions. It is loaded at the first call. Throws Error where it is not found.
 const OpenImageIo& openimageio();
 
-/// The name under which the library exports a function that returns them. Its number changes with
-/// what passes between both.
+/// The name under which the library exports a function that returns an OpenImageIo. Its number
+/// changes whenever this interface does.
 inline constexpr const char* openimageio_entry = "shadowproof_openimageio_1";
 
 } // namespace shadowproof

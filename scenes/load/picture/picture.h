@@ -22,7 +22,7 @@ struct Picture {
     std::vector<float> values; ///< width * height * channels, rows from the top, all finite
 };
 
-/// What a picture may take of memory and time.
+/// Limits on the memory and time that a picture may take.
 struct PictureRoom {
     const MemoryAccount& memory;
     std::uint64_t most_pixels = 0;
@@ -37,7 +37,7 @@ Picture decode_picture(std::span<const unsigned char> bytes, const std::string& 
                        const PictureRoom& room);
 
 /// Reads a PNG, JPEG, Radiance (.hdr) or OpenEXR file (flat, of one part). Other formats are
-/// refused, because their decoders take memory that cannot be told from the file beforehand. Throws
+/// refused, because the memory that their decoders take cannot be predicted from the file. Throws
 /// Error naming the file.
 Picture read_picture(const std::filesystem::path& file, const PictureRoom& room);
 

@@ -151,7 +151,7 @@ TEST(Breaking, the_tally_counts_points_cells_and_what_truth_was_held_to) {
     EXPECT_EQ(tally.unexplained, 1U);
     EXPECT_EQ(tally.asked, 7U);
     EXPECT_EQ(tally.disagreements, 1U);
-    EXPECT_EQ(tally.retold, 2U);
+    EXPECT_EQ(tally.relations_tried, 2U);
     EXPECT_EQ(tally.changed, 3U);
 }
 

@@ -96,7 +96,7 @@ TEST(engine_view, depths_span_the_range_that_is_named) {
         };
         for (const Convention& convention : conventions()) {
             const EngineView view = view_in(convention, scene);
-            const bool reversed = convention.depth_range == DepthRange::one_to_zero;
+            const bool reversed = convention.depth_range == NdcDepth::one_to_zero;
             EXPECT_NEAR(depth(view, camera.near), reversed ? 1 : -1, 1e-9) << convention.name;
             const double last = view.far ? *view.far / convention.units : 1e12;
             EXPECT_NEAR(depth(view, last), reversed ? 0 : 1, 1e-9) << convention.name;

@@ -153,7 +153,8 @@ TEST(draco, a_stream_of_more_than_its_accessors_account_for_is_refused_while_it_
     EXPECT_EQ(
         load(draco_gltf(stream, source.positions.size(), source.triangles.size())).triangles.size(),
         source.triangles.size());
-#if !defined(__SANITIZE_ADDRESS__) // under which the decoder's addresses have no limit (apart.cpp)
+#if !defined(                                                                                      \
+    __SANITIZE_ADDRESS__) // under which the decoder's addresses have no limit (isolated.cpp)
     EXPECT_NE(refusal(draco_gltf(stream, 3, 1)).find("takes more memory to decode"),
               std::string::npos);
 #endif

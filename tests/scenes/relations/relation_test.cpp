@@ -22,8 +22,8 @@ const Relation& relation_named(std::string_view name) {
     return *found;
 }
 
-RetoldScene retold(const char* relation, const Scene& scene) {
-    auto result = relation_named(relation).retell(scene);
+ChangedScene changed(const char* relation, const Scene& scene) {
+    auto result = relation_named(relation).change(scene);
     EXPECT_TRUE(result) << relation;
     return *std::move(result);
 }
@@ -41,7 +41,7 @@ glm::dvec3 area(const Scene& scene, std::uint32_t triangle) {
 TEST(Relation, every_triangle_has_an_original_and_meshes_cover_all_of_them) {
     const Scene scene = loaded("ordinary");
     for (const Relation& relation : relations()) {
-        const auto result = relation.retell(scene);
+        const auto result = relation.change(scene);
         if (!result) continue;
         ASSERT_EQ(result->original.size(), result->scene.triangles.size()) << relation.name;
         std::set<std::uint32_t> originals(result->original.begin(), result->original.end());
@@ -68,7 +68,7 @@ TEST(Relation, motions_keep_every_length_to_the_last_bit) {
     const Scene scene = loaded("near_plane");
     for (const char* name :
          {"moved", "turned_about_x", "turned_about_y", "turned_about_z", "mirrored"}) {
-        const Scene other = retold(name, scene).scene;
+        const Scene other = changed(name, scene).scene;
         const bool mirrored = std::string_view(name) == "mirrored";
         for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
             for (int k = 0; k < 3; ++k) {
@@ -88,11 +88,11 @@ TEST(Relation, motions_keep_every_length_to_the_last_bit) {
 TEST(Relation, a_quarter_turn_keeps_handedness_and_four_of_them_change_nothing) {
     const Scene scene = loaded("ordinary");
     for (const char* name : {"turned_about_x", "turned_about_y", "turned_about_z"}) {
-        Scene turned = retold(name, scene).scene;
+        Scene turned = changed(name, scene).scene;
         EXPECT_NE(turned.positions, scene.positions) << name;
         const Camera& camera = turned.camera;
         EXPECT_LT(glm::length(glm::cross(camera.right, camera.up) + camera.forward), 1e-12) << name;
-        for (int i = 0; i < 3; ++i) turned = retold(name, turned).scene;
+        for (int i = 0; i < 3; ++i) turned = changed(name, turned).scene;
         EXPECT_EQ(turned.positions, scene.positions) << name;
         EXPECT_EQ(turned.camera.eye, scene.camera.eye) << name;
         EXPECT_EQ(turned.lights[0].position, scene.lights[0].position) << name;
@@ -101,7 +101,7 @@ TEST(Relation, a_quarter_turn_keeps_handedness_and_four_of_them_change_nothing) 
 
 TEST(Relation, a_mirrored_scene_keeps_its_fronts_and_its_rays_are_mirrored) {
     const Scene scene = loaded("near_plane");
-    const Scene mirrored = retold("mirrored", scene).scene;
+    const Scene mirrored = changed("mirrored", scene).scene;
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         // Of a mirrored triangle wound as before, the area is mirrored like any direction.
         const glm::dvec3 normal = area(scene, i);
@@ -115,7 +115,7 @@ TEST(Relation, a_mirrored_scene_keeps_its_fronts_and_its_rays_are_mirrored) {
 
 TEST(Relation, what_is_moved_is_moved_exactly_or_not_at_all) {
     Scene scene = loaded("ordinary");
-    const Scene moved = retold("moved", scene).scene;
+    const Scene moved = changed("moved", scene).scene;
     const glm::dvec3 offset = moved.camera.eye - scene.camera.eye;
     EXPECT_NE(offset, glm::dvec3(0, 0, 0));
     for (std::size_t i = 0; i < scene.positions.size(); ++i)
@@ -125,24 +125,24 @@ TEST(Relation, what_is_moved_is_moved_exactly_or_not_at_all) {
         position = glm::vec3(0x1.23456p-17F) + 0x1.8p20F * position;
     scene.positions[0] = glm::vec3(0x1.fffffep-20F);
     scene.positions[1] = glm::vec3(0x1.fffffep20F);
-    EXPECT_FALSE(relation_named("moved").retell(scene));
+    EXPECT_FALSE(relation_named("moved").change(scene));
 }
 
 TEST(Relation, scaling_leaves_out_what_would_become_a_denormal_or_infinite) {
     Scene scene = loaded("ordinary");
-    EXPECT_EQ(retold("scaled", scene).scene.positions[5], scene.positions[5] * 1024.0F);
+    EXPECT_EQ(changed("scaled", scene).scene.positions[5], scene.positions[5] * 1024.0F);
     scene.positions[0] = glm::vec3(0x1p120F);
-    EXPECT_EQ(retold("scaled", scene).scene.positions[5], scene.positions[5] / 1024.0F);
+    EXPECT_EQ(changed("scaled", scene).scene.positions[5], scene.positions[5] / 1024.0F);
     scene.positions[1] = glm::vec3(0x1p-120F);
-    EXPECT_EQ(retold("scaled", scene).scene.positions[5], scene.positions[5] * 8.0F);
+    EXPECT_EQ(changed("scaled", scene).scene.positions[5], scene.positions[5] * 8.0F);
     scene.positions[0] = glm::vec3(0x1p127F);
     scene.positions[1] = glm::vec3(0x1p-126F);
-    EXPECT_FALSE(relation_named("scaled").retell(scene));
+    EXPECT_FALSE(relation_named("scaled").change(scene));
 }
 
 TEST(Relation, a_permuted_scene_has_the_same_triangles_in_another_order) {
     const Scene scene = loaded("near_plane");
-    const RetoldScene result = retold("permuted", scene);
+    const ChangedScene result = changed("permuted", scene);
     EXPECT_NE(result.scene.triangles, scene.triangles);
     for (std::uint32_t i = 0; i < result.original.size(); ++i) {
         std::vector<glm::dvec3> written = corners_of(result.scene, i);
@@ -155,17 +155,17 @@ TEST(Relation, a_permuted_scene_has_the_same_triangles_in_another_order) {
 
 TEST(Relation, meshes_are_split_and_joined_again) {
     const Scene scene = loaded("ordinary");
-    const Scene twice = retold("split", scene).scene;
+    const Scene twice = changed("split", scene).scene;
     EXPECT_GT(twice.meshes.size(), scene.meshes.size());
-    const Scene joined = retold("joined", twice).scene;
+    const Scene joined = changed("joined", twice).scene;
     EXPECT_LE(joined.meshes.size(), scene.meshes.size());
     EXPECT_EQ(joined.triangles, scene.triangles);
-    EXPECT_FALSE(relation_named("joined").retell(joined));
+    EXPECT_FALSE(relation_named("joined").change(joined));
 }
 
 TEST(Relation, triangles_are_cut_in_four_that_fill_them_where_the_middles_are_floats) {
     Scene scene = loaded("near_plane");
-    const RetoldScene result = retold("subdivided", scene);
+    const ChangedScene result = changed("subdivided", scene);
     std::vector<glm::dvec3> areas(scene.triangles.size(), glm::dvec3(0, 0, 0));
     std::vector<int> pieces(scene.triangles.size(), 0);
     for (std::uint32_t i = 0; i < result.original.size(); ++i) {
@@ -181,7 +181,7 @@ TEST(Relation, triangles_are_cut_in_four_that_fill_them_where_the_middles_are_fl
     EXPECT_GT(cut, 0);
     for (glm::vec3& position : scene.positions) position = glm::vec3(1.0F);
     scene.positions[scene.triangles[0].x] = glm::vec3(0x1.000002p0F); // one step from all others
-    EXPECT_EQ(std::ranges::count(retold("subdivided", scene).original, 0U), 1);
+    EXPECT_EQ(std::ranges::count(changed("subdivided", scene).original, 0U), 1);
 }
 
 } // namespace

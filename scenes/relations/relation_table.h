@@ -10,6 +10,6 @@ namespace shadowproof {
 /// Of where everything is: moved, scaled, turned, mirrored.
 std::vector<Relation> motions();
 /// Of how the same surfaces are written down: permuted, split, joined, subdivided.
-std::vector<Relation> retold_meshes();
+std::vector<Relation> mesh_changes();
 
 } // namespace shadowproof

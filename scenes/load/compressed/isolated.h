@@ -1,5 +1,5 @@
-// Work in a process of its own, for libraries that damaged input may bring to crash, to allocate
-// without bound or to run for ever. Such an end is a value here; this process is not affected.
+// Runs work in a child process, for libraries that may crash, allocate without bound or run for
+// ever on damaged input. How the child ended is a return value; this process is not affected.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace shadowproof {
 
-/// Bytes, zero at first, that this process shares with those that it starts.
+/// Bytes, initially zero, that this process shares with its child processes.
 class SharedBytes {
 public:
     /// Throws std::bad_alloc.
@@ -25,13 +25,13 @@ private:
     std::size_t size_ = 0;
 };
 
-/// What a process may take beyond what this one holds when it is started.
-struct ApartLimits {
+/// Limits of the child process, beyond what this process holds when it starts the child.
+struct IsolationLimits {
     std::uint64_t bytes = 0;   ///< of addresses; no limit under AddressSanitizer
-    std::uint64_t seconds = 1; ///< of processor time; one that only waits is ended, too, much later
+    std::uint64_t seconds = 1; ///< of processor time; one that only waits ends later
 };
 
-enum class ApartEnd : std::uint8_t {
+enum class IsolatedEnd : std::uint8_t {
     finished,
     no_process,    ///< none could be started
     out_of_memory, ///< an allocation failed
@@ -41,8 +41,8 @@ enum class ApartEnd : std::uint8_t {
 };
 
 /// Runs `work` in a child process, which is gone when this returns; it prints nothing, and ends
-/// with this process. All that it leaves behind are the SharedBytes that it wrote. Needs: other
-/// threads hold no lock that `work` takes (glibc frees its allocator's in the child).
-ApartEnd run_apart(const ApartLimits& limits, const std::function<void()>& work);
+/// with this process. Its only result is what it wrote to SharedBytes. Other threads must hold no
+/// lock that `work` takes (glibc releases its allocator's in the child).
+IsolatedEnd run_isolated(const IsolationLimits& limits, const std::function<void()>& work);
 
 } // namespace shadowproof

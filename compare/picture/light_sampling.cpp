@@ -1,4 +1,4 @@
-#include "compare/picture/light_view.h"
+#include "compare/picture/light_sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Towards the middle of the texel that holds the direction, on a cube whose faces lie across the
 /// axes: all cube maps are divided so, whichever way a face is turned.
-glm::dvec3 through_texel(const glm::dvec3& direction, const LightView& view) {
+glm::dvec3 through_texel(const glm::dvec3& direction, const LightSampling& view) {
     const int texels = view.texels;
     if (texels == 0) return direction;
     const double narrower = 1 - static_cast<double>(view.inset) / texels;
@@ -30,13 +30,13 @@ glm::dvec3 through_texel(const glm::dvec3& direction, const LightView& view) {
 
 } // namespace
 
-Scene seen_from_light(const Scene& scene, LightView::Culled culled) {
+Scene seen_from_light(const Scene& scene, LightSampling::Culled culled) {
     Scene casters = kept_by(scene, [&](std::uint32_t triangle) {
         return scene.meshes[mesh_of(scene, triangle)].casts;
     });
-    if (culled == LightView::Culled::none)
+    if (culled == LightSampling::Culled::none)
         for (Material& material : casters.materials) material.double_sided = true;
-    if (culled == LightView::Culled::front) // turned over, their backs are what is seen
+    if (culled == LightSampling::Culled::front) // turned over, their backs are what is seen
         for (glm::uvec3& triangle : casters.triangles) std::swap(triangle.y, triangle.z);
     casters.camera.eye = chosen_light(scene).position;
     // Of the way to the surface, which is what directions are: what is closer to the light than
@@ -47,7 +47,7 @@ Scene seen_from_light(const Scene& scene, LightView::Culled culled) {
 }
 
 std::vector<double> excesses(const TracedScene& traced, const Tracer& light_tracer,
-                             const LightView& view, std::span<const Patch> patches) {
+                             const LightSampling& view, std::span<const Patch> patches) {
     const Scene& scene = traced.scene();
     const glm::dvec3 light = chosen_light(scene).position;
     std::vector<glm::dvec3> ways;
@@ -70,7 +70,7 @@ std::vector<double> excesses(const TracedScene& traced, const Tracer& light_trac
     return excess;
 }
 
-Predict lit_within(const TracedScene& traced, const LightView& view, double bias) {
+Predict lit_within(const TracedScene& traced, const LightSampling& view, double bias) {
     return [&traced, view, bias](std::span<const Patch> patches, Image<Visibility>& picture) {
         const Scene scene = seen_from_light(traced.scene(), view.culled);
         const Tracer tracer(scene, traced.tracer().threads());

@@ -1,4 +1,4 @@
-#include "scenes/relations/retellings.h"
+#include "scenes/relations/relation_table.h"
 
 #include <algorithm>
 #include <array>
@@ -25,17 +25,17 @@ std::vector<std::uint32_t> shuffled(std::size_t count, std::mt19937_64& random) 
 /// Writes triangles and their surfaces down anew, with the meshes that hold them.
 class Rewriter {
 public:
-    explicit Rewriter(const Scene& scene) : from_(scene), retold_{.scene = scene} {
-        retold_.scene.triangles.clear();
-        retold_.scene.surfaces.clear();
-        retold_.scene.meshes.clear();
+    explicit Rewriter(const Scene& scene) : from_(scene), changed_{.scene = scene} {
+        changed_.scene.triangles.clear();
+        changed_.scene.surfaces.clear();
+        changed_.scene.meshes.clear();
     }
 
-    Scene& scene() { return retold_.scene; }
+    Scene& scene() { return changed_.scene; }
 
     void begin_mesh(const Mesh& like) {
-        Mesh& mesh = retold_.scene.meshes.emplace_back(like);
-        mesh.first_triangle = static_cast<std::uint32_t>(retold_.scene.triangles.size());
+        Mesh& mesh = changed_.scene.meshes.emplace_back(like);
+        mesh.first_triangle = static_cast<std::uint32_t>(changed_.scene.triangles.size());
         mesh.triangle_count = 0;
     }
 
@@ -45,27 +45,27 @@ public:
         add_corners(original, {t[first], t[(first + 1) % 3], t[(first + 2) % 3]});
         if (!from_.surfaces.empty())
             for (int k = 0; k < 3; ++k)
-                retold_.scene.surfaces.push_back(
+                changed_.scene.surfaces.push_back(
                     from_.surfaces[3 * std::size_t{original} +
                                    static_cast<std::size_t>((first + k) % 3)]);
     }
 
     /// Of a scene without surfaces.
     void add_corners(std::uint32_t original, const glm::uvec3& corners) {
-        retold_.scene.triangles.push_back(corners);
-        retold_.original.push_back(original);
-        ++retold_.scene.meshes.back().triangle_count;
+        changed_.scene.triangles.push_back(corners);
+        changed_.original.push_back(original);
+        ++changed_.scene.meshes.back().triangle_count;
     }
 
-    RetoldScene take() { return std::move(retold_); }
+    ChangedScene take() { return std::move(changed_); }
 
 private:
     const Scene& from_;
-    RetoldScene retold_;
+    ChangedScene changed_;
 };
 
 /// Vertices, triangles within their meshes, the meshes and the first corners in another order.
-std::optional<RetoldScene> permute(const Scene& scene) {
+std::optional<ChangedScene> permute(const Scene& scene) {
     std::mt19937_64 random(1);
     Rewriter rewriter(scene);
     const std::vector<std::uint32_t> vertices = shuffled(scene.positions.size(), random);
@@ -80,14 +80,14 @@ std::optional<RetoldScene> permute(const Scene& scene) {
         for (const std::uint32_t i : shuffled(mesh.triangle_count, random))
             rewriter.add(mesh.first_triangle + i, static_cast<int>(random() % 3));
     }
-    RetoldScene retold = rewriter.take();
-    for (glm::uvec3& triangle : retold.scene.triangles)
+    ChangedScene changed = rewriter.take();
+    for (glm::uvec3& triangle : changed.scene.triangles)
         for (int k = 0; k < 3; ++k) triangle[k] = new_number[triangle[k]];
-    return retold;
+    return changed;
 }
 
 /// Every mesh in two.
-std::optional<RetoldScene> split(const Scene& scene) {
+std::optional<ChangedScene> split(const Scene& scene) {
     Rewriter rewriter(scene);
     for (const Mesh& mesh : scene.meshes) {
         rewriter.begin_mesh(mesh);
@@ -110,7 +110,7 @@ bool are_alike(const Scene& scene, const Mesh& a, const Mesh& b) {
 }
 
 /// Meshes that follow each other and are alike made one.
-std::optional<RetoldScene> join(const Scene& scene) {
+std::optional<ChangedScene> join(const Scene& scene) {
     Rewriter rewriter(scene);
     for (const Mesh& mesh : scene.meshes) {
         const std::vector<Mesh>& made = rewriter.scene().meshes;
@@ -145,7 +145,7 @@ std::optional<std::array<glm::vec3, 3>> exact_middles(const Scene& scene, const 
 
 /// Four triangles for each whose edges have exact middles. Their neighbours may keep their edges:
 /// the surface is the same.
-std::optional<RetoldScene> subdivide(const Scene& scene) {
+std::optional<ChangedScene> subdivide(const Scene& scene) {
     // Surfaces would have to be interpolated, which rounds.
     if (is_bump_lit(scene) || 4 * scene.triangles.size() > most_triangles) return std::nullopt;
     Rewriter rewriter(scene);
@@ -174,16 +174,16 @@ std::optional<RetoldScene> subdivide(const Scene& scene) {
 
 } // namespace
 
-std::vector<Relation> retold_meshes() {
+std::vector<Relation> mesh_changes() {
     return {
         {.name = "permuted",
          .words = "vertices, triangles, corners and meshes in another order",
-         .retell = permute},
-        {.name = "split", .words = "each mesh in two", .retell = split},
-        {.name = "joined", .words = "meshes that are alike made one", .retell = join},
+         .change = permute},
+        {.name = "split", .words = "each mesh in two", .change = split},
+        {.name = "joined", .words = "meshes that are alike made one", .change = join},
         {.name = "subdivided",
          .words = "triangles cut in four where the middles of their edges are exact",
-         .retell = subdivide},
+         .change = subdivide},
     };
 }
 

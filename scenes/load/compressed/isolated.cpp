@@ -1,4 +1,4 @@
-#include "scenes/load/compressed/apart.h"
+#include "scenes/load/compressed/isolated.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -17,8 +17,8 @@ namespace shadowproof {
 
 namespace {
 
-/// AddressSanitizer, where an allocation fails, makes more of them to tell of it, and then waits
-/// for a lock of its own for ever.
+/// Where an allocation fails, AddressSanitizer allocates more to report it, and then waits forever
+/// for a lock of its own.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool limits_addresses = false;
 #else
@@ -48,7 +48,7 @@ std::uint64_t mapped_bytes() {
     return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Handlers are the parent's: they would tell of a crash that is none, or clean up for it.
+/// The parent's handlers would report a crash that is none, or clean up for it.
 void take_default_signals() {
     for (const int signal :
          {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGALRM, SIGINT, SIGTERM, SIGHUP})
@@ -62,7 +62,7 @@ void silence() {
     ::dup2(nowhere, STDERR_FILENO);
 }
 
-[[noreturn]] void run_child(const ApartLimits& limits, pid_t parent, std::uint64_t mapped,
+[[noreturn]] void run_child(const IsolationLimits& limits, pid_t parent, std::uint64_t mapped,
                             const std::function<void()>& work) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(code_threw); // it has ended in the meantime
@@ -83,17 +83,17 @@ void silence() {
     ::_exit(code);
 }
 
-ApartEnd end_of(int status) {
+IsolatedEnd end_of(int status) {
     if (WIFSIGNALED(status))
-        return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ? ApartEnd::out_of_time
-                                                                          : ApartEnd::crashed;
+        return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ? IsolatedEnd::out_of_time
+                                                                          : IsolatedEnd::crashed;
     switch (WEXITSTATUS(status)) {
     case code_finished:
-        return ApartEnd::finished;
+        return IsolatedEnd::finished;
     case code_out_of_memory:
-        return ApartEnd::out_of_memory;
+        return IsolatedEnd::out_of_memory;
     default:
-        return ApartEnd::threw;
+        return IsolatedEnd::threw;
     }
 }
 
@@ -110,15 +110,15 @@ SharedBytes::~SharedBytes() {
     ::munmap(first_, std::max<std::size_t>(size_, 1));
 }
 
-ApartEnd run_apart(const ApartLimits& limits, const std::function<void()>& work) {
+IsolatedEnd run_isolated(const IsolationLimits& limits, const std::function<void()>& work) {
     const std::uint64_t mapped = mapped_bytes();
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child < 0) return ApartEnd::no_process;
+    if (child < 0) return IsolatedEnd::no_process;
     if (child == 0) run_child(limits, parent, mapped, work);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return ApartEnd::crashed;
+        if (errno != EINTR) return IsolatedEnd::crashed;
     return end_of(status);
 }
 

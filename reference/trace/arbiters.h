@@ -1,0 +1,98 @@
+// The arbiters of the three queries of visibility.h: they decide exactly, by the signs of
+// predicates.h, what the floats of a packet could not.
+#pragma once
+
+#include "reference/exact/predicates.h"
+#include "reference/trace/packet.h"
+#include "reference/trace/records.h"
+#include "reference/trace/state.h"
+#include "reference/trace/visibility.h"
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+
+namespace shadowproof {
+
+class Signs;
+
+/// The rays of a packet as all arbiters see them, and how many signs needed exact arithmetic.
+struct PacketRays {
+    const Tracer::State* state = nullptr;
+    const Lanes<glm::dvec3>* directions = nullptr;
+    std::uint64_t exact_decisions = 0;
+
+    EyeRay ray(int lane) const {
+        return {state->eye, (*directions)[static_cast<std::size_t>(lane)], state->light};
+    }
+    Corners triangle(std::uint32_t index) const { return corners(*state->scene, index); }
+};
+
+/// Decides which triangle an eye ray meets first. Keeps references.
+class NearestArbiter final : public Arbiter {
+public:
+    NearestArbiter(PacketRays& rays, Lanes<Seen>& seen) : rays_(rays), seen_(seen) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+
+private:
+    PacketRays& rays_;
+    Lanes<Seen>& seen_;
+    Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
+    bool met_ = false; ///< the last tested triangle is met within [near, far]
+
+    bool is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle, Signs& signs);
+
+    /// Predicates::edge; edges at a vertex that the ray runs through are all met.
+    Decision edge(const EyeRay& ray, int lane, const glm::dvec3& a, const glm::dvec3& b) const;
+
+    /// Whether the ray meets both triangles in one point because they share it: the vertex that it
+    /// runs through, or an edge.
+    bool meet_there(int lane, const std::array<glm::dvec3, 3>& corners,
+                    const std::array<bool, 3>& through, std::uint32_t best) const;
+
+    bool within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const;
+
+    void raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray, const Corners& t) const;
+};
+
+/// Decides whether a triangle lies between a visible point and the light. Keeps references.
+class AnyArbiter final : public Arbiter {
+public:
+    AnyArbiter(PacketRays& rays, const Lanes<Seen>& seen, Lanes<Lighting>& lighting)
+        : rays_(rays), seen_(seen), lighting_(lighting) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+
+private:
+    PacketRays& rays_;
+    const Lanes<Seen>& seen_;
+    Lanes<Lighting>& lighting_;
+    bool touched_ = false; ///< no sign was strictly against it
+
+    bool is_between(const EyeRay& ray, const RayPoint& q, std::uint32_t triangle, Signs& signs);
+};
+
+/// Decides which triangles lie between a point of a ray and the light, with ties broken. Keeps
+/// references.
+class CountArbiter final : public Arbiter {
+public:
+    CountArbiter(PacketRays& rays, const Lanes<Prober::Point>& points, const RecordCache& records)
+        : rays_(rays), points_(points), records_(records) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+
+private:
+    PacketRays& rays_;
+    const Lanes<Prober::Point>& points_;
+    const RecordCache& records_;
+
+    /// Whether a point is behind a cap. A surface in the cap's plane is not. The eye is always on
+    /// one side or the other: a ray from there has left the volume it began in, or has not.
+    Decision behind(const EyeRay& ray, const RayPoint& q, const Corners& t) const;
+
+    RayPoint exact_point(const Prober::Point& point) const;
+};
+
+} // namespace shadowproof
