@@ -1,0 +1,178 @@
+#include "compare/maps/parallel_view.h"
+
+#include "reference/trace/faces.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether a caster shows the light a side that is drawn; an edge shows none.
+bool is_drawn(const Scene& casters, std::uint32_t caster, MapCulling culling) {
+    const double front = side(casters, caster, {-casters.camera.forward, 0.0});
+    if (culling == MapCulling::front) return front < 0;
+    return culling == MapCulling::back ? front > 0 : front != 0;
+}
+
+} // namespace
+
+ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpixel_bits,
+                           int threads)
+    : LightView(scene, map), half_step_(half_snapping_step(subpixel_bits)) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    casters_.name = scene.name;
+    casters_.positions = scene.positions;
+    casters_.materials = {{.name = "caster", .double_sided = true}};
+    casters_.lights = {chosen_light(scene)};
+    casters_.camera = camera(0);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        casters_.triangles.push_back(scene.triangles[triangle]);
+        of_scene_.push_back(triangle);
+    }
+    casters_.meshes = {{.name = "casters",
+                        .triangle_count = static_cast<std::uint32_t>(casters_.triangles.size())}};
+    reach_ = half_step_;
+    for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster) {
+        drawn_.push_back(is_drawn(casters_, caster, map.model.culling) ? 1 : 0);
+        Box box{glm::vec2(map.model.size), glm::vec2(0)};
+        for (const PicturePoint& point : pictured_in_parallel(casters_, camera(0), caster)) {
+            const double reach = point.place_error + 2 * half_step_;
+            box.low = glm::min(box.low, glm::vec2(glm::floor(point.place - reach)));
+            box.high = glm::max(box.high, glm::vec2(glm::ceil(point.place + reach)));
+            reach_ = std::max(reach_, half_step_ + point.place_error);
+        }
+        boxes_.push_back(box);
+    }
+    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(casters_, threads);
+}
+
+AnyRay ParallelView::ray_at(double x, double y) const {
+    const Camera& from = camera(0);
+    const double half = from.tan_half_height;
+    return {from.eye + half * (2 * x / from.width - 1) * from.right +
+                half * (1 - 2 * y / from.height) * from.up,
+            from.forward, model().near, model().far};
+}
+
+std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays) const {
+    std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
+    if (!tracer_) return found;
+    const std::vector<MetTriangle> first =
+        first_met(*tracer_, rays, [&](std::uint32_t caster) { return drawn_[caster] != 0; });
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (first[i].triangle != no_triangle) found[i] = {of_scene_[first[i].triangle], first[i].t};
+    return found;
+}
+
+std::vector<FromLight> ParallelView::trace(std::span<const Texel> texels) const {
+    std::vector<AnyRay> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels) rays.push_back(ray_at(texel.x + 0.5, texel.y + 0.5));
+    return met(rays);
+}
+
+FromLight ParallelView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
+    const Camera& from = camera(face);
+    const glm::dvec3 along = glm::dot(from_light, from.forward) * from.forward;
+    const AnyRay ray{from.eye + from_light - along, from.forward, model().near, model().far};
+    return met(std::span(&ray, 1)).front();
+}
+
+ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster) const {
+    const Camera& from = camera(0);
+    const auto [a, b, c] = from_short_edge(corners(casters_, caster));
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double along = glm::dot(from.forward, normal);
+    const double side_of_texel = 2 * from.tan_half_height / from.width;
+    return {glm::dot(a - ray_at(texel.x + 0.5, texel.y + 0.5).origin, normal) / along,
+            side_of_texel *
+                (std::abs(glm::dot(from.right, normal)) + std::abs(glm::dot(from.up, normal))) /
+                std::abs(along)};
+}
+
+// A corner snapped aside moves the plane by its slope; set-up and the window's roundings come with
+// the corners' own errors; and the format rounds.
+double ParallelView::error(const Texel& texel, std::uint32_t caster, const Plane& plane) const {
+    const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
+    const double snapped = half_step_ * plane.slope / (model().far - model().near);
+    const double set_up =
+        window_depth_error(pictured_in_parallel(casters_, camera(0), caster), place, half_step_);
+    return snapped + set_up + window_depth_roundings * float_roundoff + half_step();
+}
+
+bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
+    const Plane at = plane(texel, caster);
+    if (!at.has_depth()) return true; // seen edge-on: any depth may come out
+    return std::abs(stored(texel) - window(at.depth)) <= error(texel, caster, at);
+}
+
+bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
+    const glm::vec2 place(texel.x + 0.5F, texel.y + 0.5F);
+    const Box& box = boxes_[caster];
+    if (place.x < box.low.x || place.y < box.low.y || place.x > box.high.x || place.y > box.high.y)
+        return false;
+    const std::vector<PicturePoint> polygon = pictured_in_parallel(casters_, camera(0), caster);
+    return may_hold(polygon, place, std::numbers::sqrt2 * half_step_) &&
+           (drawn_[caster] != 0 || may_be_flipped(polygon, half_step_));
+}
+
+LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster) const {
+    return {true, of_scene_[caster], plane(texel, caster).depth};
+}
+
+LightView::Shown ParallelView::shown(const Texel& texel, const FromLight& at_centre) const {
+    if (!is_in_format(stored(texel))) return {};
+    if (at_centre.triangle == no_triangle && stored(texel) == 1)
+        return {true, no_triangle, infinity};
+    if (at_centre.triangle != no_triangle) {
+        const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), at_centre.triangle);
+        const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+        if (may_store(texel, caster)) return showing(texel, caster);
+    }
+    return shown_around(texel);
+}
+
+// Next to an outline any triangle that may cover the centre may be stored, none farther than what
+// is seen all around. What lies as near to the near or far plane as its depth is off may be
+// clipped, and what may be flipped, culled: neither hides anything.
+LightView::Shown ParallelView::shown_around(const Texel& texel) const {
+    constexpr std::array steps{0.0, -1.0, 1.0, -0.5, 0.5};
+    std::vector<AnyRay> rays;
+    for (const double right : steps)
+        for (const double down : steps)
+            rays.push_back(ray_at(texel.x + 0.5 + reach_ * right, texel.y + 0.5 + reach_ * down));
+    double farthest = 0;
+    for (const FromLight& seen : met(rays)) {
+        double hidden_behind = infinity;
+        if (seen.triangle != no_triangle) {
+            const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), seen.triangle);
+            const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+            const Plane at = plane(texel, caster);
+            const double off = at.has_depth() ? error(texel, caster, at) : infinity;
+            const double depth = window(at.depth);
+            const bool hides =
+                depth - off > 0 && depth + off < 1 &&
+                !may_be_flipped(pictured_in_parallel(casters_, camera(0), caster), half_step_);
+            if (hides) hidden_behind = depth + off;
+        }
+        if (hidden_behind == infinity && stored(texel) == 1) return {true, no_triangle, infinity};
+        farthest = std::max(farthest, hidden_behind);
+    }
+    if (stored(texel) > farthest) return {};
+    for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster)
+        if (may_draw(texel, caster) && may_store(texel, caster)) return showing(texel, caster);
+    return {};
+}
+
+} // namespace shadowproof
