@@ -3,6 +3,7 @@
 #include "compare/maps/parallel_view.h"
 #include "compare/maps/perspective_view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace shadowproof {
@@ -35,6 +36,11 @@ bool LightView::is_in_format(float stored) const {
 
 double LightView::half_step() const {
     return map_.model.format == MapFormat::d32f ? 0 : 0.5 / steps_of(map_.model.format);
+}
+
+double LightView::moved_by(double depth, double offset) const {
+    if (offset == 0) return depth;
+    return value_of_stored(model(), std::min(map_window_depth(model(), depth) + offset, 1.0));
 }
 
 std::unique_ptr<LightView> light_view(const Scene& scene, const MapEvidence& map, int subpixel_bits,

@@ -52,8 +52,13 @@ public:
         std::uint32_t triangle = no_triangle;
         double value = 0; ///< exact at the texel's centre, on the triangle's plane: as the model's
                           ///< value, in world units; infinity where nothing is shown
+        double moved = 0; ///< the same as the slope bias moves it
     };
     virtual Shown shown(const Texel& texel, const FromLight& at_centre) const = 0;
+
+    /// A depth of a triangle of the scene as the slope bias moves it there, in world units, and at
+    /// most to the far plane; the depth itself without one.
+    virtual double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const = 0;
 
 protected:
     LightView(const Scene& scene, const MapEvidence& map);
@@ -62,6 +67,8 @@ protected:
     bool is_in_format(float stored) const;
     /// Half a step of the format; 0 of floats.
     double half_step() const;
+    /// A depth with an offset of its window depth.
+    double moved_by(double depth, double offset) const;
 
 private:
     const MapEvidence& map_;

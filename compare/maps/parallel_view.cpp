@@ -45,16 +45,21 @@ ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpi
     reach_ = half_step_;
     for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster) {
         drawn_.push_back(is_drawn(casters_, caster, map.model.culling) ? 1 : 0);
-        Box box{glm::vec2(map.model.size), glm::vec2(0)};
+        Box box{glm::dvec2(map.model.size), glm::dvec2(0)};
         for (const PicturePoint& point : pictured_in_parallel(casters_, camera(0), caster)) {
             const double reach = point.place_error + 2 * half_step_;
-            box.low = glm::min(box.low, glm::vec2(glm::floor(point.place - reach)));
-            box.high = glm::max(box.high, glm::vec2(glm::ceil(point.place + reach)));
+            box.low = glm::min(box.low, point.place - reach);
+            box.high = glm::max(box.high, point.place + reach);
             reach_ = std::max(reach_, half_step_ + point.place_error);
         }
         boxes_.push_back(box);
     }
     if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(casters_, threads);
+}
+
+std::uint32_t ParallelView::caster_of(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(
+        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
 }
 
 AnyRay ParallelView::ray_at(double x, double y) const {
@@ -101,24 +106,40 @@ ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster
                 std::abs(along)};
 }
 
-// A corner snapped aside moves the plane by its slope; set-up and the window's roundings come with
-// the corners' own errors; and the format rounds.
+SlopeOffset ParallelView::offset(std::uint32_t caster) const {
+    if (model().slope_bias == 0) return {};
+    return slope_offset(pictured_in_parallel(casters_, camera(0), caster), model().slope_bias, 1,
+                        half_step_);
+}
+
+double ParallelView::moved_away(const Texel& /*texel*/, std::uint32_t triangle,
+                                double depth) const {
+    return moved_by(depth, offset(caster_of(triangle)).own);
+}
+
+// A corner snapped aside moves the plane by its slope; set-up comes with the corners' own errors;
+// the window's roundings are those of a depth, and of its sum with a slope's offset; and the format
+// rounds.
 double ParallelView::error(const Texel& texel, std::uint32_t caster, const Plane& plane) const {
     const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
     const double snapped = half_step_ * plane.slope / (model().far - model().near);
     const double set_up =
         window_depth_error(pictured_in_parallel(casters_, camera(0), caster), place, half_step_);
-    return snapped + set_up + window_depth_roundings * float_roundoff + half_step();
+    return snapped + set_up + (window_depth_roundings + 1) * float_roundoff + half_step();
 }
 
 bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
     const Plane at = plane(texel, caster);
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
-    return std::abs(stored(texel) - window(at.depth)) <= error(texel, caster, at);
+    const SlopeOffset moved = offset(caster);
+    const double depth = window(at.depth);
+    const double off = error(texel, caster, at);
+    return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
+           stored(texel) <= depth + moved.most + off;
 }
 
 bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
-    const glm::vec2 place(texel.x + 0.5F, texel.y + 0.5F);
+    const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
     const Box& box = boxes_[caster];
     if (place.x < box.low.x || place.y < box.low.y || place.x > box.high.x || place.y > box.high.y)
         return false;
@@ -128,16 +149,16 @@ bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
 }
 
 LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster) const {
-    return {true, of_scene_[caster], plane(texel, caster).depth};
+    const double depth = plane(texel, caster).depth;
+    return {true, of_scene_[caster], depth, moved_by(depth, offset(caster).own)};
 }
 
 LightView::Shown ParallelView::shown(const Texel& texel, const FromLight& at_centre) const {
     if (!is_in_format(stored(texel))) return {};
     if (at_centre.triangle == no_triangle && stored(texel) == 1)
-        return {true, no_triangle, infinity};
+        return {true, no_triangle, infinity, infinity};
     if (at_centre.triangle != no_triangle) {
-        const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), at_centre.triangle);
-        const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+        const std::uint32_t caster = caster_of(at_centre.triangle);
         if (may_store(texel, caster)) return showing(texel, caster);
     }
     return shown_around(texel);
@@ -156,17 +177,17 @@ LightView::Shown ParallelView::shown_around(const Texel& texel) const {
     for (const FromLight& seen : met(rays)) {
         double hidden_behind = infinity;
         if (seen.triangle != no_triangle) {
-            const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), seen.triangle);
-            const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+            const std::uint32_t caster = caster_of(seen.triangle);
             const Plane at = plane(texel, caster);
             const double off = at.has_depth() ? error(texel, caster, at) : infinity;
             const double depth = window(at.depth);
             const bool hides =
                 depth - off > 0 && depth + off < 1 &&
                 !may_be_flipped(pictured_in_parallel(casters_, camera(0), caster), half_step_);
-            if (hides) hidden_behind = depth + off;
+            if (hides) hidden_behind = depth + off + offset(caster).most;
         }
-        if (hidden_behind == infinity && stored(texel) == 1) return {true, no_triangle, infinity};
+        if (hidden_behind == infinity && stored(texel) == 1)
+            return {true, no_triangle, infinity, infinity};
         farthest = std::max(farthest, hidden_behind);
     }
     if (stored(texel) > farthest) return {};

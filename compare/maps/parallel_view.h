@@ -3,6 +3,7 @@
 
 #include "compare/maps/light_view.h"
 #include "compare/maps/pictured_caster.h"
+#include "compare/maps/slope_offset.h"
 #include "reference/trace/first_met.h"
 
 #include <cmath>
@@ -17,12 +18,13 @@ public:
     std::vector<FromLight> trace(std::span<const Texel> texels) const override;
     FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
     Shown shown(const Texel& texel, const FromLight& at_centre) const override;
+    double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
     /// Around a caster in the picture, in texels, as far as it may be drawn.
     struct Box {
-        glm::vec2 low{0, 0};
-        glm::vec2 high{0, 0};
+        glm::dvec2 low{0, 0};
+        glm::dvec2 high{0, 0};
     };
     /// A caster's plane at a texel's centre.
     struct Plane {
@@ -39,10 +41,12 @@ private:
     double half_step_ = 0;                ///< of the snapping grid, texels
     double reach_ = 0;                    ///< how far aside a caster may be drawn, texels
 
+    std::uint32_t caster_of(std::uint32_t triangle) const;
     AnyRay ray_at(double x, double y) const;
     std::vector<FromLight> met(std::span<const AnyRay> rays) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
+    SlopeOffset offset(std::uint32_t caster) const;
     double error(const Texel& texel, std::uint32_t caster, const Plane& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool may_draw(const Texel& texel, std::uint32_t caster) const;

@@ -1,5 +1,6 @@
 #include "compare/maps/perspective_view.h"
 
+#include "compare/driver/clipped_polygon.h"
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/neighbourhood.h"
 #include "compare/driver/setup_error.h"
@@ -88,6 +89,45 @@ double PerspectiveView::value(const PlaneAtPixel& plane) const {
     return model().value == MapValue::depth ? depth : depth * glm::length(plane.direction());
 }
 
+std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(
+        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
+}
+
+SlopeOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
+    if (model().slope_bias == 0) return {};
+    const Scene& scene = faces_[texel.face];
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
+    return slope_offset(clipped_polygon(scene.camera, {at(0), at(1), at(2)},
+                                        drawing_of(scene, depth_model_, model().far)),
+                        model().slope_bias, std::abs(window_depth_of(depth_model_).slope),
+                        half_snapping_step(depth_model_.subpixel_bits));
+}
+
+double PerspectiveView::moved_away(const Texel& texel, std::uint32_t triangle, double depth) const {
+    return moved_by(depth, offset(texel, caster_of(triangle)).own);
+}
+
+/// The largest window depth at which the driver may draw a caster at a texel.
+double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const {
+    const PlaneAtPixel at = plane(texel, caster);
+    if (!at.has_depth()) return infinity;
+    const WindowDepth window = window_depth_of(depth_model_);
+    return window.at(at.inverse_depth()) + std::abs(window.slope) * at.error() + half_step() +
+           offset(texel, caster).most;
+}
+
+// The sum of depth and offset rounds once more.
+bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel,
+                                      std::uint32_t caster) const {
+    const WindowDepth window = window_depth_of(depth_model_);
+    const double depth = window.at(at.inverse_depth());
+    const double off = std::abs(window.slope) * at.error() + half_step() + v;
+    const SlopeOffset moved = offset(texel, caster);
+    return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
+           stored(texel) <= depth + moved.most + off;
+}
+
 // A distance is the length of a vector that is interpolated over the triangle: off by the lateral
 // error of the place, as the plane's depth is, by the interpolation's share of the largest corner's
 // components, and by the roundings of a length, a quotient and the format: 8 v.
@@ -95,6 +135,7 @@ bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const 
     const PlaneAtPixel at = plane(texel, caster);
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
     const double read = stored(texel);
+    if (model().slope_bias != 0) return may_store_moved(at, texel, caster);
     if (model().value == MapValue::depth) {
         if (at.is_depth(read)) return true;
         if (model().format != MapFormat::d16) return false; // is_depth knows the others
@@ -125,16 +166,16 @@ bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const 
 }
 
 LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t caster) const {
-    return {true, of_scene_[caster], value(plane(texel, caster))};
+    const double exact = value(plane(texel, caster));
+    return {true, of_scene_[caster], exact, moved_away(texel, of_scene_[caster], exact)};
 }
 
 LightView::Shown PerspectiveView::shown(const Texel& texel, const FromLight& at_centre) const {
     if (!is_in_format(stored(texel))) return {};
     if (at_centre.triangle == no_triangle && stored(texel) == 1)
-        return {true, no_triangle, infinity};
+        return {true, no_triangle, infinity, infinity};
     if (at_centre.triangle != no_triangle) {
-        const auto own = std::lower_bound(of_scene_.begin(), of_scene_.end(), at_centre.triangle);
-        const auto caster = static_cast<std::uint32_t>(own - of_scene_.begin());
+        const std::uint32_t caster = caster_of(at_centre.triangle);
         if (may_store(texel, caster)) return showing(texel, caster);
     }
     return shown_around(texel);
@@ -176,14 +217,21 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     const Neighbourhood around =
         neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
     double farthest = 0;
+    double deepest_seen = 0; // as a window depth; with a slope bias
     for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
         const bool clipped = may_be_clipped(texel, seen);
         if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1)
-            return {true, no_triangle, infinity};
+            return {true, no_triangle, infinity, infinity};
+        if (model().slope_bias != 0)
+            deepest_seen = std::max(deepest_seen, clipped || seen.triangle == no_triangle
+                                                      ? infinity
+                                                      : deepest(texel, seen.triangle));
         farthest = std::max(farthest, clipped ? infinity : seen.depth);
     }
     const auto may_show = [&](std::uint32_t caster) {
         const PlaneAtPixel at = plane(texel, caster);
+        if (model().slope_bias != 0)
+            return stored(texel) <= deepest_seen && may_store(texel, caster);
         // Distances are compared as they are stored, so that window depth's roundings do not count.
         const double error = model().value == MapValue::depth ? at.error() : at.error_of_place();
         const bool hidden = (at.inverse_depth() + error) * farthest * (1 + 0x1p-16) < 1;

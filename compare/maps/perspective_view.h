@@ -3,6 +3,7 @@
 
 #include "compare/driver/plane_at_pixel.h"
 #include "compare/maps/light_view.h"
+#include "compare/maps/slope_offset.h"
 #include "reference/trace/trace.h"
 
 namespace shadowproof {
@@ -14,6 +15,7 @@ public:
     std::vector<FromLight> trace(std::span<const Texel> texels) const override;
     FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
     Shown shown(const Texel& texel, const FromLight& at_centre) const override;
+    double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
     DepthModel depth_model_;
@@ -23,6 +25,10 @@ private:
 
     PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
     double value(const PlaneAtPixel& plane) const;
+    std::uint32_t caster_of(std::uint32_t triangle) const;
+    SlopeOffset offset(const Texel& texel, std::uint32_t caster) const;
+    double deepest(const Texel& texel, std::uint32_t caster) const;
+    bool may_store_moved(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
     bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;

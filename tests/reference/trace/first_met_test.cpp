@@ -62,8 +62,8 @@ TEST(FirstMet, is_what_all_triangles_tell_one_by_one) {
     Dice dice(11);
     std::vector<AnyRay> rays;
     for (int i = 0; i < 40; ++i) {
-        const glm::dvec3 origin{dice.roll(-3, 3), 8, dice.roll(-3, 3)};
-        rays.push_back({origin, glm::dvec3(dice.roll(-0.4, 0.4), -1, dice.roll(-0.4, 0.4))});
+        const glm::dvec3 origin{dice.between(-3, 3), 8, dice.between(-3, 3)};
+        rays.push_back({origin, glm::dvec3(dice.between(-0.4, 0.4), -1, dice.between(-0.4, 0.4))});
     }
     const std::vector<MetTriangle> found = first_met(tracer, rays, all);
     int hits = 0;
