@@ -46,8 +46,7 @@ std::vector<StressParameter> map_parameters() {
          .flag = "map-bias",
          .flag_value = as_it_is},
         {.name = "map_range",
-         .words = "the reach of shadow maps, in distances from the light to the farthest caster; a "
-                  "sun's begins before all that casts or receives, and ends behind it",
+         .words = "the reach of shadow maps, in those that end just beyond the farthest caster",
          .low = 1e-2,
          .high = 1e6,
          .suits = has_any_light,

@@ -1,7 +1,7 @@
 // A slope bias, which is OpenGL's polygon offset: how far it moves a surface is bounded, what it
 // makes wrong is named, and a map drawn with another one than it says is caught.
+#include "compare/evidence.h"
 #include "compare/maps/slope_offset.h"
-#include "compare/verdict.h"
 #include "scenes/error.h"
 #include "tests/compare/maps/drawn_map.h"
 

@@ -1,7 +1,7 @@
 // Maps of directional lights, drawn in parallel: fitted to the scene, predicted at every texel, and
 // wrong for the causes that the settings tell.
+#include "compare/evidence.h"
 #include "compare/maps/lookup.h"
-#include "compare/verdict.h"
 #include "tests/compare/maps/drawn_map.h"
 
 #include <gtest/gtest.h>
