@@ -94,13 +94,16 @@ std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
         std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
 }
 
+// The window depths of corners are rounded as they are, and not as little as their inverse depths.
 SlopeOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
     if (model().slope_bias == 0) return {};
     const Scene& scene = faces_[texel.face];
+    const double scale = std::abs(window_depth_of(depth_model_).slope);
     const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
-    return slope_offset(clipped_polygon(scene.camera, {at(0), at(1), at(2)},
-                                        drawing_of(scene, depth_model_, model().far)),
-                        model().slope_bias, std::abs(window_depth_of(depth_model_).slope),
+    std::vector<PicturePoint> polygon = clipped_polygon(
+        scene.camera, {at(0), at(1), at(2)}, drawing_of(scene, depth_model_, model().far));
+    for (PicturePoint& point : polygon) point.depth_error += window_depth_roundings * v / scale;
+    return slope_offset(polygon, model().slope_bias, scale,
                         half_snapping_step(depth_model_.subpixel_bits));
 }
 
