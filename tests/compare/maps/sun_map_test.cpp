@@ -166,5 +166,45 @@ TEST_F(SunMap, holds_the_depth_of_what_lies_under_a_texel_and_compares_it_with_t
     EXPECT_FALSE(compare(model, 0, 0.5 * model.near, 0.5 * model.near).shadowed);
 }
 
+/// A bundled scene under a sun that shines from where its light is to the middle of what it lights.
+Scene under_a_sun(const std::string& name) {
+    Scene scene = small(name, 64);
+    glm::dvec3 sum(0);
+    for (const glm::vec3& position : scene.positions) sum += glm::dvec3(position);
+    Light& light = scene.lights[scene.light];
+    if (light.kind != Light::Kind::directional) {
+        const glm::dvec3 way = sum / static_cast<double>(scene.positions.size()) - light.position;
+        light.kind = Light::Kind::directional;
+        light.direction = glm::normalize(way + glm::dvec3(0.001, -0.002, 0.003));
+    }
+    return scene;
+}
+
+class SunOverScene : public testing::TestWithParam<std::string> {
+protected:
+    Gpu gpu{GlPlatform::osmesa};
+    TracedScene traced{under_a_sun(GetParam())};
+};
+
+TEST_P(SunOverScene, leaves_no_texel_and_no_pixel_unexplained) {
+    const double reach = with_settings(sun_model(), {}, traced.scene).far * traced.scene.unit;
+    for (const MapCulling culling : all_map_cullings)
+        for (const double slope_bias : {0.0, 1.1}) {
+            const Frame frame = drawn(
+                gpu, traced, "sun_map",
+                {.size = 96, .bias = 0.001 * reach, .slope_bias = slope_bias, .culling = culling});
+            EXPECT_EQ(texels_not_shown(traced, frame), 0U) << name_of(culling) << " " << slope_bias;
+            EXPECT_TRUE(is_explained(compared(traced, frame)))
+                << name_of(culling) << " " << slope_bias;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, SunOverScene, testing::ValuesIn(tests::bundled_names()),
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
 } // namespace
 } // namespace shadowproof
