@@ -48,6 +48,7 @@ private:
     Plane plane(const Texel& texel, std::uint32_t caster) const;
     SlopeOffset offset(std::uint32_t caster) const;
     double error(const Texel& texel, std::uint32_t caster, const Plane& plane) const;
+    double least_error(const Plane& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool may_draw(const Texel& texel, std::uint32_t caster) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;

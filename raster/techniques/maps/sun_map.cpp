@@ -27,7 +27,7 @@ Technique sun_map_technique() {
             .summary = "a directional light's map of depths, in parallel projection",
             .source = "Williams 1978; CS448 lecture 11, shadow maps; the projection: orthographic",
             .needs = "a directional light",
-            .cost = 2.3,
+            .cost = 1.2,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::directional},
