@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowproof {
 
@@ -25,6 +28,44 @@ double farthest_caster(const Scene& scene, const glm::dvec3& light) {
     return farthest;
 }
 
+/// Right, up and forward of a camera that looks along a unit vector.
+std::array<glm::dvec3, 3> axes_along(const glm::dvec3& forward) {
+    const glm::dvec3 size = glm::abs(forward);
+    const glm::dvec3 least = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+                             : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, least));
+    return {right, glm::cross(right, forward), forward};
+}
+
+/// Fits a sun's square and planes to all that casts or receives. A margin around them is far more
+/// than floats move anything, so that nothing is clipped; what has no extent has a map all the
+/// same.
+void fit_sun(MapModel& model, const Scene& scene) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    const std::vector<std::uint8_t> receives = receiving_triangles(scene);
+    const auto [right, up, forward] = axes_along(chosen_light(scene).direction);
+    glm::dvec3 low(std::numeric_limits<double>::infinity());
+    glm::dvec3 high(-low);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
+        for (int k = 0; k < 3 && (casts[triangle] != 0 || receives[triangle] != 0); ++k) {
+            const glm::dvec3 point = corner(scene, triangle, k);
+            const glm::dvec3 place(glm::dot(right, point), glm::dot(up, point),
+                                   glm::dot(forward, point));
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+    if (!(low.x <= high.x)) low = high = glm::dvec3(0);
+    const glm::dvec3 extent = high - low;
+    const double size = std::max({extent.x, extent.y, extent.z});
+    const double margin = 0x1p-6 * (size > 0 ? size : 1 / scene.unit);
+    const glm::dvec3 middle = 0.5 * (low + high);
+    model.eye = middle.x * right + middle.y * up + (low.z - 2 * margin) * forward;
+    model.half_side = 0.5 * std::max(extent.x, extent.y) + 0.25 * margin;
+    model.near = margin;
+    model.far = extent.z + 3 * margin;
+}
+
 [[noreturn]] void refuse(const Scene& scene, const std::string& what, const std::string& remedy) {
     throw Error(scene.file.empty() ? scene.name : scene.file.string(), what, remedy);
 }
@@ -33,7 +74,8 @@ double farthest_caster(const Scene& scene, const glm::dvec3& light) {
 
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene) {
     const Light& light = chosen_light(scene);
-    assert(light.kind != Light::Kind::directional);
+    const bool is_sun = model.shape == MapModel::Shape::sun;
+    assert(is_sun == (light.kind == Light::Kind::directional));
     if (model.shape == MapModel::Shape::spot && light.outer_cone > widest_cone)
         refuse(scene, "has a spot whose cone is too wide for one map",
                "leave spot maps out, or make its outerConeAngle at most 1.5");
@@ -44,21 +86,33 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
         return double{static_cast<float>(value / scene.unit)};
     };
     model.bias = in_float(settings.bias.value_or(documents_bias));
-    model.value = settings.value.value_or(model.value);
+    if (!is_sun) model.value = settings.value.value_or(model.value);
+    model.slope_bias = double{static_cast<float>(settings.slope_bias.value_or(0))};
+    if (model.slope_bias != 0 && model.value == MapValue::distance)
+        refuse(scene,
+               "has a light whose map would hold distances, which --map-slope-bias does not move: "
+               "it is a polygon offset, of window depths",
+               "give --map-value depth, or leave the slope bias out");
     model.format = settings.format.value_or(model.format);
     model.culling = settings.culling.value_or(model.culling);
     if (model.filter > 0) {
         model.filter = settings.filter.value_or(model.filter);
         model.average = settings.average.value_or(model.average);
     }
-    // A light without casters has a map all the same.
-    const double farthest = farthest_caster(scene, light.position) * scene.unit;
-    // Window depths at the far plane are 2 near (far - depth) / far away from being clipped: 16
-    // times what a float of that size rounds by.
-    model.far = in_float(settings.far.value_or(farthest > 0 ? farthest * (1 + 0x1p-6) : 1));
-    // Distances lose nothing to a near plane close to the light; depths do.
-    const double share = model.value == MapValue::distance ? 0x1p-14 : 0x1p-10;
-    model.near = in_float(settings.near.value_or(model.far * scene.unit * share));
+    if (is_sun) {
+        fit_sun(model, scene);
+        model.far = in_float(settings.far.value_or(model.far * scene.unit));
+        model.near = in_float(settings.near.value_or(model.near * scene.unit));
+    } else {
+        // A light without casters has a map all the same.
+        const double farthest = farthest_caster(scene, light.position) * scene.unit;
+        // Window depths at the far plane are 2 near (far - depth) / far away from being clipped: 16
+        // times what a float of that size rounds by.
+        model.far = in_float(settings.far.value_or(farthest > 0 ? farthest * (1 + 0x1p-6) : 1));
+        // Distances lose nothing to a near plane close to the light; depths do.
+        const double share = model.value == MapValue::distance ? 0x1p-14 : 0x1p-10;
+        model.near = in_float(settings.near.value_or(model.far * scene.unit * share));
+    }
     if (!(model.near > 0 && model.near < model.far))
         refuse(scene,
                fmt::format("has a light whose map would reach from {} to {}",
@@ -85,15 +139,37 @@ Camera map_camera(const Light& light, const MapModel& model, std::size_t face) {
         camera.tan_half_height = 1;
         return camera;
     }
-    camera.forward = light.direction;
-    const glm::dvec3 size = glm::abs(light.direction);
-    const glm::dvec3 least = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
-                             : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
-                                                                  : glm::dvec3(0, 0, 1);
-    camera.right = glm::normalize(glm::cross(camera.forward, least));
-    camera.up = glm::cross(camera.right, camera.forward);
-    camera.tan_half_height = half_side_of_spot(light);
+    const auto [right, up, forward] = axes_along(light.direction);
+    camera.right = right;
+    camera.up = up;
+    camera.forward = forward;
+    if (model.shape == MapModel::Shape::sun) {
+        camera.eye = model.eye;
+        camera.tan_half_height = model.half_side;
+    } else {
+        camera.tan_half_height = half_side_of_spot(light);
+    }
     return camera;
+}
+
+glm::dvec2 place_in_map(const MapModel& model, const Camera& camera, const glm::dvec3& from_eye) {
+    if (model.shape != MapModel::Shape::sun) return project(camera, camera.eye + from_eye);
+    const double half = 0.5 * model.size;
+    return {(1 + glm::dot(from_eye, camera.right) / model.half_side) * half,
+            (1 - glm::dot(from_eye, camera.up) / model.half_side) * half};
+}
+
+double map_window_depth(const MapModel& model, double depth) {
+    if (model.shape == MapModel::Shape::sun) return (depth - model.near) / (model.far - model.near);
+    return model.far / (model.far - model.near) * (1 - model.near / depth);
+}
+
+double value_of_stored(const MapModel& model, double stored) {
+    if (model.value == MapValue::distance) return stored * model.far;
+    const double n = model.near;
+    const double f = model.far;
+    if (model.shape == MapModel::Shape::sun) return n + stored * (f - n);
+    return n * f / (f - stored * (f - n));
 }
 
 DepthModel map_depth_model(const MapModel& model) {

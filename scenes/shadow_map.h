@@ -10,6 +10,8 @@
 #include "scenes/scene.h"
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -46,6 +48,9 @@ inline constexpr std::array all_map_averages{MapAverage::comparisons, MapAverage
 /// Texels along a side of the largest block that is averaged. The shader adds the number of texels
 /// that say `lit` to a byte that holds `shadowed`, and more would not fit.
 inline constexpr int largest_map_filter = 13;
+
+/// The largest slope bias: what it moves a surface by is far beyond any scene then.
+inline constexpr double largest_slope_bias = 1e6;
 
 constexpr std::string_view name_of(MapValue value) {
     return value == MapValue::distance ? "distance" : "depth";
@@ -88,6 +93,7 @@ constexpr DepthFormat depth_format_of(MapFormat format) {
 struct MapSettings {
     std::optional<int> size{};    ///< texels a side
     std::optional<double> bias{}; ///< in the file's units of length
+    std::optional<double> slope_bias{};
     std::optional<MapValue> value{};
     std::optional<MapFormat> format{};
     std::optional<MapCulling> culling{};
@@ -103,15 +109,22 @@ struct MapModel {
     enum class Shape : std::uint8_t {
         cube, ///< six faces around the light
         spot, ///< one square, which holds the cone
+        sun,  ///< one square in parallel projection, which holds all that casts or receives
     };
     Shape shape = Shape::cube;
     int size = 1024; ///< texels a side
     double bias = 0; ///< world units
+    /// OpenGL's polygon offset, its factor: by how many times its own window depth's change over a
+    /// texel's step a surface is moved away as it is drawn. 0 where distances are stored, which are
+    /// no window depths.
+    double slope_bias = 0;
     MapValue value = MapValue::distance;
     MapFormat format = MapFormat::d32f;
     MapCulling culling = MapCulling::none;
     double near = 0; ///< of the light's camera, world units
     double far = 1;
+    glm::dvec3 eye{0, 0, 0}; ///< of a sun: the middle of its square, where depths begin
+    double half_side = 1;    ///< of a sun's square, world units
     /// Texels a side of the block that is averaged, around the point's place in the map; beside the
     /// map its border is repeated. 0: the texel at that place alone.
     int filter = 0;
@@ -134,18 +147,32 @@ struct MapEvidence {
 
 /// The values of the source documents where the user asked for nothing: the bias is 0.15 world
 /// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is a little beyond
-/// the farthest caster's corner, and `near` 2^-10 of that, 2^-14 where distances are stored. The
-/// light must have a position. Throws Error where the user's planes are no range, or a spot is too
-/// wide.
+/// the farthest caster's corner, and `near` 2^-10 of that, 2^-14 where distances are stored. A
+/// sun's depths begin a little before all that casts or receives, and end a little behind; it
+/// stores depths whatever the user asked, as nothing has a distance from it. The light must have a
+/// position, but for a sun's map. Throws Error where the user's planes are no range, a spot is too
+/// wide, or distances shall have a slope bias.
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene);
 
 /// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its
 /// rows and columns are those of OpenGL's face, from the last row up (cube_map.h). For a spot it
-/// looks along the light's axis and holds the whole cone.
+/// looks along the light's axis and holds the whole cone. For a sun it looks along the light, in
+/// parallel: half its height is `tan_half_height` at any depth.
 Camera map_camera(const Light& light, const MapModel& model, std::size_t face);
 
+/// Where a point, relative to the eye of a face's camera, lies in its picture: in texels from the
+/// top left corner. In perspective its depth must be above 0.
+glm::dvec2 place_in_map(const MapModel& model, const Camera& camera, const glm::dvec3& from_eye);
+
 /// How the face's window depths are made, which clipping follows even where distances are stored.
+/// Perspective alone.
 DepthModel map_depth_model(const MapModel& model);
+
+/// The window depth of a depth of the light's camera: 0 at the near plane, 1 at the far.
+double map_window_depth(const MapModel& model, double depth);
+
+/// What a stored value stands for: a distance or a depth, world units.
+double value_of_stored(const MapModel& model, double stored);
 
 /// Half the side of a spot's map at depth 1; the outer cone must be narrower than a half space.
 double half_side_of_spot(const Light& light);

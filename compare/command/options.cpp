@@ -155,6 +155,12 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
         ->check(CLI::Range(1, 16384));
     add_length_flag(command, "--map-bias", settings.bias, std::numeric_limits<double>::lowest(),
                     "How much farther than its texel a point may be and still be lit (0.15)");
+    command
+        .add_option("--map-slope-bias", settings.slope_bias,
+                    "How many times its depth's change over a texel's step a surface is moved away "
+                    "in maps of depths (0)")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(0.0, largest_slope_bias));
     const auto add_choice = [&](const char* flag, const auto& all, auto& value,
                                 const std::string& words) {
         command
@@ -382,6 +388,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     const MapSettings& map = technique.asked.map;
     if (map.size) add("--map-size", fmt::format("{}", *map.size));
     if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
+    if (map.slope_bias) add("--map-slope-bias", fmt::format("{}", *map.slope_bias));
     if (map.value) add("--map-value", std::string(name_of(*map.value)));
     if (map.format) add("--map-format", std::string(name_of(*map.format)));
     if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));

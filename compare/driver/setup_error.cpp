@@ -209,6 +209,10 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
     return largest_error(scene.camera, set_up(scene, triangle, pixel), pixel);
 }
 
+double setup_error(const PictureTriangle& triangle, const glm::dvec2& place, double reach) {
+    return error_of(triangle, place, reach);
+}
+
 // Twice the area changes by an edge's length times the move of the corner across from it, and by
 // products of two moves.
 bool may_be_flipped(const PictureTriangle& triangle, double reach) {

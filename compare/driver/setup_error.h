@@ -8,6 +8,7 @@
 #include "scenes/scene.h"
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -28,6 +29,11 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 /// null where that is at infinity.
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& side, const CoveredPixel& pixel);
+
+/// The same for a triangle of the picture, whose `inverse_depth` may be any value that is linear
+/// over it, at a place that it may cover when it is drawn `reach` pixels aside.
+double setup_error(const std::array<PicturePoint, 3>& triangle, const glm::dvec2& place,
+                   double reach);
 
 /// Whether a triangle may cover the pixel flipped, so that its other side is seen: its corners'
 /// errors, and snapping by up to the pixel's reach along each axis, may reverse their winding.

@@ -2,8 +2,6 @@
 // ray from the light through the texel's centre, and within which bounds a driver may store it.
 #pragma once
 
-#include "compare/driver/plane_at_pixel.h"
-#include "reference/trace/trace.h"
 #include "scenes/scene.h"
 #include "scenes/shadow_map.h"
 
@@ -32,18 +30,20 @@ struct FromLight {
 /// Keeps a reference to the evidence.
 class LightView {
 public:
-    /// `subpixel_bits`: the driver's.
-    LightView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads);
+    LightView(const LightView&) = delete;
+    LightView& operator=(const LightView&) = delete;
+    virtual ~LightView() = default;
 
     const MapModel& model() const { return map_.model; }
-    const Camera& camera(std::size_t face) const { return faces_[face].camera; }
+    const Camera& camera(std::size_t face) const { return cameras_[face]; }
+    /// What points are relative to that are said to be from the light: the eye of all cameras.
+    const glm::dvec3& origin() const { return cameras_.front().eye; }
+    float stored(const Texel& texel) const { return map_.faces[texel.face].at(texel.x, texel.y); }
 
     /// Of the texels' centres.
-    std::vector<FromLight> trace(std::span<const Texel> texels) const;
+    virtual std::vector<FromLight> trace(std::span<const Texel> texels) const = 0;
     /// Of the ray through a point, given relative to the light, whose face is `face`.
-    FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const;
-
-    float stored(const Texel& texel) const { return map_.faces[texel.face].at(texel.x, texel.y); }
+    virtual FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const = 0;
 
     /// The triangle whose surface the texel shows: the one at its centre, or another that the
     /// driver may draw there. `shows` is false where no rasterizer would store this.
@@ -52,24 +52,32 @@ public:
         std::uint32_t triangle = no_triangle;
         double value = 0; ///< exact at the texel's centre, on the triangle's plane: as the model's
                           ///< value, in world units; infinity where nothing is shown
+        double moved = 0; ///< the same as the slope bias moves it
     };
-    Shown shown(const Texel& texel, const FromLight& at_centre) const;
+    virtual Shown shown(const Texel& texel, const FromLight& at_centre) const = 0;
+
+    /// A depth of a triangle of the scene as the slope bias moves it there, in world units, and at
+    /// most to the far plane; the depth itself without one.
+    virtual double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const = 0;
+
+protected:
+    LightView(const Scene& scene, const MapEvidence& map);
+
+    /// Whether the map has the format that its model says, and the value is one that this has.
+    bool is_in_format(float stored) const;
+    /// Half a step of the format; 0 of floats.
+    double half_step() const;
+    /// A depth with an offset of its window depth.
+    double moved_by(double depth, double offset) const;
 
 private:
     const MapEvidence& map_;
-    DepthModel depth_model_;
-    std::vector<Scene> faces_;            ///< one per face; casters alone
-    std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
-    std::unique_ptr<Tracer> tracer_;      ///< of the first face's scene; null without casters
-
-    PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
-    double value(const PlaneAtPixel& plane) const;
-    bool may_store(const Texel& texel, std::uint32_t caster) const;
-    bool is_in_format(float stored) const;
-    bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
-    bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
-    Shown shown_around(const Texel& texel) const;
-    Shown showing(const Texel& texel, std::uint32_t caster) const;
+    std::vector<Camera> cameras_; ///< one per face
 };
+
+/// `subpixel_bits`: the driver's. A sun's view is parallel (parallel_view.h), others are in
+/// perspective (perspective_view.h).
+std::unique_ptr<LightView> light_view(const Scene& scene, const MapEvidence& map, int subpixel_bits,
+                                      int threads);
 
 } // namespace shadowproof

@@ -36,13 +36,8 @@ glm::ivec2 first_of(const MapModel& model, const glm::dvec2& place) {
     return {first(place.x), first(place.y)};
 }
 
-/// Where a vector from the light pierces the face camera's picture, in texels.
-glm::dvec2 place_of(const Camera& camera, const glm::dvec3& from_light) {
-    return project(camera, camera.eye + from_light);
-}
-
-/// A vector's error: of the matrix that rotates it into a spot's axes, an entry, a product and the
-/// sums; a cube asks with the vector itself.
+/// A vector's error: of the matrix that rotates it into a square's axes, an entry, a product and
+/// the sums; a cube asks with the vector itself.
 glm::dvec3 rotated_error(const LightView& light, const UncertainPoint& point) {
     if (light.model().shape == MapModel::Shape::cube) return point.error;
     const glm::dvec3 size = glm::abs(point.from_light) + point.error;
@@ -73,6 +68,7 @@ std::pair<double, double> range_of_value(const MapModel& model, const Camera& ca
 
 /// Whether a vector in the box may be asked of the face: no other axis is certainly larger.
 bool may_pierce(const LightView& light, std::size_t face, const UncertainPoint& point) {
+    if (light.model().shape == MapModel::Shape::sun) return true;
     const glm::dvec3& axis = light.camera(face).forward;
     const double most = glm::dot(point.from_light, axis) + glm::dot(point.error, glm::abs(axis));
     if (!(most > 0)) return false;
@@ -90,9 +86,9 @@ Lookup lookup(const LightView& light, const glm::dvec3& from_light) {
     Lookup found;
     found.depth = glm::dot(from_light, camera.forward);
     found.value = value_of(model, from_light, found.depth);
-    found.in_map = found.depth > 0;
+    found.in_map = model.shape == MapModel::Shape::sun || found.depth > 0;
     if (!found.in_map) return found;
-    const glm::dvec2 place = place_of(camera, from_light);
+    const glm::dvec2 place = place_in_map(model, camera, from_light);
     found.texel = {static_cast<std::uint32_t>(face), clamped(model, place.x),
                    clamped(model, place.y)};
     found.first = first_of(model, place);
@@ -107,10 +103,10 @@ Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place) 
     return {place.face, nearest(place.x, asked.first.x), nearest(place.y, asked.first.y)};
 }
 
-// Seen from a face, a box's picture is within the rectangle of its corners' as long as all lie
-// before the camera. The division, the halving, the sum and the product with the size round by v
-// of at most the map's size each: 4 v, of which the quotient's counts twice; and where a block is
-// asked, the difference to its first texel.
+// Seen from a face, or in parallel, a box's picture is within the rectangle of its corners' as long
+// as all lie before the camera. The division, the halving, the sum and the product with the size
+// round by v of at most the map's size each: 4 v, of which the quotient's counts twice; and where a
+// block is asked, the difference to its first texel.
 std::optional<PossibleLookup>
 find_possible_lookup(const LightView& light, const UncertainPoint& point,
                      const std::function<bool(const PossibleLookup&)>& holds) {
@@ -123,12 +119,13 @@ find_possible_lookup(const LightView& light, const UncertainPoint& point,
         glm::dvec2 low(model.size, model.size);
         glm::dvec2 high(0, 0);
         for (const glm::dvec3& corner : corners) {
-            if (!(glm::dot(corner, camera.forward) > 0)) { // the light itself lies in the box
+            if (model.shape != MapModel::Shape::sun && !(glm::dot(corner, camera.forward) > 0)) {
+                // The light itself lies in the box.
                 low = {0, 0};
                 high = {model.size, model.size};
                 break;
             }
-            const glm::dvec2 place = place_of(camera, corner);
+            const glm::dvec2 place = place_in_map(model, camera, corner);
             low = glm::min(low, place);
             high = glm::max(high, place);
         }
@@ -153,7 +150,8 @@ find_possible_lookup(const LightView& light, const UncertainPoint& point,
 
 // Distances: a product, a sum, and a length of three products, two sums and a root. Depths: the
 // difference, and the projection's quotient, difference, product and constant, the last of which
-// rounds twice.
+// rounds twice; in parallel two differences and a quotient, each by v of a number that may be above
+// 1.
 Answers compare(const MapModel& model, double stored, double low, double high) {
     const double b = model.bias;
     if (model.value == MapValue::distance) {
@@ -161,21 +159,26 @@ Answers compare(const MapModel& model, double stored, double low, double high) {
         const double error = 2 * v * (map + std::abs(b)) + 4 * v * high;
         return {map + b < high + error, map + b >= low - error};
     }
-    const auto window = [&](double nearer) {
-        return model.far / (model.far - model.near) * (1 - model.near / nearer);
-    };
-    const double shift = v * (high + std::abs(b));
-    const bool may_be_beyond = high - b + shift > model.near;
-    const bool may_be_before = low - b - shift <= model.near;
-    return {may_be_beyond && stored < window(high - b + shift) + 5 * v,
-            may_be_before || stored >= window(low - b - shift) - 5 * v};
+    const double shift = v * (std::max(std::abs(low), std::abs(high)) + std::abs(b));
+    const double least = low - b - shift;
+    const double most = high - b + shift;
+    if (model.shape == MapModel::Shape::sun) {
+        const auto error = [](double window) { return 3 * v * std::abs(window); };
+        const double from = map_window_depth(model, least);
+        const double to = map_window_depth(model, most);
+        return {stored < to + error(to), stored >= from - error(from)};
+    }
+    const bool may_be_beyond = most > model.near;
+    const bool may_be_before = least <= model.near;
+    return {may_be_beyond && stored < map_window_depth(model, most) + 5 * v,
+            may_be_before || stored >= map_window_depth(model, least) - 5 * v};
 }
 
 bool is_shadowed(const MapModel& model, double stored, double value) {
     if (model.value == MapValue::distance) return stored * model.far + model.bias < value;
     const double nearer = value - model.bias;
-    if (nearer <= model.near) return false;
-    return stored < model.far / (model.far - model.near) * (1 - model.near / nearer);
+    if (model.shape != MapModel::Shape::sun && nearer <= model.near) return false;
+    return stored < map_window_depth(model, nearer);
 }
 
 namespace {

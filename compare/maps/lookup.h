@@ -18,7 +18,7 @@ struct Lookup {
     glm::ivec2 first{0, 0}; ///< of the block that is averaged, if one is; it may lie beside the map
     double value = 0;       ///< what is compared: the point's distance or depth, world units
     double depth = 0;       ///< along the face's axis
-    bool in_map = true;     ///< false behind a spot's camera or beside its square
+    bool in_map = true;     ///< false behind a spot's camera
 };
 Lookup lookup(const LightView& light, const glm::dvec3& from_light);
 

@@ -22,7 +22,7 @@ bool is_in_range(const MapModel& model, const Lookup& lookup) {
 PixelCause of_false_shadow(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
     if (!is_in_range(model, wrong.lookup)) return {Cause::range, {}};
-    if (!(wrong.shown.value + model.bias < wrong.lookup.value)) return {Cause::precision, {}};
+    if (!(wrong.shown.moved + model.bias < wrong.lookup.value)) return {Cause::precision, {}};
     return {are_joined(scene, wrong.shown.triangle, wrong.receiver) ? Cause::acne
                                                                     : Cause::resolution,
             {}};
@@ -31,13 +31,14 @@ PixelCause of_false_shadow(const LightView& light, const Scene& scene, const Wro
 PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
     const double own = wrong.lookup.value;
-    if (wrong.lookup.in_map && wrong.shown.value + model.bias < own) return {Cause::precision, {}};
+    if (wrong.lookup.in_map && wrong.shown.moved + model.bias < own) return {Cause::precision, {}};
     const FromLight met = wrong.lookup.in_map
                               ? light.trace_to(wrong.lookup.texel.face, wrong.from_light)
                               : FromLight{no_triangle, 0};
     if (met.triangle == no_triangle || met.triangle == wrong.receiver)
         return {model.culling != MapCulling::none ? Cause::open_mesh : Cause::range, {}};
-    const double met_value = own * met.depth / wrong.lookup.depth;
+    const double met_value =
+        light.moved_away(wrong.lookup.texel, met.triangle, own * met.depth / wrong.lookup.depth);
     if (met_value + model.bias < own) return {Cause::resolution, {}};
     PixelCause cause{Cause::leak, {}};
     if (!(wrong.shown.value < own)) cause.also.add(Cause::resolution);

@@ -30,9 +30,8 @@ struct WrongAnswer {
 /// Falsely lit:
 ///   precision   the texel holds its exact value
 ///   resolution  the ray goes through the point itself
-///   leak        there is no bias; perhaps this needs the ray through the point, too
-///   open_mesh   both sides of casters are drawn
-///   range       the map reaches the occluder
+///   leak        there is no bias, nor a slope bias; perhaps this needs the ray through the point,
+///   too open_mesh   both sides of casters are drawn range       the map reaches the occluder
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
 
 } // namespace shadowproof

@@ -34,8 +34,9 @@ class MapJudge final : public Judge {
 public:
     MapJudge(const TracedScene& traced, const Frame& frame)
         : claim_{traced, frame}, receives_(receiving_triangles(traced.scene())),
-          light_(traced.scene(), *frame.mapped, frame.depth_model.subpixel_bits,
-                 traced.tracer().threads()) {
+          view_(light_view(traced.scene(), *frame.mapped, frame.depth_model.subpixel_bits,
+                           traced.tracer().threads())),
+          light_(*view_) {
         trace_texels();
     }
 
@@ -133,7 +134,8 @@ public:
 private:
     JudgedClaim claim_;
     std::vector<std::uint8_t> receives_;
-    LightView light_;
+    std::unique_ptr<LightView> view_;
+    const LightView& light_;
     std::vector<Texel> texels_;           ///< that pixels' centres ask, in order
     std::vector<LightView::Shown> shown_; ///< by each
     std::vector<Texel> not_shown_;        ///< those that no rasterizer would store, in order
@@ -149,13 +151,6 @@ private:
         return lateral_error(scene, claim_.frame.depth_model, scene.camera.eye + depth * direction);
     }
 
-    /// A texel's value in world units.
-    double world(double stored) const {
-        const MapModel& m = light_.model();
-        if (m.value == MapValue::distance) return stored * m.far;
-        return m.near * m.far / (m.far - stored * (m.far - m.near));
-    }
-
     bool asks(std::uint32_t triangle) const {
         return receives_[triangle] != 0 && sides_of(claim_.traced.tracer(), triangle).faces_light();
     }
@@ -168,8 +163,8 @@ private:
         const Scene& scene = claim_.traced.scene();
         Asked asked;
         asked.asks = true;
-        asked.from_light = scene.camera.eye - chosen_light(scene).position +
-                           truth.depth.at(p.x, p.y) * direction_at(p);
+        asked.from_light =
+            scene.camera.eye - light_.origin() + truth.depth.at(p.x, p.y) * direction_at(p);
         asked.lookup = lookup(light_, asked.from_light);
         return asked;
     }
@@ -183,8 +178,8 @@ private:
         const Asked asked = asked_at(p);
         if (!asked.asks || !asked.lookup.in_map) return std::nullopt;
         const Texel& texel = asked.lookup.texel;
-        return PixelLookup{asked.lookup, world(light_.stored(texel)), shown_by(texel).triangle,
-                           std::max(claimed_lit(claim_, p), 0)};
+        return PixelLookup{asked.lookup, value_of_stored(light_.model(), light_.stored(texel)),
+                           shown_by(texel).triangle, std::max(claimed_lit(claim_, p), 0)};
     }
 
     void trace_texels() {
@@ -244,7 +239,7 @@ private:
     UncertainPoint drawn_point(PixelPlace p, std::uint32_t triangle) const {
         const Scene& scene = claim_.traced.scene();
         const Camera& camera = scene.camera;
-        const glm::dvec3 to_eye = camera.eye - chosen_light(scene).position;
+        const glm::dvec3 to_eye = camera.eye - light_.origin();
         const auto at = [&](double x, double y) {
             const glm::dvec3 direction = ray_direction(camera, x, y);
             const double depth = depth_on_triangle(scene, triangle, direction);
@@ -259,7 +254,7 @@ private:
             nearest = std::min(nearest, depth);
             farthest = std::max(farthest, depth);
         }
-        const double on_plane = view_depth(camera, centre + chosen_light(scene).position);
+        const double on_plane = view_depth(camera, centre + light_.origin());
         const double depth = std::clamp(on_plane, nearest, farthest);
         UncertainPoint point;
         point.from_light = centre + (depth - on_plane) * direction_at(p);
@@ -271,7 +266,7 @@ private:
         const Drawing drawing =
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
         point.error += interpolated_place_error(scene, triangle, {direction_at(p), reach, drawing},
-                                                chosen_light(scene).position);
+                                                light_.origin());
         point.error = glm::min(point.error, glm::dvec3(1e30)); // infinity times zero is no number
         return point;
     }

@@ -25,6 +25,7 @@ Json settings_of(const MapModel& model, double unit) {
               {"culling", name_of(model.culling)},
               {"near", model.near * unit},
               {"far", model.far * unit}};
+    if (model.slope_bias != 0) json["slope_bias"] = model.slope_bias;
     if (model.filter > 0) {
         json["filter"] = model.filter;
         json["average"] = name_of(model.average);

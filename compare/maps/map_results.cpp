@@ -19,6 +19,7 @@ void map(const JsonPlace& place) {
                    {"texels", count},
                    {"texels_unexplained", count},
                    {"straddling", count},
+                   {"slope_bias", number, Need::optional},
                    {"filter", size, Need::optional},
                    {"average", text, Need::optional},
                    {"ms", milliseconds}});

@@ -73,6 +73,7 @@ struct Platform; // platform.h
     X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, NamedFramebufferTexture)                                   \
     X(PFNGLNAMEDFRAMEBUFFERTEXTURELAYERPROC, NamedFramebufferTextureLayer)                         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                                           \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                                       \
     X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                                                 \
     X(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                                               \
     X(PFNGLPROGRAMUNIFORM1FPROC, ProgramUniform1f)                                                 \

@@ -54,11 +54,28 @@ Framebuffer make_face(const GlFunctions& gl, const MapPass& pass, std::size_t fa
     return framebuffer;
 }
 
+/// A sun's camera: window depth runs linearly from its near to its far plane, and w is 1.
+ClipTransform parallel_transform(const Camera& camera) {
+    const double depths = camera.far - camera.near;
+    glm::dmat4 clip_from_view(1);
+    clip_from_view[0][0] = 1 / camera.tan_half_height;
+    clip_from_view[1][1] = 1 / camera.tan_half_height;
+    clip_from_view[2][2] = -2 / depths;
+    clip_from_view[3][2] = -(camera.far + camera.near) / depths;
+    ClipTransform transform;
+    transform.origin = split(camera.eye);
+    transform.clip_from_relative =
+        glm::mat4(clip_from_view * glm::dmat4(view_from_eye_relative(camera)));
+    transform.light = transform.origin;
+    return transform;
+}
+
 /// The light's camera at one face. Points are relative to the light.
 ClipTransform transform_of(const Scene& scene, const MapModel& model, std::size_t face) {
     Scene seen_from_light;
     seen_from_light.lights = {chosen_light(scene)};
     seen_from_light.camera = map_camera(chosen_light(scene), model, face);
+    if (model.shape == MapModel::Shape::sun) return parallel_transform(seen_from_light.camera);
     return clip_transform(seen_from_light, map_depth_model(model));
 }
 
@@ -137,6 +154,8 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
     gl.DepthMask(GL_TRUE);
     gl.FrontFace(GL_CCW);
     set_culling(gl, pass.model.culling);
+    set_enabled(gl, GL_POLYGON_OFFSET_FILL, pass.model.slope_bias != 0);
+    gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias), 0);
     gl.BindVertexArray(geometry.vertices.name());
     const bool at_once = pass.making == MapMaking::geometry_shader;
     for (std::size_t i = 0; i < pass.programs.size(); ++i) {
@@ -148,6 +167,7 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
             draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
     }
     gl.CullFace(GL_BACK);
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
     check(gl, "drawing the shadow map");
 }
 

@@ -24,6 +24,7 @@ void set_test(const GlFunctions& gl, const Program& light, const Scene& scene,
     gl.ProgramUniform2f(light.name(), 16, static_cast<float>(model.near),
                         static_cast<float>(model.far));
     gl.ProgramUniform1i(light.name(), 17, model.value == MapValue::distance ? 1 : 0);
+    gl.ProgramUniform1i(light.name(), 23, model.shape == MapModel::Shape::sun ? 1 : 0);
     if (model.shape == MapModel::Shape::cube) return;
     const Camera camera = map_camera(chosen_light(scene), model, 0);
     const glm::mat3 map_from_world(
@@ -37,7 +38,19 @@ void set_test(const GlFunctions& gl, const Program& light, const Scene& scene,
 
 std::string_view light_shader(const MapModel& model) {
     if (model.shape == MapModel::Shape::cube) return "map_light_cube.frag";
+    if (model.shape == MapModel::Shape::sun) return "map_light_sun.frag";
     return model.filter > 0 ? "map_light_spot_filtered.frag" : "map_light_spot.frag";
+}
+
+/// How the light pass transforms. A sun has no position: points are relative to its camera's eye.
+ClipTransform light_transform(const Scene& scene, const DepthModel& depth_model,
+                              const MapModel& model) {
+    ClipTransform transform = clip_transform(scene, depth_model);
+    if (model.shape == MapModel::Shape::sun) {
+        transform.light = split(map_camera(chosen_light(scene), model, 0).eye);
+        transform.light_w = 1;
+    }
+    return transform;
 }
 
 // All counts of comparisons lie between both.
@@ -75,9 +88,9 @@ struct Frames {
           target(make_target(gl, scene.camera, depth_model.floating)),
           geometry(upload(gl, scene, {})), map(make_map_pass(gl, scene, geometry, model, making)),
           visible{static_cast<float>(scene.camera.near), static_cast<float>(scene.camera.far)} {
-        const ClipTransform transform = clip_transform(scene, depth_model);
-        surface = link_projection(gl, "surface.frag", transform, geometry);
-        light = link_light(gl, scene, transform, geometry, Between::nothing, light_shader(model));
+        surface = link_projection(gl, "surface.frag", clip_transform(scene, depth_model), geometry);
+        light = link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
+                           Between::nothing, light_shader(model));
         set_test(gl, light, scene, model);
         check(gl, "making the passes");
     }

@@ -24,6 +24,11 @@ inline MapModel spot_model() {
     return {.shape = MapModel::Shape::spot, .value = MapValue::depth, .format = MapFormat::d24};
 }
 
+/// A sun's map likewise; the format of whole numbers suits depths that are linear.
+inline MapModel sun_model() {
+    return {.shape = MapModel::Shape::sun, .value = MapValue::depth, .format = MapFormat::d24};
+}
+
 /// What all of them are known to fail at: Technique::fails_at and by_nature. Open casters matter
 /// where one of their sides is culled.
 inline std::vector<Cause> map_failings() {
@@ -39,10 +44,16 @@ inline std::vector<std::string_view> map_settings() {
     return {"map-size",    "map-bias", "map-value", "map-format",
             "map-culling", "map-near", "map-far"};
 }
+/// Those of maps that hold depths unless the user asks otherwise.
+inline std::vector<std::string_view> depth_map_settings() {
+    std::vector<std::string_view> settings = map_settings();
+    settings.emplace_back("map-slope-bias");
+    return settings;
+}
 
 /// Draws the scene's surfaces as zfail_reversed does, and looks up the map in the light pass. Draws
 /// once more beforehand, so that the driver finishes deferred compilation; the quickest of up to
-/// three frames is the time. Throws Error where the driver fails, or the light has no position.
+/// three frames is the time. Throws Error where the driver fails.
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe);
 
 } // namespace shadowproof

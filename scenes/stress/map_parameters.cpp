@@ -5,17 +5,21 @@ namespace shadowproof {
 
 namespace {
 
-bool may_have_map(const Scene& scene) {
-    return chosen_light(scene).kind != Light::Kind::directional;
+bool has_any_light(const Scene& /*scene*/) {
+    return true;
 }
 
 double as_it_is(const Scene& /*scene*/, double value) {
     return value;
 }
 
-/// A map of the light as techniques make it where nothing is asked; one around it holds any light.
+/// A map of the light as techniques make it where nothing is asked; one around it holds any light
+/// that has a position.
 MapModel own_map(const Scene& scene) {
-    return with_settings({.shape = MapModel::Shape::cube}, {}, scene);
+    const bool is_sun = chosen_light(scene).kind == Light::Kind::directional;
+    MapModel model;
+    if (is_sun) model = {.shape = MapModel::Shape::sun, .value = MapValue::depth};
+    return with_settings(model, {}, scene);
 }
 
 } // namespace
@@ -27,7 +31,7 @@ std::vector<StressParameter> map_parameters() {
          .low = 4,
          .high = 4000,
          .whole = true,
-         .suits = may_have_map,
+         .suits = has_any_light,
          .own = [](const Scene& scene) { return static_cast<double>(own_map(scene).size); },
          .flag = "map-size",
          .flag_value = as_it_is},
@@ -37,15 +41,15 @@ std::vector<StressParameter> map_parameters() {
          .low = 1e-6,
          .high = 1e3,
          .down_to_zero = true,
-         .suits = may_have_map,
+         .suits = has_any_light,
          .own = [](const Scene& scene) { return own_map(scene).bias * scene.unit; },
          .flag = "map-bias",
          .flag_value = as_it_is},
         {.name = "map_range",
-         .words = "the reach of shadow maps, in distances from the light to the farthest caster",
+         .words = "the reach of shadow maps, in those that end just beyond the farthest caster",
          .low = 1e-2,
          .high = 1e6,
-         .suits = may_have_map,
+         .suits = has_any_light,
          .own = [](const Scene&) { return 1.0; },
          .flag = "map-far",
          .flag_value = [](const Scene& scene,

@@ -122,6 +122,19 @@ test('a claim of shares of light tells how many pixels and how wrong they are, v
   assert.deepEqual([whole.partly_lit, whole.wrongness], [undefined, undefined]);
 });
 
+test('a map of a sun tells its slope bias where it has one, validly', () => {
+  const args = ['verify', 'sun', '--technique', 'sun_map', '--map-size', '64', '--size', '96x96'];
+  const sloped = resultsOf([...args, '--map-slope-bias', '1.1']);
+  assertValid(sloped);
+  const [{ map }] = sloped.scenes[0].techniques;
+  assert.ok(Math.abs(map.slope_bias - 1.1) < 1e-6);
+  assert.equal(map.value, 'depth');
+  assert.equal(map.texels_unexplained, 0);
+  const plain = resultsOf(args);
+  assertValid(plain);
+  assert.equal(plain.scenes[0].techniques[0].map.slope_bias, undefined);
+});
+
 test('a scene that cannot be read is an error in valid results, and the others are tried', () => {
   writeFileSync(join(scratch, 'broken.gltf'), '{');
   const results = resultsOf(['verify', 'broken.gltf', 'ordinary', '--technique', 'zfail',

@@ -62,6 +62,10 @@ std::span<const SweptSetting> swept_settings() {
             {"0", "0.001", "0.01", "0.05", "0.15", "0.5"},
             [](const Frame& f, double unit) { return length(f.mapped->model.bias, unit); }},
         SweptSetting{
+            "map-slope-bias",
+            {"0", "0.5", "1.1", "2", "4"},
+            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.slope_bias); }},
+        SweptSetting{
             "map-value", names_of(all_map_values),
             [](const Frame& f, double) { return std::string(name_of(f.mapped->model.value)); }},
         SweptSetting{

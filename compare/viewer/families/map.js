@@ -41,7 +41,7 @@ function mapRecord({ blocks, cellFile }, rank) {
   return { face: blocks.map_face[rank], x: blocks.map_x[rank], y: blocks.map_y[rank],
            stored: blocks.map_stored[rank], own: blocks.map_own[rank],
            shown: blocks.map_shown[rank], bias: cellFile.map.bias, size: cellFile.map.size,
-           value: cellFile.map.value, lit: blocks.map_lit[rank],
+           value: cellFile.map.value, slopeBias: cellFile.map.slope_bias ?? 0, lit: blocks.map_lit[rank],
            filter: cellFile.map.filter ?? 0, average: cellFile.map.average };
 }
 
@@ -76,6 +76,7 @@ addFamily('map', {
         ['Texel', `(${record.x}, ${record.y}) of face ${record.face}, ${record.size} a side`],
         ['Stored', `${short(record.stored)} (${record.value})`],
         ['Bias', short(record.bias)],
+        ...(record.slopeBias > 0 ? [['Slope bias', `${record.slopeBias}, in what is stored`]] : []),
         ['Own point', short(record.own)],
         ['Texel shows', record.shown === noTriangle ? 'nothing' : `triangle ${record.shown}`]])];
   },

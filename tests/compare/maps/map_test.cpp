@@ -1,13 +1,10 @@
 // Shadow maps against the truth: every texel is predicted, causes follow the settings, and what is
 // off by more than the bounds is not explained.
 #include "compare/evidence.h"
-#include "compare/maps/light_view.h"
 #include "compare/maps/lookup.h"
 #include "compare/verdict.h"
-#include "raster/maps/map_shadows.h"
 #include "scenes/error.h"
-#include "tests/compare/bundled_names.h"
-#include "tests/compare/traced_scene.h"
+#include "tests/compare/maps/drawn_map.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,42 +17,14 @@
 namespace shadowproof {
 namespace {
 
+using tests::all_texels;
 using tests::compared;
+using tests::drawn;
 using tests::load_named;
 using tests::pixels_of;
+using tests::small;
+using tests::texels_not_shown;
 using tests::TracedScene;
-
-Scene small(const std::string& name, int size = 128) {
-    Scene scene = load_named(name);
-    scene.camera.width = size;
-    scene.camera.height = size;
-    return scene;
-}
-
-Frame drawn(Gpu& gpu, const TracedScene& traced, const std::string& technique,
-            const MapSettings& settings) {
-    Plan plan = traced.plan;
-    plan.asked.map = settings;
-    return render(*find_technique(technique), traced.scene, plan, gpu);
-}
-
-std::vector<Texel> all_texels(const MapModel& model) {
-    std::vector<Texel> texels;
-    for (std::uint32_t face = 0; face < model.faces(); ++face)
-        for (int y = 0; y < model.size; ++y)
-            for (int x = 0; x < model.size; ++x) texels.push_back({face, x, y});
-    return texels;
-}
-
-std::uint64_t texels_not_shown(const TracedScene& traced, const Frame& frame) {
-    const LightView light(traced.scene, *frame.mapped, frame.depth_model.subpixel_bits, 0);
-    const std::vector<Texel> texels = all_texels(frame.mapped->model);
-    const std::vector<FromLight> at_centres = light.trace(texels);
-    std::uint64_t wrong = 0;
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        wrong += light.shown(texels[i], at_centres[i]).shows ? 0 : 1;
-    return wrong;
-}
 
 struct Setting {
     std::string name;
@@ -65,9 +34,12 @@ struct Setting {
 /// With a bias of a thousandth of the map's reach: one that is lost in roundings would leave either
 /// answer to them.
 std::vector<Setting> all_settings(const Scene& scene) {
-    const double reach = with_settings(MapModel{}, {}, scene).far * scene.unit;
+    const bool is_sun = chosen_light(scene).kind == Light::Kind::directional;
+    const double reach =
+        with_settings(is_sun ? sun_model() : MapModel{}, {}, scene).far * scene.unit;
     std::vector<Setting> all;
-    for (const MapValue value : all_map_values)
+    for (const MapValue value : all_map_values) {
+        if (is_sun && value == MapValue::distance) continue; // it has depths whatever is asked
         for (const MapFormat format : all_map_formats)
             for (const MapCulling culling : all_map_cullings)
                 all.push_back({std::string(name_of(value)) + "_" + std::string(name_of(format)) +
@@ -77,6 +49,7 @@ std::vector<Setting> all_settings(const Scene& scene) {
                                 .value = value,
                                 .format = format,
                                 .culling = culling}});
+    }
     return all;
 }
 
@@ -101,8 +74,8 @@ protected:
 
     std::vector<std::string> techniques() const {
         std::vector<std::string> names;
-        for (const char* name :
-             {"cube_map_six_pass", "cube_map_geometry_shader", "spot_map", "spot_map_pcf"})
+        for (const char* name : {"cube_map_six_pass", "cube_map_geometry_shader", "spot_map",
+                                 "spot_map_pcf", "sun_map"})
             if (suits(*find_technique(name), traced.scene)) names.emplace_back(name);
         return names;
     }
@@ -192,7 +165,8 @@ TEST_F(Maps, of_one_pass_are_those_of_six) {
 
 TEST_F(Maps, with_a_texel_a_little_beyond_its_bound_are_unexplained_and_within_it_are_not) {
     Frame frame = drawn(gpu, ordinary, "cube_map_six_pass", {.size = 64});
-    const LightView light(ordinary.scene, *frame.mapped, 8, 0);
+    const std::unique_ptr<LightView> view = light_view(ordinary.scene, *frame.mapped, 8, 0);
+    const LightView& light = *view;
     const std::vector<Texel> texels = all_texels(frame.mapped->model);
     const std::vector<FromLight> at_centres = light.trace(texels);
     int tried = 0;
@@ -315,6 +289,8 @@ TEST_F(FaultyMap, whose_settings_are_others_than_it_says_is_caught) {
 TEST_F(Maps, are_not_for_lights_without_a_position) {
     EXPECT_FALSE(suits(*find_technique("cube_map_six_pass"), load_named("sun")));
     EXPECT_FALSE(suits(*find_technique("spot_map"), ordinary.scene));
+    EXPECT_FALSE(suits(*find_technique("sun_map"), ordinary.scene));
+    EXPECT_TRUE(suits(*find_technique("sun_map"), load_named("sun")));
     EXPECT_TRUE(suits(*find_technique("spot_map"), load_named("spot")));
     const TracedScene sun(small("sun"));
     EXPECT_THROW(drawn(gpu, sun, "cube_map_six_pass", {}), Error);

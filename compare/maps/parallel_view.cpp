@@ -1,0 +1,204 @@
+#include "compare/maps/parallel_view.h"
+
+#include "reference/trace/faces.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether a caster shows the light a side that is drawn; an edge shows none.
+bool is_drawn(const Scene& casters, std::uint32_t caster, MapCulling culling) {
+    const double front = side(casters, caster, {-casters.camera.forward, 0.0});
+    if (culling == MapCulling::front) return front < 0;
+    return culling == MapCulling::back ? front > 0 : front != 0;
+}
+
+} // namespace
+
+ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpixel_bits,
+                           int threads)
+    : LightView(scene, map), half_step_(half_snapping_step(subpixel_bits)) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    casters_.name = scene.name;
+    casters_.positions = scene.positions;
+    casters_.materials = {{.name = "caster", .double_sided = true}};
+    casters_.lights = {chosen_light(scene)};
+    casters_.camera = camera(0);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        casters_.triangles.push_back(scene.triangles[triangle]);
+        of_scene_.push_back(triangle);
+    }
+    casters_.meshes = {{.name = "casters",
+                        .triangle_count = static_cast<std::uint32_t>(casters_.triangles.size())}};
+    reach_ = half_step_;
+    for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster) {
+        drawn_.push_back(is_drawn(casters_, caster, map.model.culling) ? 1 : 0);
+        Box box{glm::dvec2(map.model.size), glm::dvec2(0)};
+        for (const PicturePoint& point : pictured_in_parallel(casters_, camera(0), caster)) {
+            const double reach = point.place_error + 2 * half_step_;
+            box.low = glm::min(box.low, point.place - reach);
+            box.high = glm::max(box.high, point.place + reach);
+            reach_ = std::max(reach_, half_step_ + point.place_error);
+        }
+        boxes_.push_back(box);
+    }
+    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(casters_, threads);
+}
+
+std::uint32_t ParallelView::caster_of(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(
+        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
+}
+
+AnyRay ParallelView::ray_at(double x, double y) const {
+    const Camera& from = camera(0);
+    const double half = from.tan_half_height;
+    return {from.eye + half * (2 * x / from.width - 1) * from.right +
+                half * (1 - 2 * y / from.height) * from.up,
+            from.forward, model().near, model().far};
+}
+
+std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays) const {
+    std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
+    if (!tracer_) return found;
+    const std::vector<MetTriangle> first =
+        first_met(*tracer_, rays, [&](std::uint32_t caster) { return drawn_[caster] != 0; });
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (first[i].triangle != no_triangle) found[i] = {of_scene_[first[i].triangle], first[i].t};
+    return found;
+}
+
+std::vector<FromLight> ParallelView::trace(std::span<const Texel> texels) const {
+    std::vector<AnyRay> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels) rays.push_back(ray_at(texel.x + 0.5, texel.y + 0.5));
+    return met(rays);
+}
+
+FromLight ParallelView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
+    const Camera& from = camera(face);
+    const glm::dvec3 along = glm::dot(from_light, from.forward) * from.forward;
+    const AnyRay ray{from.eye + from_light - along, from.forward, model().near, model().far};
+    return met(std::span(&ray, 1)).front();
+}
+
+ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster) const {
+    const Camera& from = camera(0);
+    const auto [a, b, c] = from_short_edge(corners(casters_, caster));
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double along = glm::dot(from.forward, normal);
+    const double side_of_texel = 2 * from.tan_half_height / from.width;
+    return {glm::dot(a - ray_at(texel.x + 0.5, texel.y + 0.5).origin, normal) / along,
+            side_of_texel *
+                (std::abs(glm::dot(from.right, normal)) + std::abs(glm::dot(from.up, normal))) /
+                std::abs(along)};
+}
+
+SlopeOffset ParallelView::offset(std::uint32_t caster) const {
+    if (model().slope_bias == 0) return {};
+    return slope_offset(pictured_in_parallel(casters_, camera(0), caster), model().slope_bias, 1,
+                        half_step_);
+}
+
+double ParallelView::moved_away(const Texel& /*texel*/, std::uint32_t triangle,
+                                double depth) const {
+    return moved_by(depth, offset(caster_of(triangle)).own);
+}
+
+// A corner snapped aside moves the plane by its slope; set-up comes with the corners' own errors;
+// the window's roundings are those of a depth, and of its sum with a slope's offset; and the format
+// rounds.
+double ParallelView::error(const Texel& texel, std::uint32_t caster, const Plane& plane) const {
+    const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
+    return least_error(plane) +
+           window_depth_error(pictured_in_parallel(casters_, camera(0), caster), place, half_step_);
+}
+
+double ParallelView::least_error(const Plane& plane) const {
+    return half_step_ * plane.slope / (model().far - model().near) +
+           (window_depth_roundings + 1) * float_roundoff + half_step();
+}
+
+bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
+    const Plane at = plane(texel, caster);
+    if (!at.has_depth()) return true; // seen edge-on: any depth may come out
+    const SlopeOffset moved = offset(caster);
+    const double depth = window(at.depth);
+    // A part of the error that is nearly always enough, without what set-up adds.
+    if (moved.most == 0 && std::abs(stored(texel) - depth) <= least_error(at)) return true;
+    const double off = error(texel, caster, at);
+    return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
+           stored(texel) <= depth + moved.most + off;
+}
+
+bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
+    const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
+    const Box& box = boxes_[caster];
+    if (place.x < box.low.x || place.y < box.low.y || place.x > box.high.x || place.y > box.high.y)
+        return false;
+    const std::vector<PicturePoint> polygon = pictured_in_parallel(casters_, camera(0), caster);
+    return may_hold(polygon, place, std::numbers::sqrt2 * half_step_) &&
+           (drawn_[caster] != 0 || may_be_flipped(polygon, half_step_));
+}
+
+LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster) const {
+    const double depth = plane(texel, caster).depth;
+    return {true, of_scene_[caster], depth, moved_by(depth, offset(caster).own)};
+}
+
+LightView::Shown ParallelView::shown(const Texel& texel, const FromLight& at_centre) const {
+    if (!is_in_format(stored(texel))) return {};
+    if (at_centre.triangle == no_triangle && stored(texel) == 1)
+        return {true, no_triangle, infinity, infinity};
+    if (at_centre.triangle != no_triangle) {
+        const std::uint32_t caster = caster_of(at_centre.triangle);
+        if (may_store(texel, caster)) return showing(texel, caster);
+    }
+    return shown_around(texel);
+}
+
+// Next to an outline any triangle that may cover the centre may be stored, none farther than what
+// is seen all around. What lies as near to the near or far plane as its depth is off may be
+// clipped, and what may be flipped, culled: neither hides anything.
+LightView::Shown ParallelView::shown_around(const Texel& texel) const {
+    constexpr std::array steps{0.0, -1.0, 1.0, -0.5, 0.5};
+    std::vector<AnyRay> rays;
+    for (const double right : steps)
+        for (const double down : steps)
+            rays.push_back(ray_at(texel.x + 0.5 + reach_ * right, texel.y + 0.5 + reach_ * down));
+    double farthest = 0;
+    for (const FromLight& seen : met(rays)) {
+        double hidden_behind = infinity;
+        if (seen.triangle != no_triangle) {
+            const std::uint32_t caster = caster_of(seen.triangle);
+            const Plane at = plane(texel, caster);
+            const double off = at.has_depth() ? error(texel, caster, at) : infinity;
+            const double depth = window(at.depth);
+            const bool hides =
+                depth - off > 0 && depth + off < 1 &&
+                !may_be_flipped(pictured_in_parallel(casters_, camera(0), caster), half_step_);
+            if (hides) hidden_behind = depth + off + offset(caster).most;
+        }
+        if (hidden_behind == infinity && stored(texel) == 1)
+            return {true, no_triangle, infinity, infinity};
+        farthest = std::max(farthest, hidden_behind);
+    }
+    if (stored(texel) > farthest) return {};
+    for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster)
+        if (may_draw(texel, caster) && may_store(texel, caster)) return showing(texel, caster);
+    return {};
+}
+
+} // namespace shadowproof

@@ -1,0 +1,58 @@
+// The casters as a light at infinity sees them, which draws its map in parallel projection.
+#pragma once
+
+#include "compare/maps/light_view.h"
+#include "compare/maps/pictured_caster.h"
+#include "compare/maps/slope_offset.h"
+#include "reference/trace/first_met.h"
+
+#include <cmath>
+#include <glm/vec2.hpp>
+
+namespace shadowproof {
+
+class ParallelView final : public LightView {
+public:
+    ParallelView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads);
+
+    std::vector<FromLight> trace(std::span<const Texel> texels) const override;
+    FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
+    Shown shown(const Texel& texel, const FromLight& at_centre) const override;
+    double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
+
+private:
+    /// Around a caster in the picture, in texels, as far as it may be drawn.
+    struct Box {
+        glm::dvec2 low{0, 0};
+        glm::dvec2 high{0, 0};
+    };
+    /// A caster's plane at a texel's centre.
+    struct Plane {
+        double depth = 0;
+        double slope = 0; ///< change of the depth over a texel's step, of both axes in sum
+        bool has_depth() const { return std::isfinite(depth) && std::isfinite(slope); }
+    };
+
+    Scene casters_;                       ///< alone
+    std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
+    std::vector<std::uint8_t> drawn_;     ///< which show a side that is not culled
+    std::vector<Box> boxes_;              ///< one per caster
+    std::unique_ptr<Tracer> tracer_;      ///< null without casters
+    double half_step_ = 0;                ///< of the snapping grid, texels
+    double reach_ = 0;                    ///< how far aside a caster may be drawn, texels
+
+    std::uint32_t caster_of(std::uint32_t triangle) const;
+    AnyRay ray_at(double x, double y) const;
+    std::vector<FromLight> met(std::span<const AnyRay> rays) const;
+    double window(double depth) const { return map_window_depth(model(), depth); }
+    Plane plane(const Texel& texel, std::uint32_t caster) const;
+    SlopeOffset offset(std::uint32_t caster) const;
+    double error(const Texel& texel, std::uint32_t caster, const Plane& plane) const;
+    double least_error(const Plane& plane) const;
+    bool may_store(const Texel& texel, std::uint32_t caster) const;
+    bool may_draw(const Texel& texel, std::uint32_t caster) const;
+    Shown showing(const Texel& texel, std::uint32_t caster) const;
+    Shown shown_around(const Texel& texel) const;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,253 @@
+#include "compare/maps/perspective_view.h"
+
+#include "compare/driver/clipped_polygon.h"
+#include "compare/driver/error_bounds.h"
+#include "compare/driver/neighbourhood.h"
+#include "compare/driver/setup_error.h"
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double v = float_roundoff;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The casters before the face's camera, each drawn from the sides that the model does not cull.
+Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
+                 std::vector<std::uint32_t>& of_scene) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    Scene casters;
+    casters.name = scene.name;
+    casters.positions = scene.positions;
+    of_scene.clear();
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        const glm::uvec3 corners = scene.triangles[triangle];
+        casters.triangles.push_back(model.culling == MapCulling::front
+                                        ? glm::uvec3(corners.x, corners.z, corners.y)
+                                        : corners);
+        of_scene.push_back(triangle);
+    }
+    casters.materials = {{.name = "caster", .double_sided = model.culling == MapCulling::none}};
+    casters.meshes = {{.name = "casters",
+                       .triangle_count = static_cast<std::uint32_t>(casters.triangles.size())}};
+    casters.lights = {chosen_light(scene)};
+    casters.camera = map_camera(chosen_light(scene), model, face);
+    return casters;
+}
+
+} // namespace
+
+PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int subpixel_bits,
+                                 int threads)
+    : LightView(scene, map), depth_model_(map_depth_model(map.model)) {
+    depth_model_.subpixel_bits = subpixel_bits;
+    for (std::size_t face = 0; face < map.model.faces(); ++face)
+        faces_.push_back(casters_of(scene, map.model, face, of_scene_));
+    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(faces_.front(), threads);
+}
+
+std::vector<FromLight> PerspectiveView::trace(std::span<const Texel> texels) const {
+    std::vector<FromLight> found(texels.size(), {no_triangle, infinity});
+    if (!tracer_) return found;
+    std::vector<glm::dvec3> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels)
+        rays.push_back(ray_direction(camera(texel.face), texel.x + 0.5, texel.y + 0.5));
+    const std::vector<SeenSurface> seen = see_rays(*tracer_, rays);
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (seen[i].triangle != no_triangle)
+            found[i] = {of_scene_[seen[i].triangle], seen[i].depth};
+    return found;
+}
+
+FromLight PerspectiveView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
+    const double depth = glm::dot(from_light, camera(face).forward);
+    if (!tracer_ || !(depth > 0)) return {no_triangle, infinity};
+    const glm::dvec3 ray = from_light / depth;
+    const SeenSurface seen = see_rays(*tracer_, std::span(&ray, 1)).front();
+    if (seen.triangle == no_triangle) return {no_triangle, infinity};
+    return {of_scene_[seen.triangle], seen.depth};
+}
+
+PlaneAtPixel PerspectiveView::plane(const Texel& texel, std::uint32_t caster) const {
+    const Scene& scene = faces_[texel.face];
+    return {scene,       depth_model_, drawing_of(scene, depth_model_, model().far),
+            model().far, caster,       texel.x,
+            texel.y};
+}
+
+double PerspectiveView::value(const PlaneAtPixel& plane) const {
+    const double depth = 1 / plane.inverse_depth();
+    return model().value == MapValue::depth ? depth : depth * glm::length(plane.direction());
+}
+
+std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(
+        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
+}
+
+// The window depths of corners are rounded as they are, and not as little as their inverse depths.
+SlopeOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
+    if (model().slope_bias == 0) return {};
+    const Scene& scene = faces_[texel.face];
+    const double scale = std::abs(window_depth_of(depth_model_).slope);
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
+    std::vector<PicturePoint> polygon = clipped_polygon(
+        scene.camera, {at(0), at(1), at(2)}, drawing_of(scene, depth_model_, model().far));
+    for (PicturePoint& point : polygon) point.depth_error += window_depth_roundings * v / scale;
+    return slope_offset(polygon, model().slope_bias, scale,
+                        half_snapping_step(depth_model_.subpixel_bits));
+}
+
+double PerspectiveView::moved_away(const Texel& texel, std::uint32_t triangle, double depth) const {
+    return moved_by(depth, offset(texel, caster_of(triangle)).own);
+}
+
+/// The largest window depth at which the driver may draw a caster at a texel.
+double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const {
+    const PlaneAtPixel at = plane(texel, caster);
+    if (!at.has_depth()) return infinity;
+    const WindowDepth window = window_depth_of(depth_model_);
+    return window.at(at.inverse_depth()) + std::abs(window.slope) * at.error() + half_step() +
+           offset(texel, caster).most;
+}
+
+// The sum of depth and offset rounds once more.
+bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel,
+                                      std::uint32_t caster) const {
+    const WindowDepth window = window_depth_of(depth_model_);
+    const double depth = window.at(at.inverse_depth());
+    const double off = std::abs(window.slope) * at.error() + half_step() + v;
+    const SlopeOffset moved = offset(texel, caster);
+    return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
+           stored(texel) <= depth + moved.most + off;
+}
+
+// A distance is the length of a vector that is interpolated over the triangle: off by the lateral
+// error of the place, as the plane's depth is, by the interpolation's share of the largest corner's
+// components, and by the roundings of a length, a quotient and the format: 8 v.
+bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const {
+    const PlaneAtPixel at = plane(texel, caster);
+    if (!at.has_depth()) return true; // seen edge-on: any depth may come out
+    const double read = stored(texel);
+    if (model().slope_bias != 0) return may_store_moved(at, texel, caster);
+    if (model().value == MapValue::depth) {
+        if (at.is_depth(read)) return true;
+        if (model().format != MapFormat::d16) return false; // is_depth knows the others
+        const WindowDepth window = window_depth_of(depth_model_);
+        return std::abs(read - window.at(at.inverse_depth())) <=
+               half_step() + std::abs(window.slope) * at.error();
+    }
+    const double inverse = at.inverse_depth();
+    const double length = glm::length(at.direction());
+    const double far = model().far;
+    const auto within = [&](double low, double high, double more) {
+        const double roundings = 8 * v * high + more + half_step() * far;
+        return read * far >= std::min(low - roundings, far) && read * far <= high + roundings;
+    };
+    const auto off_by = [&](double error_of_inverse, double error_of_direction, double more) {
+        const double high = inverse > error_of_inverse
+                                ? (length + error_of_direction) / (inverse - error_of_inverse)
+                                : infinity;
+        return within((length - error_of_direction) / (inverse + error_of_inverse), high, more);
+    };
+    if (off_by(0, 0, 0)) return true;
+    const Scene& scene = faces_[texel.face];
+    const CoveredPixel pixel{at.direction(), at.lateral(),
+                             drawing_of(scene, depth_model_, model().far)};
+    const double interpolated =
+        std::sqrt(3.0) * interpolated_place_error(scene, caster, pixel, scene.camera.eye);
+    return off_by(at.error_of_place(), std::sqrt(2.0) * at.spread(), interpolated);
+}
+
+LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t caster) const {
+    const double exact = value(plane(texel, caster));
+    return {true, of_scene_[caster], exact, moved_away(texel, of_scene_[caster], exact)};
+}
+
+LightView::Shown PerspectiveView::shown(const Texel& texel, const FromLight& at_centre) const {
+    if (!is_in_format(stored(texel))) return {};
+    if (at_centre.triangle == no_triangle && stored(texel) == 1)
+        return {true, no_triangle, infinity, infinity};
+    if (at_centre.triangle != no_triangle) {
+        const std::uint32_t caster = caster_of(at_centre.triangle);
+        if (may_store(texel, caster)) return showing(texel, caster);
+    }
+    return shown_around(texel);
+}
+
+bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {
+    if (seen.triangle == no_triangle) return false;
+    const double to_near = 1 / model().near - 1 / seen.depth;
+    const double to_far = 1 / seen.depth - 1 / model().far;
+    const PlaneAtPixel at = plane(texel, seen.triangle);
+    return !at.has_depth() || std::min(to_near, to_far) <= at.error();
+}
+
+/// Whether the clipper, which moves the corners that it makes, may have made a triangle cover the
+/// texel's centre.
+bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster,
+                                        double reach) const {
+    const Scene& scene = faces_[texel.face];
+    const Drawing drawing = drawing_of(scene, depth_model_, model().far);
+    std::vector<ViewCorner> corners;
+    for (int k = 0; k < 3; ++k)
+        corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
+    const auto is_beyond_near = [&](const ViewCorner& c) { return c.at.z > 2 * model().near; };
+    if (std::all_of(corners.begin(), corners.end(), is_beyond_near)) return false;
+    const std::vector<PicturePoint> polygon =
+        clipped_polygon(scene.camera, std::move(corners), drawing, PlaneCut::most);
+    return may_hold(polygon, {texel.x + 0.5, texel.y + 0.5}, reach);
+}
+
+// Next to an outline any triangle that may cover the centre may be stored, none farther than what
+// is seen all around. What lies as near to the near or far plane as its depth is off may be
+// clipped, and hides nothing.
+LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
+    if (!tracer_) return {};
+    const Scene& scene = faces_[texel.face];
+    const glm::dvec3 centre = ray_direction(scene.camera, texel.x + 0.5, texel.y + 0.5);
+    const double reach =
+        lateral_error(scene, depth_model_, scene.camera.eye + model().near * centre);
+    const Neighbourhood around =
+        neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
+    double farthest = 0;
+    double deepest_seen = 0; // as a window depth; with a slope bias
+    for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
+        const bool clipped = may_be_clipped(texel, seen);
+        if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1)
+            return {true, no_triangle, infinity, infinity};
+        if (model().slope_bias != 0)
+            deepest_seen = std::max(deepest_seen, clipped || seen.triangle == no_triangle
+                                                      ? infinity
+                                                      : deepest(texel, seen.triangle));
+        farthest = std::max(farthest, clipped ? infinity : seen.depth);
+    }
+    const auto may_show = [&](std::uint32_t caster) {
+        const PlaneAtPixel at = plane(texel, caster);
+        if (model().slope_bias != 0)
+            return stored(texel) <= deepest_seen && may_store(texel, caster);
+        // Distances are compared as they are stored, so that window depth's roundings do not count.
+        const double error = model().value == MapValue::depth ? at.error() : at.error_of_place();
+        const bool hidden = (at.inverse_depth() + error) * farthest * (1 + 0x1p-16) < 1;
+        return !hidden && may_store(texel, caster);
+    };
+    const double reach_of_ray = spread(around);
+    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+        if (may_cover(scene, caster, centre, reach_of_ray) && may_show(caster))
+            return showing(texel, caster);
+    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+        if (clipping_may_draw(texel, caster, reach) && may_show(caster))
+            return showing(texel, caster);
+    return {};
+}
+
+} // namespace shadowproof

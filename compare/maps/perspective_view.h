@@ -1,0 +1,39 @@
+// The casters as a light with a position sees them, which draws its map in perspective.
+#pragma once
+
+#include "compare/driver/plane_at_pixel.h"
+#include "compare/maps/light_view.h"
+#include "compare/maps/slope_offset.h"
+#include "reference/trace/trace.h"
+
+namespace shadowproof {
+
+class PerspectiveView final : public LightView {
+public:
+    PerspectiveView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads);
+
+    std::vector<FromLight> trace(std::span<const Texel> texels) const override;
+    FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
+    Shown shown(const Texel& texel, const FromLight& at_centre) const override;
+    double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
+
+private:
+    DepthModel depth_model_;
+    std::vector<Scene> faces_;            ///< one per face; casters alone
+    std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
+    std::unique_ptr<Tracer> tracer_;      ///< of the first face's scene; null without casters
+
+    PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
+    double value(const PlaneAtPixel& plane) const;
+    std::uint32_t caster_of(std::uint32_t triangle) const;
+    SlopeOffset offset(const Texel& texel, std::uint32_t caster) const;
+    double deepest(const Texel& texel, std::uint32_t caster) const;
+    bool may_store_moved(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
+    bool may_store(const Texel& texel, std::uint32_t caster) const;
+    bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
+    bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
+    Shown shown_around(const Texel& texel) const;
+    Shown showing(const Texel& texel, std::uint32_t caster) const;
+};
+
+} // namespace shadowproof

@@ -1,0 +1,38 @@
+#include "raster/maps/map_shadows.h"
+#include "raster/technique.h"
+
+#include <algorithm>
+
+namespace shadowproof {
+
+namespace {
+
+/// The light's depths in one square, drawn in parallel along the light, that is fitted to all that
+/// casts or receives.
+Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+    return draw_map_shadows(gpu, scene, plan, {.model = sun_model()});
+}
+
+/// Nothing has a distance from a light at infinity.
+std::vector<std::string_view> settings_without_value() {
+    std::vector<std::string_view> settings = depth_map_settings();
+    std::erase(settings, "map-value");
+    return settings;
+}
+
+} // namespace
+
+Technique sun_map_technique() {
+    return {.name = "sun_map",
+            .summary = "a directional light's map of depths, in parallel projection",
+            .source = "Williams 1978; CS448 lecture 11, shadow maps; the projection: orthographic",
+            .needs = "a directional light",
+            .cost = 1.2,
+            .fails_at = map_failings(),
+            .by_nature = map_failings_by_nature(),
+            .lights = {Light::Kind::directional},
+            .settings = settings_without_value(),
+            .run = run};
+}
+
+} // namespace shadowproof
