@@ -145,10 +145,11 @@ function matrixEntry(scene, cell, filter, compact) {
   const verdict = verdictOf(cell);
   if (!isWanted(scene, cell, filter)) return element('td', { class: 'none' }, '·');
   const { mark, words } = verdicts[verdict];
-  const [worst] = causesOf(cell);
   const beyond = beyondEdges(cell);
+  const [worst, ...others] = causesOf(cell).filter(([name]) => beyond === 0 || name !== 'edge');
   const pixels = beyond || cell.differing || 0;
-  const why = pixels > 0 ? `${grouped(pixels)}${compact ? '' : ` ${worst[0]}`}` : '';
+  const causes = worst ? ` ${worst[0]}${others.length > 0 ? ` and ${others.length} more` : ''}` : '';
+  const why = pixels > 0 ? `${grouped(pixels)}${compact ? '' : causes}` : '';
   const color = cell.color && !compact ? `colour ${fewSteps(cell.color.largest)}/255` : '';
   const since = sinceWords(cell);
   return element('td', { class: `${verdict}${isFailing(cell) ? ' failing' : ''}` },
