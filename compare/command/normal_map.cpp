@@ -29,6 +29,7 @@ struct NormalMapOptions {
     int level = 0;
     bool green_down = false;
     bool quiet = false;
+    double timeout = 600; ///< seconds; 0: any number
     MemoryBudget memory{};
 };
 
@@ -126,9 +127,12 @@ Work add_normal_map(CLI::App& app) {
         ->check(CLI::NonNegativeNumber);
     command->add_flag("--green-down", options->green_down,
                       "y down the picture, as some engines have it");
+    add_timeout_flag(*command, options->timeout,
+                     "Seconds above which it is given up (600; 0: any number)");
     command->add_flag("-q,--quiet", options->quiet, "No output but errors");
     return [options] {
-        return guarded([&](int watcher) { return make_normal_map(*options, watcher); });
+        return guarded_within(options->timeout, options->heights,
+                              [&](int watcher) { return make_normal_map(*options, watcher); });
     };
 }
 

