@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shadowproof {
 
@@ -41,6 +42,16 @@ double LightView::half_step() const {
 double LightView::moved_by(double depth, double offset) const {
     if (offset == 0) return depth;
     return value_of_stored(model(), std::min(map_window_depth(model(), depth) + offset, 1.0));
+}
+
+LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!is_in_format(stored(texel))) return {};
+    if (at_centre.triangle == no_triangle && stored(texel) == 1)
+        return {true, no_triangle, infinity, infinity};
+    if (at_centre.triangle != no_triangle)
+        if (const Shown centre = shown_of(texel, at_centre.triangle); centre.shows) return centre;
+    return shown_around(texel);
 }
 
 std::unique_ptr<LightView> light_view(const Scene& scene, const MapEvidence& map, int subpixel_bits,

@@ -54,7 +54,7 @@ public:
                           ///< value, in world units; infinity where nothing is shown
         double moved = 0; ///< the same as the slope bias moves it
     };
-    virtual Shown shown(const Texel& texel, const FromLight& at_centre) const = 0;
+    Shown shown(const Texel& texel, const FromLight& at_centre) const;
 
     /// A depth of a triangle of the scene as the slope bias moves it there, in world units, and at
     /// most to the far plane; the depth itself without one.
@@ -71,6 +71,11 @@ protected:
     double moved_by(double depth, double offset) const;
 
 private:
+    /// Where the texel may hold what is stored there because it shows this triangle.
+    virtual Shown shown_of(const Texel& texel, std::uint32_t triangle) const = 0;
+    /// The same for any triangle that the driver may draw there.
+    virtual Shown shown_around(const Texel& texel) const = 0;
+
     const MapEvidence& map_;
     std::vector<Camera> cameras_; ///< one per face
 };

@@ -158,15 +158,10 @@ LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster)
     return {true, of_scene_[caster], depth, moved_by(depth, offset(caster).own)};
 }
 
-LightView::Shown ParallelView::shown(const Texel& texel, const FromLight& at_centre) const {
-    if (!is_in_format(stored(texel))) return {};
-    if (at_centre.triangle == no_triangle && stored(texel) == 1)
-        return {true, no_triangle, infinity, infinity};
-    if (at_centre.triangle != no_triangle) {
-        const std::uint32_t caster = caster_of(at_centre.triangle);
-        if (may_store(texel, caster)) return showing(texel, caster);
-    }
-    return shown_around(texel);
+LightView::Shown ParallelView::shown_of(const Texel& texel, std::uint32_t triangle) const {
+    const std::uint32_t caster = caster_of(triangle);
+    if (!may_store(texel, caster)) return {};
+    return showing(texel, caster);
 }
 
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what

@@ -17,7 +17,6 @@ public:
 
     std::vector<FromLight> trace(std::span<const Texel> texels) const override;
     FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
-    Shown shown(const Texel& texel, const FromLight& at_centre) const override;
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
@@ -52,7 +51,8 @@ private:
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool may_draw(const Texel& texel, std::uint32_t caster) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;
-    Shown shown_around(const Texel& texel) const;
+    Shown shown_of(const Texel& texel, std::uint32_t triangle) const override;
+    Shown shown_around(const Texel& texel) const override;
 };
 
 } // namespace shadowproof

@@ -173,15 +173,10 @@ LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t cast
     return {true, of_scene_[caster], exact, moved_away(texel, of_scene_[caster], exact)};
 }
 
-LightView::Shown PerspectiveView::shown(const Texel& texel, const FromLight& at_centre) const {
-    if (!is_in_format(stored(texel))) return {};
-    if (at_centre.triangle == no_triangle && stored(texel) == 1)
-        return {true, no_triangle, infinity, infinity};
-    if (at_centre.triangle != no_triangle) {
-        const std::uint32_t caster = caster_of(at_centre.triangle);
-        if (may_store(texel, caster)) return showing(texel, caster);
-    }
-    return shown_around(texel);
+LightView::Shown PerspectiveView::shown_of(const Texel& texel, std::uint32_t triangle) const {
+    const std::uint32_t caster = caster_of(triangle);
+    if (!may_store(texel, caster)) return {};
+    return showing(texel, caster);
 }
 
 bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {

@@ -149,6 +149,14 @@ test('a mark names technique and settings where it is pointed at, and by keyboar
                'pictures/index.html#ordinary/bump_one_pass');
 });
 
+/** The name and the bytes of the file that a button saves. */
+async function saved(page, button) {
+  const waiting = page.waitForEvent('download');
+  await page.click(button);
+  const download = await waiting;
+  return [download.suggestedFilename(), readFileSync(await download.path())];
+}
+
 test('another error shows the points that have it alone', async () => {
   const { page } = await openReport(plot);
   await page.selectOption('#kind', 'rmse');
@@ -157,18 +165,12 @@ test('another error shows the points that have it alone', async () => {
 
 test('the plot is saved as SVG that stands by itself, and as PNG', async () => {
   const { page } = await openReport(plot, { theme: 'dark' });
-  const saved = async (button) => {
-    const waiting = page.waitForEvent('download');
-    await page.click(button);
-    const download = await waiting;
-    return [download.suggestedFilename(), readFileSync(await download.path())];
-  };
-  const [name, svg] = await saved('#svg');
+  const [name, svg] = await saved(page, '#svg');
   assert.equal(name, 'bench-ordinary.svg');
   assert.match(svg.toString(), /^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg"/);
   assert.match(svg.toString(), /fill="#ffffff"/); // paper, whatever the theme
   assert.ok(!/var\(|style=/.test(svg.toString()));
-  const [picture, png] = await saved('#png');
+  const [picture, png] = await saved(page, '#png');
   assert.equal(picture, 'bench-ordinary.png');
   assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
   assert.ok(png.readUInt32BE(16) >= 3 * 760);
@@ -280,17 +282,11 @@ test('growth is drawn with its laws, exponents and intervals, and breaks are nam
 
 test('growth is saved as SVG that stands by itself, and as PNG', async () => {
   const { page } = await openReport(plot, { theme: 'dark' });
-  const saved = async (button) => {
-    const waiting = page.waitForEvent('download');
-    await page.click(button);
-    const download = await waiting;
-    return [download.suggestedFilename(), readFileSync(await download.path())];
-  };
-  const [name, svg] = await saved('#growth-pixels-svg');
+  const [name, svg] = await saved(page, '#growth-pixels-svg');
   assert.equal(name, 'bench-growth-pixels.svg');
   assert.match(svg.toString(), /^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg".*fill="#ffffff".*zpass/s);
   assert.ok(!/var\(|style=/.test(svg.toString()));
-  const [picture, png] = await saved('#growth-pixels-png');
+  const [picture, png] = await saved(page, '#growth-pixels-png');
   assert.equal(picture, 'bench-growth-pixels.png');
   assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
   assert.equal(png.readUInt32BE(16), 3 * 1100);

@@ -119,8 +119,24 @@ protected:
     }
 };
 
-TEST_F(Maps, err_less_the_more_texels_they_have) {
-    std::uint64_t before = ordinary.truth.visibility.pixels.size();
+/// A technique on the scene that it suits.
+struct OnScene {
+    const char* technique;
+    const char* scene;
+};
+
+class MapOfEachKind : public testing::TestWithParam<OnScene> {
+protected:
+    Gpu gpu{GlPlatform::osmesa};
+    TracedScene traced{small(GetParam().scene)};
+
+    Comparison judged(const MapSettings& settings) {
+        return compared(traced, drawn(gpu, traced, GetParam().technique, settings));
+    }
+};
+
+TEST_P(MapOfEachKind, errs_less_the_more_texels_it_has) {
+    std::uint64_t before = traced.truth.visibility.pixels.size();
     for (const int size : {16, 64, 256, 1024}) {
         const std::uint64_t wrong = judged({.size = size, .bias = 0.05}).differing;
         EXPECT_LT(wrong, before) << size;
@@ -128,9 +144,9 @@ TEST_F(Maps, err_less_the_more_texels_they_have) {
     }
 }
 
-TEST_F(Maps, without_bias_show_acne_and_no_leak_and_with_a_large_one_the_reverse) {
+TEST_P(MapOfEachKind, shows_acne_alone_without_bias_and_leaks_alone_with_a_large_one) {
     const Comparison none = judged({.bias = 0});
-    EXPECT_GT(pixels_of(none, Cause::acne), 1000U);
+    EXPECT_GT(pixels_of(none, Cause::acne), 100U);
     EXPECT_EQ(pixels_of(none, Cause::leak), 0U);
     const Comparison large = judged({.bias = 0.6});
     EXPECT_EQ(pixels_of(large, Cause::acne), 0U);
@@ -138,6 +154,11 @@ TEST_F(Maps, without_bias_show_acne_and_no_leak_and_with_a_large_one_the_reverse
     EXPECT_TRUE(is_explained(none));
     EXPECT_TRUE(is_explained(large));
 }
+
+INSTANTIATE_TEST_SUITE_P(Maps, MapOfEachKind,
+                         testing::Values(OnScene{"cube_map_six_pass", "ordinary"},
+                                         OnScene{"sun_map", "sun"}),
+                         [](const auto& of) { return std::string(of.param.technique); });
 
 TEST_F(Maps, without_acne_have_bias_enough_to_mend_it) {
     EXPECT_GT(pixels_of(judged({.size = 128, .bias = 0.01}), Cause::acne), 0U);

@@ -54,26 +54,6 @@ TEST_F(SunMap, holds_all_that_casts_or_receives_and_little_more) {
     }
 }
 
-TEST_F(SunMap, without_bias_shows_acne_and_no_leak_and_with_a_large_one_the_reverse) {
-    const Comparison none = judged({.bias = 0});
-    EXPECT_GT(pixels_of(none, Cause::acne), 100U);
-    EXPECT_EQ(pixels_of(none, Cause::leak), 0U);
-    const Comparison large = judged({.bias = 0.6});
-    EXPECT_EQ(pixels_of(large, Cause::acne), 0U);
-    EXPECT_GT(pixels_of(large, Cause::leak), 10U);
-    EXPECT_TRUE(is_explained(none));
-    EXPECT_TRUE(is_explained(large));
-}
-
-TEST_F(SunMap, errs_less_the_more_texels_it_has) {
-    std::uint64_t before = sun.truth.visibility.pixels.size();
-    for (const int size : {16, 64, 256, 1024}) {
-        const std::uint64_t wrong = judged({.size = size, .bias = 0.05}).differing;
-        EXPECT_LT(wrong, before) << size;
-        before = wrong;
-    }
-}
-
 TEST_F(SunMap, shows_range_where_its_planes_cut_the_scene_and_nowhere_else) {
     EXPECT_EQ(pixels_of(judged({}), Cause::range), 0U);
     const MapModel own = with_settings(sun_model(), {}, sun.scene);
