@@ -1,36 +1,10 @@
 # Installs the build to a folder, moves it, and lets a project that knows only that folder build,
 # link and test. The folder stays where something failed, for people to look at.
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 set(OUTSIDE ${CMAKE_CURRENT_LIST_DIR}/outside)
 set(PREFIX ${WORK}/prefix)
 # Whoever runs this may have set it; the scenes are to be those of the prefix.
 unset(ENV{SHADOWPROOF_SCENES})
-
-# run(EXPECTED COMMAND...): expects an exit code (or "refused": any but 0); output lands in `output`.
-function(run EXPECTED)
-    execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text)
-    if(NOT code STREQUAL EXPECTED AND NOT (EXPECTED STREQUAL refused AND NOT code EQUAL 0))
-        list(JOIN ARGN " " command)
-        message(NOTICE "${text}") # by itself, because CMake breaks the lines of its errors
-        message(FATAL_ERROR "ended with ${code}, not ${EXPECTED}: ${command}")
-    endif()
-    set(output "${text}" PARENT_SCOPE)
-endfunction()
-
-function(expect_in TEXT WORDS)
-    # CMake breaks the lines of its messages.
-    string(REGEX REPLACE "[ \n]+" " " flat "${TEXT}")
-    string(FIND "${flat}" "${WORDS}" place)
-    if(place EQUAL -1)
-        message(NOTICE "${TEXT}")
-        message(FATAL_ERROR "'${WORDS}' is not in it")
-    endif()
-endfunction()
-
-function(expect_same ACTUAL EXPECTED)
-    if(NOT ACTUAL STREQUAL EXPECTED)
-        message(FATAL_ERROR "is not as expected\n  ${ACTUAL}\n  ${EXPECTED}")
-    endif()
-endfunction()
 
 function(configure EXPECTED FOLDER)
     run(${EXPECTED} ${CMAKE_COMMAND} -S ${OUTSIDE} -B ${FOLDER} -G ${GENERATOR}
@@ -166,8 +140,21 @@ function(openimageio_is_found_in_the_package)
     expect_in("${output}" "calling init: ${libraries}")
 endfunction()
 
+# Where man and bash look for them, and as the command prints them.
+function(manual_page_and_completion_are_installed)
+    foreach(file man/man1/shadowproof.1:--man-page bash-completion/completions/shadowproof:--completion)
+        string(REPLACE ":" ";" file ${file})
+        list(GET file 0 path)
+        list(GET file 1 flag)
+        run(0 ${PREFIX}/${BIN}/shadowproof ${flag})
+        file(READ ${PREFIX}/share/${path} installed)
+        expect_same("${installed}" "${output}")
+    endforeach()
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
 install_and_move()
+manual_page_and_completion_are_installed()
 outside_project_builds_and_its_tests_pass()
 the_test_that_fails_does_so_for_its_shadows()
 every_argument_reaches_the_command()
