@@ -200,6 +200,7 @@ function howMade(results, { scene, cell }) {
     cell.command ? commandLine('copy-command', 'Reproduce this cell', cell.command) : null,
     facts([
       ['Technique', cell.summary], ['Drawn in', cell.error ? null : milliseconds(cell.ms)],
+      ['Gate', cell.gate ? gateWords(cell) : null],
       ...family.facts(cell),
       ['Truth traced in', reference && milliseconds(reference.ms)],
       ['Rays', reference && grouped(reference.rays)],

@@ -3,7 +3,7 @@
 
 /** By the values of the block color_verdict. */
 const colorVerdictWords = [
-  'not judged, as surface or visibility are not the truth’s',
+  'that of what the technique shows, which is background or not the truth’s',
   'within the bound of what the error budget explains',
   'beyond the bound of what the error budget explains, as the technique’s arithmetic predicts',
   'not what the technique’s arithmetic predicts',
@@ -42,7 +42,7 @@ function colorLine(scene, cell) {
   if (!color) return null;
   const { largest, largest_at: at, rmse, p999 } = color;
   return element('p', { class: 'colors' }, element('b', {}, 'Colours: '),
-    !at ? 'none is judged, as surface or visibility are nowhere the truth’s; '
+    !at ? 'none is held against the truth, as surface or visibility are nowhere that; '
         : [`off by at most ${largest.toFixed(2)}/255 at `,
            element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
                    `(${at.x}, ${at.y})`),

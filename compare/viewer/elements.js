@@ -28,9 +28,10 @@ function announce(text) {
   found('said').textContent = text;
 }
 
-/** A square of a colour; the words beside it carry the meaning. */
-const swatch = (color) =>
-  element('span', { class: 'swatch', style: `--color:${color}`, 'aria-hidden': 'true' });
+/** A mark of a colour; the words beside it carry the meaning. */
+const swatchShapes = ['square', 'disc', 'diamond', 'ring'];
+const swatch = (color, shape = 'square') =>
+  element('span', { class: `swatch ${shape}`, style: `--color:${color}`, 'aria-hidden': 'true' });
 
 const alertLine = (text) => element('p', { class: 'alert', role: 'alert' }, text);
 

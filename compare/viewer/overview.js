@@ -31,11 +31,12 @@ function headline(results) {
   return 'Failed';
 }
 
-function gateWords(results) {
-  const gate = results.gate === 'differences' ? 'any difference beyond edges'
-                                              : 'defects and unexplained pixels';
-  const allow = results.allow?.length ? `; allowed: ${results.allow.join(', ')}` : '';
-  return `Fails on ${gate}${allow}.`;
+/** What fails in a merged report, whose cells may have been judged by gates of their own. */
+function allGateWords(results) {
+  const others = allCells(results).filter(({ cell }) => cell.gate).length;
+  const apart = others === 0 ? ''
+    : ` ${counted(others, 'cell')} ${others === 1 ? 'was' : 'were'} judged by another gate.`;
+  return gateWords(results) + apart;
 }
 
 function banner(results) {
@@ -46,7 +47,7 @@ function banner(results) {
     element('h1', {}, element('span', { 'aria-hidden': 'true' }, results.passed ? '✓ ' : '✕ '),
             headline(results)),
     element('p', {}, `${grouped(agree)} agree, ${grouped(predicted)} fail as predicted. ` +
-                     gateWords(results)),
+                     allGateWords(results)),
     baselineLine(results));
 }
 
@@ -144,7 +145,8 @@ function matrixEntry(scene, cell, filter, compact) {
   if (!cell) return element('td', { class: 'none' }, '–');
   const verdict = verdictOf(cell);
   if (!isWanted(scene, cell, filter)) return element('td', { class: 'none' }, '·');
-  const { mark, words } = verdicts[verdict];
+  const { mark } = verdicts[verdict];
+  const words = isButForEdges(cell) ? 'agrees but for edges' : verdicts[verdict].words;
   const beyond = beyondEdges(cell);
   const [worst, ...others] = causesOf(cell).filter(([name]) => beyond === 0 || name !== 'edge');
   const pixels = beyond || cell.differing || 0;
@@ -152,7 +154,8 @@ function matrixEntry(scene, cell, filter, compact) {
   const why = pixels > 0 ? `${grouped(pixels)}${compact ? '' : causes}` : '';
   const color = cell.color && !compact ? `colour ${fewSteps(cell.color.largest)}/255` : '';
   const since = sinceWords(cell);
-  return element('td', { class: `${verdict}${isFailing(cell) ? ' failing' : ''}` },
+  const edges = isButForEdges(cell) ? ' edges' : '';
+  return element('td', { class: `${verdict}${edges}${isFailing(cell) ? ' failing' : ''}` },
     element('a', { href: cellLink(scene, cell), title: `${scene.name} / ${cell.name}: ${words}` },
       element('b', {}, mark,
               compact ? element('i', { class: 'unseen' }, ` ${words}`) : ` ${words}`),
@@ -202,13 +205,16 @@ function verdictButtons(results, filter, choose) {
   const cells = allCells(results);
   return element('div', { class: 'chips', role: 'group', 'aria-label': 'Filter by verdict' },
     verdictNames.map((name) => {
-      const count = cells.filter(({ cell }) => verdictOf(cell) === name).length;
+      const own = cells.filter(({ cell }) => verdictOf(cell) === name);
+      const count = own.length;
+      const butForEdges = own.filter(({ cell }) => isButForEdges(cell)).length;
+      const apart = butForEdges > 0 ? `, ${grouped(butForEdges)} of them but for edges` : '';
       const { mark, words, meaning } = verdicts[name];
       return count === 0 ? null : element('button', {
         type: 'button', class: `chip ${name}`, title: meaning,
         'aria-pressed': String(filter.verdict === name),
         onclick: () => choose({ verdict: filter.verdict === name ? '' : name }),
-      }, element('b', {}, `${mark} ${words}`), ` ${grouped(count)}`);
+      }, element('b', {}, `${mark} ${words}`), ` ${grouped(count)}${apart}`);
     }));
 }
 
@@ -228,8 +234,12 @@ function filterControls(results, filter, choose) {
 function causeLegendList(results) {
   const causes = causesIn(results);
   if (causes.length === 0) return null;
-  return element('ul', { class: 'legend-line', 'aria-label': 'Causes' }, causes.map((cause) =>
-    element('li', {}, swatch(cause.color), element('b', {}, cause.name), ` ${cause.meaning}`)));
+  // Causes that no picture has together share colours. This list may hold them all: there each
+  // has a shape of its own.
+  const shapeOf = ({ color }, i) =>
+    swatchShapes[causes.slice(0, i).filter((each) => each.color === color).length];
+  return element('ul', { class: 'legend-line', 'aria-label': 'Causes' }, causes.map((cause, i) =>
+    element('li', {}, swatch(cause.color, shapeOf(cause, i)), causeLink(cause.name), ` ${cause.meaning}`)));
 }
 
 function madeWith(results) {
@@ -242,14 +252,29 @@ function madeWith(results) {
                 ['Settings', results.arguments?.join(' ')]]);
 }
 
+/** Columns of a table that its scrolling frame hides at the right. */
+function columnsBeyond(frame) {
+  const end = frame.getBoundingClientRect().right + 1;
+  return [...frame.querySelectorAll('thead th')]
+    .filter((head) => head.getBoundingClientRect().right > end).length;
+}
+
 function showOverview(results, params) {
   const filter = Object.fromEntries(['cause', 'find', 'verdict'].map((key) =>
     [key, params.get(key) ?? '']));
   const table = element('div', { class: 'scroll', role: 'region', tabindex: '0',
                                  'aria-label': 'Matrix' });
   const controls = element('div', {});
+  const beyond = element('p', { class: 'beyond quiet', 'aria-hidden': 'true' });
+  const sayWhatIsBeyond = () => {
+    const columns = columnsBeyond(table);
+    beyond.textContent = columns > 0 ? `${counted(columns, 'technique')} more to the right →` : '';
+  };
+  table.addEventListener('scroll', sayWhatIsBeyond);
+  new ResizeObserver(sayWhatIsBeyond).observe(table);
   const draw = (all) => {
     table.replaceChildren(matrix(results, filter));
+    sayWhatIsBeyond();
     if (all) controls.replaceChildren(filterControls(results, filter, choose));
   };
   const choose = (change) => {
@@ -269,7 +294,7 @@ function showOverview(results, params) {
   found('main').replaceChildren(
     banner(results), failures(results) ?? '',
     element('section', { 'aria-labelledby': 'matrix-title' },
-      element('h2', { id: 'matrix-title' }, 'Every scene and technique'), controls, table,
+      element('h2', { id: 'matrix-title' }, 'Every scene and technique'), controls, beyond, table,
       causeLegendList(results) ?? ''),
     runTimePlot(results) ?? '',
     element('section', { 'aria-labelledby': 'made-title' },

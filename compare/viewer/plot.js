@@ -62,33 +62,22 @@ function plotAxes({ box, low, high, decades, x, y }, width, height) {
   return svgElement('g', { class: 'axes' }, ...parts, title);
 }
 
-/** Labels below one another where they would overlap. */
+/** Rings with their names; a name for which there is no room stands in the table alone. */
 function plotLabels(techniques, { x, y, box }) {
-  const places = techniques.map(({ ms, beyond }) => [x(ms), y(beyond)]);
-  const taken = places.map(([across, down]) => [across - 8, across + 8, down + 4]); // the rings
-  return techniques.map((technique, i) => {
-    const size = 7.4 * technique.name.length;
-    const at = places[i];
-    const left = at[0] + size + 14 > box.right;
-    const begin = left ? at[0] - 12 - size : at[0] + 12;
-    const free = (row) => taken.every(([a, b, other]) =>
-      begin > b || begin + size < a || Math.abs(row - other) > 13);
-    const row = Array.from({ length: 40 },
-                           (_, k) => at[1] + 4 + (k % 2 ? -14 : 14) * ((k + 1) >> 1))
-      .find((each) => each > box.top + 8 && each < box.zero + 6 && free(each)) ?? at[1] + 4;
-    taken.push([begin, begin + size, row]);
-    const label = svgElement('text', { x: begin, y: row }, technique.name);
-    const ring = svgElement('circle', { cx: at[0], cy: at[1], r: 8 });
-    const leader = Math.abs(row - 4 - at[1]) > 6
-      ? svgElement('path', {
-        d: `M${at[0]} ${at[1]}L${left ? begin + size : begin - 2} ${row - 4}` })
-      : '';
-    return svgElement('g', { class: 'technique' }, leader, ring, label);
+  const marks = techniques.map(({ name, ms, beyond }) => ({ x: x(ms), y: y(beyond), text: name }));
+  const places = placeLabels(marks, { ...box, bottom: box.zero + 14 });
+  return marks.map((mark, i) => {
+    const { x: left, y: row, leader } = places[i] ?? {};
+    return svgElement('g', { class: 'technique' },
+      leader ? svgElement('path', {
+        d: `M${leader[0]} ${leader[1]}L${leader[2]} ${leader[3]}` }) : '',
+      svgElement('circle', { cx: mark.x, cy: mark.y, r: 8 }),
+      places[i] ? svgElement('text', { x: left, y: row }, mark.text) : '');
   });
 }
 
 function plotPicture(cells, techniques, width) {
-  const height = 330;
+  const height = Math.max(330, 18 * techniques.length);
   const scales = plotScales(cells, width, height);
   const dots = cells.map(({ scene, cell }) => {
     const verdict = verdictOf(cell);

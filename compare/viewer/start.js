@@ -41,6 +41,10 @@ async function follow(results) {
     await showCell(results, target.scene, target.cell, params);
     return;
   }
+  if (path === 'terms') {
+    showTerms(results, params);
+    return;
+  }
   showOverview(results, params);
   if (path && path !== 'main')
     found('main').prepend(alertLine(`This report has no cell “${path}”.`));

@@ -2,7 +2,7 @@
 
 const verdicts = {
   unexplained: { mark: '?', words: 'unexplained', meaning: 'a difference that nothing predicts' },
-  defect: { mark: '✕', words: 'defect', meaning: 'a cause that is not known of the technique' },
+  defect: { mark: '✕', words: 'defect', meaning: 'a cause that is not known of the technique, or precision where its numbers suffice' },
   timed_out: { mark: '…', words: 'timed out', meaning: 'given up after --timeout seconds' },
   error: { mark: '!', words: 'could not run', meaning: 'no result' },
   fails_as_predicted: { mark: '≈', words: 'fails as predicted',
@@ -13,8 +13,19 @@ const verdictNames = Object.keys(verdicts);
 
 const verdictOf = (cell) => cell.verdict ?? 'error';
 
+/** By what a run, or a cell of a merged one, is judged. */
+function gateWords(judged) {
+  const gate = judged.gate === 'differences' ? 'any difference beyond edges'
+                                             : 'defects and unexplained pixels';
+  const allow = judged.allow?.length ? `; allowed: ${judged.allow.join(', ')}` : '';
+  return `Fails on ${gate}${allow}.`;
+}
+
 /** A cell that could not run fails under every gate. */
 const isFailing = (cell) => Boolean(cell.error) || cell.fails === true;
+
+/** It agrees, and yet the rasterizer covered other pixels at outlines than the truth sees. */
+const isButForEdges = (cell) => verdictOf(cell) === 'agrees' && cell.differing > 0;
 
 const badge = (verdict) => element('span', { class: `badge ${verdict}` },
   element('span', { 'aria-hidden': 'true' }, `${verdicts[verdict].mark} `),

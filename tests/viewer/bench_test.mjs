@@ -12,7 +12,7 @@ import { named } from './scripts.mjs';
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const { frontOf, placeLabels, overlap, textWidth, spreadOut, groupOf, changeOf, timeWords, quickestRight,
         isSurelySlower, fittedLaw, growthLayout, growthTextWidth } =
-  named(['numbers.js', 'bench/figures.js', 'bench/layout.js', 'bench/growth_layout.js'],
+  named(['numbers.js', 'labels.js', 'bench/figures.js', 'bench/layout.js', 'bench/growth_layout.js'],
         ['frontOf', 'placeLabels', 'overlap', 'textWidth', 'spreadOut', 'groupOf', 'changeOf', 'timeWords',
          'quickestRight', 'isSurelySlower', 'fittedLaw', 'growthLayout', 'growthTextWidth']);
 

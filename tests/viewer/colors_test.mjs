@@ -136,7 +136,7 @@ test('where no colour is judged, none is said to be right', async () => {
     Object.assign(color, { judged: 0, largest: 0, rmse: 0, p999: 0, beyond: 0 });
     delete color.largest_at;
   }));
-  assert.match(await text(page, '.cell-head .colors'), /^Colours: none is judged/);
+  assert.match(await text(page, '.cell-head .colors'), /^Colours: none is held against the truth/);
 });
 
 test('slide, blend and toggle compare the true with the claimed colour; keys choose others', async () => {

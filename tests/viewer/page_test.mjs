@@ -97,7 +97,84 @@ test('a run that is larger than a screen still shows every cell: twelve scenes, 
   const { page } = await openReport(copy);
   assert.equal(await page.locator('.matrix td a').count(), 240);
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 1280);
+  const labels = await page.locator('.plot .technique text').evaluateAll((texts) =>
+    texts.map((label) => label.getBoundingClientRect().toJSON()));
+  assert.ok(labels.length > 10);
+  // Letters need less height than their line: two lines may share two of its pixels.
+  const cross = ([a, b], [c, d]) => a < d && c < b;
+  for (const [i, one] of labels.entries())
+    for (const other of labels.slice(i + 1))
+      assert.ok(!(cross([one.left, one.right], [other.left, other.right]) &&
+                  cross([one.top + 1, one.bottom - 1], [other.top + 1, other.bottom - 1])));
   await keepScreenshot(page, 'overview-large', { fullPage: true });
+});
+
+test('the matrix says how many techniques a narrow window hides, until they are scrolled to', async () => {
+  const { page } = await openReport(folder, { width: 400 });
+  const beyond = page.locator('.beyond');
+  const hidden = () => page.evaluate(() => {
+    const end = document.querySelector('[aria-label="Matrix"]').getBoundingClientRect().right + 1;
+    return [...document.querySelectorAll('.matrix thead th')]
+      .filter((head) => head.getBoundingClientRect().right > end).length;
+  });
+  const count = await hidden();
+  assert.ok(count > 1);
+  assert.equal(await beyond.innerText(), `${count} techniques more to the right →`);
+  await page.getByLabel('Matrix').evaluate((frame) => { frame.scrollLeft = frame.scrollWidth; });
+  await page.waitForFunction(() => document.querySelector('.beyond').textContent === '');
+  assert.equal(await hidden(), 0);
+});
+
+test('agreement in all pixels looks different from agreement but for edges', async () => {
+  const copy = copyOfReport(folder, 'exact');
+  const results = resultsOf(copy);
+  const agreeing = cellsOf(results).filter(({ cell }) => cell.verdict === 'agrees');
+  Object.assign(agreeing[0].cell, { differing: 0, causes: {} });
+  Object.assign(agreeing[1].cell, { differing: 3, causes: { edge: 3 } });
+  writeFileSync(join(copy, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+  const { page } = await openReport(copy);
+  const look = (id) => page.locator(`.matrix td:has(a[href="#${id}"])`).evaluate((td) =>
+    [td.innerText.split('\n')[0], getComputedStyle(td).outlineStyle]);
+  assert.deepEqual(await look(agreeing[0].id), ['✓ agrees', 'none']);
+  assert.deepEqual(await look(agreeing[1].id), ['✓ agrees but for edges', 'dashed']);
+  const edges = agreeing.filter(({ cell }) => cell.differing > 0);
+  assert.match(await text(page, '.chip.agrees'),
+               new RegExp(`${agreeing.length}, ${edges.length} of them but for edges`));
+});
+
+test('no two causes of the overview have the same mark', async () => {
+  const copy = copyOfReport(folder, 'all-causes');
+  const html = readFileSync(join(copy, 'index.html'), 'utf8');
+  const { causes } = JSON.parse(html.match(/shadowproof\.legend\(([^]*?)\);/)[1]);
+  const results = resultsOf(copy);
+  cellsOf(results)[0].cell.causes = Object.fromEntries(causes.map(({ name }) => [name, 1]));
+  writeFileSync(join(copy, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+  const { page } = await openReport(copy);
+  const marks = await page.locator('.legend-line .swatch').evaluateAll((swatches) =>
+    swatches.map((swatch) => `${swatch.className} ${swatch.style.cssText}`));
+  assert.equal(marks.length, causes.length);
+  assert.equal(new Set(marks).size, causes.length, marks.join('\n'));
+  await keepScreenshot(page, 'overview-causes');
+});
+
+test('each word of the report is explained: the causes link to their terms', async () => {
+  const { page, said } = await openReport(folder);
+  const causes = await page.locator('.legend-line a.term').allInnerTexts();
+  assert.ok(causes.includes('near_plane'));
+  await page.locator('.legend-line a.term', { hasText: 'near_plane' }).click();
+  await page.waitForFunction(() => document.title === 'shadowproof: terms');
+  assert.match(await text(page, '.terms .asked'), /^near_plane\s+crossings were lost before/);
+  const ids = await page.locator('.terms > div').evaluateAll((divs) => divs.map(({ id }) => id));
+  assert.equal(new Set(ids).size, ids.length);
+  const words = await page.locator('.terms dt').allInnerTexts();
+  for (const word of [...causes, 'truth', 'ledger', 'fails as predicted', 'zfail_reversed'])
+    assert.ok(words.includes(word), word);
+  await keepScreenshot(page, 'terms', { fullPage: true });
+  await page.locator('#home').click();
+  await page.waitForFunction(() => document.querySelector('.matrix'));
+  await page.locator('#terms').click();
+  await page.waitForFunction(() => document.querySelector('.terms'));
+  assert.deepEqual(said, []);
 });
 
 test('versions, plan, times and the reproducing command stand on the cell’s page', async () => {

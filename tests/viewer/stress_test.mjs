@@ -10,7 +10,7 @@ import { named } from './scripts.mjs';
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const { valueScale, shareScale, roomy } =
-  named(['numbers.js', 'bench/figures.js', 'bench/layout.js', 'bench/plot.js', 'stress/chart.js'],
+  named(['numbers.js', 'labels.js', 'bench/figures.js', 'bench/layout.js', 'bench/plot.js', 'stress/chart.js'],
         ['valueScale', 'shareScale', 'roomy']);
 
 let folder;
