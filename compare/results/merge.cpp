@@ -52,12 +52,27 @@ std::optional<Difference> difference(const Json& a, const Json& b, const std::st
                 remedy);
 }
 
+/// The words of a run's command without those of its gate, each of which takes a value.
+Json without_gate(const Json& arguments) {
+    Json words = Json::array();
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        if (arguments[i] == "--gate" || arguments[i] == "--allow")
+            ++i;
+        else
+            words.push_back(arguments[i]);
+    return words;
+}
+
 void check_same_settings(const ResultsFile& first, const ResultsFile& second) {
-    // Notes on a baseline concern the scenes that a run tried.
-    const std::set<std::string> apart{"/passed", "/ms", "/report_ms", "/scenes", "/baseline/notes"};
+    // Notes on a baseline concern the scenes that a run tried; a gate judges what a run has found.
+    const std::set<std::string> apart{"/passed",         "/ms",        "/report_ms", "/scenes",
+                                      "/baseline/notes", "/arguments", "/gate",      "/allow"};
+    const char* const remedy = "join runs of one version on one driver with the same settings";
     if (const auto found = difference(first.json, second.json, "", apart))
-        refuse(first, second, "", *found,
-               "join runs of one version on one driver with the same settings");
+        refuse(first, second, "", *found, remedy);
+    if (const auto found = difference(without_gate(first.json.at("arguments")),
+                                      without_gate(second.json.at("arguments")), "/arguments", {}))
+        refuse(first, second, "", *found, remedy);
 }
 
 /// The joined results while they grow.
@@ -122,6 +137,22 @@ void move_script(Joining& joining, const char* function, const std::string& belo
                                     .new_opening = opening(move.to)});
 }
 
+bool has_same_gate(const Json& a, const Json& b) {
+    return a.at("gate") == b.at("gate") && a.at("allow") == b.at("allow");
+}
+
+/// A cell names the gate by which it was judged where it is not the one of the joined results.
+void keep_gate(Json& cell, const Json& run, const Json& joined) {
+    if (could_not_run(cell)) return;
+    if (!cell.contains("gate")) {
+        cell["gate"] = run.at("gate");
+        cell["allow"] = run.at("allow");
+    }
+    if (!has_same_gate(cell, joined)) return;
+    cell.erase("gate");
+    cell.erase("allow");
+}
+
 void add_cell(Joining& joining, std::size_t index, Json cell, std::size_t run, const Move& move) {
     Json& scene = joining.scenes_json().at(index);
     const auto technique = cell.at("name").get<std::string>();
@@ -135,6 +166,7 @@ void add_cell(Joining& joining, std::size_t index, Json cell, std::size_t run, c
         move_pictures(joining, cell.at("images"), scene, move);
         move_script(joining, "cell", "/" + technique, move);
     }
+    keep_gate(cell, move.run.json, joining.merged.results);
     scene.at("techniques").push_back(std::move(cell));
 }
 
@@ -280,6 +312,7 @@ void add_run(Json& results, const Json& run) {
     for (const char* time : {"ms", "report_ms"})
         results[time] = results.at(time).get<double>() + run.at(time).get<double>();
     results["passed"] = results.at("passed") == true && run.at("passed") == true;
+    if (!has_same_gate(results, run)) results["arguments"] = without_gate(results.at("arguments"));
     if (!results.contains("baseline") || !run.at("baseline").contains("notes")) return;
     Json& notes = results.at("baseline")["notes"];
     for (const Json& note : run.at("baseline").at("notes"))

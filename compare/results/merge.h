@@ -29,11 +29,11 @@ struct Merged {
 
 /// Runs that have passed read_results, at least one; one alone stays as it is. Scenes keep the
 /// order in which they come; the techniques of a scene that several runs tried are in the order of
-/// the matrix. Times of runs are added up; a scene's reference keeps those of its first run.
-/// Whether a scene stopped provoking its causes is decided again if shards by technique make up a
-/// whole. Throws Error naming both files, the field and its values where runs do not belong
-/// together (driver, versions, settings, a scene's content), and where two runs have tried the same
-/// cell.
+/// the matrix. Times of runs are added up; a scene's reference keeps those of its first run. The
+/// gate is the first run's, and cells that were judged by another one name it. Whether a scene
+/// stopped provoking its causes is decided again if shards by technique make up a whole. Throws
+/// Error naming both files, the field and its values where runs do not belong together (driver,
+/// versions, settings, a scene's content), and where two runs have tried the same cell.
 Merged merge(const std::vector<ResultsFile>& runs, const Matrix& matrix);
 
 } // namespace shadowproof

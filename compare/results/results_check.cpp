@@ -187,6 +187,8 @@ void cell(const JsonPlace& place) {
                    {"summary", text},
                    {"command", text},
                    {"fails", boolean},
+                   {"gate", gate, Need::optional},
+                   {"allow", list_of<text>, Need::optional},
                    {"ms", milliseconds},
                    {"left_out", list_of<text>, Need::optional},
                    {"verdict", verdict},
@@ -194,6 +196,7 @@ void cell(const JsonPlace& place) {
                    {"differing", count},
                    {"causes", causes},
                    {"several", count, Need::optional},
+                   {"too_near", count, Need::optional},
                    {"partly_lit", count, Need::optional},
                    {"wrongness", amount, Need::optional},
                    {"first", first, Need::optional},
@@ -202,6 +205,8 @@ void cell(const JsonPlace& place) {
                    {"cause_map", some_text},
                    {"since", since, Need::optional},
                    {"accepted", list_of<accepted_cause>, Need::optional}});
+    require(place.value.contains("gate") == place.value.contains("allow"), place,
+            "an object with both gate and allow, or neither");
     // Of a family that a newer version knows, its own members are accepted as they are.
     const Family* const own = find_family(place.value.at("family").get<std::string>());
     if (own != nullptr && own->check_results != nullptr) own->check_results(place);

@@ -90,6 +90,10 @@ void check_cell_figures(const JsonPlace& cell, const Json& scene) {
     if (cell.value.contains("several"))
         require(cell.value.at("several").get<std::uint64_t>() <= differing, cell.at("several"),
                 "no more than \"differing\"");
+    if (cell.value.contains("too_near"))
+        require(cell.value.at("too_near").get<std::uint64_t>() <=
+                    counts[static_cast<std::size_t>(Cause::precision)],
+                cell.at("too_near"), "no more than the pixels of \"precision\"");
     if (cell.value.contains("first") != (differing > 0))
         refuse(cell, differing > 0 ? "lacks \"first\", though pixels differ"
                                    : "has \"first\", though no pixel differs");

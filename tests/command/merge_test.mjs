@@ -97,8 +97,6 @@ test('runs that do not belong together are refused by file and field', () => {
     [changed('newer', (results) => { results.version = '9.9.9'; }), /version/],
     [changed('driver', (results) => { results.gl.renderer = 'other'; }), /renderer/],
     [changed('embree', (results) => { results.embree = '4.0.0'; }), /embree/],
-    [changed('allowing', (results) => { results.allow = ['edge']; }), /allow/],
-    [changed('gated', (results) => { results.gate = 'differences'; }), /gate/],
   ]) {
     const run = shadowproof(['merge', 'near', other, '--out', 'refused']);
     assert.equal(run.code, 3, other);
@@ -113,6 +111,35 @@ test('runs that do not belong together are refused by file and field', () => {
   assert.equal(twice.code, 3);
   assert.match(twice.err, /zpass/);
   assert.ok(!filesBelow(scratch).some((file) => file.startsWith('refused')));
+});
+
+test('each shard keeps its own gate, and a cell names it where the whole has another', () => {
+  verify('strict', 'far_plane', '--technique', 'zfail', '--gate', 'differences', ...size);
+  verify('lenient', 'near_plane', '--technique', 'zpass', '--gate', 'differences', '--allow',
+         'near_plane', ...size);
+  verify('usual', 'ordinary', '--technique', 'zpass', ...size);
+  const joined = (...shards) => {
+    const { code } = shadowproof(['merge', ...shards, '--out', 'gates', '--json', 'gates.json']);
+    const results = resultsOf('gates');
+    const gates = results.scenes.map(({ techniques: [{ fails, gate, allow }] }) =>
+      ({ fails, gate, allow }));
+    return { code, gates, whole: [results.gate, results.allow, results.arguments] };
+  };
+  const own = { gate: undefined, allow: undefined };
+  assert.deepEqual(joined('usual', 'lenient'), {
+    code: 0,
+    gates: [{ fails: false, ...own },
+            { fails: false, gate: 'differences', allow: ['near_plane'] }],
+    whole: ['defects', [], size],
+  });
+  // What is joined can be joined again: only what has another gate than the new whole names it.
+  cpSync(join(scratch, 'gates'), join(scratch, 'first'), { recursive: true });
+  assert.deepEqual(joined('strict', 'first'), {
+    code: 1,
+    gates: [{ fails: true, ...own }, { fails: false, gate: 'defects', allow: [] },
+            { fails: false, gate: 'differences', allow: ['near_plane'] }],
+    whole: ['differences', [], size],
+  });
 });
 
 test('a report made again has the bytes of the first', () => {
