@@ -1,6 +1,5 @@
 #include "compare/classify.h"
 
-#include "compare/driver/scrutiny.h"
 #include "compare/judge/surface_check.h"
 #include "reference/parallel.h"
 
@@ -25,16 +24,22 @@ struct Case {
     const Tracer& tracer() const { return claim.traced.tracer(); }
 };
 
-std::vector<Neighbourhood> neighbourhoods(const Case& tried, const Region& region,
-                                          Scrutiny scrutiny) {
+std::vector<Neighbourhood> neighbourhoods(const Case& tried, const Region& region) {
     const Camera& camera = tried.claim.traced.scene().camera;
-    std::vector<BandRadius> radii(region.places.size());
-    if (scrutiny == Scrutiny::band) radii = tried.judge.radii(region.places);
+    const std::vector<BandRadius> radii = tried.judge.radii(region.places);
     std::vector<Neighbourhood> around;
     for (std::size_t i = 0; i < region.places.size(); ++i)
         around.push_back(
             neighbourhood(camera, {region.places[i].x + 0.5, region.places[i].y + 0.5}, radii[i]));
     return around;
+}
+
+/// Sorts pixels by region, and regions so that the first ones are spread over the picture and tell
+/// of all: Fibonacci hashing (Knuth, The Art of Computer Programming, volume 3, 6.4), one to one.
+std::uint32_t scattered(const PixelPlace& p, int width) {
+    const int regions_in_row = (width + region_side - 1) / region_side;
+    const int region = p.y / region_side * regions_in_row + p.x / region_side;
+    return static_cast<std::uint32_t>(region) * 2654435769U;
 }
 
 /// Runs of pixels, sorted by region, that lie in one region.
@@ -51,16 +56,13 @@ std::vector<Region> regions_of(std::span<const PixelPlace> places, std::span<Fin
     return regions;
 }
 
-/// Pixels processed together: as many as keep the samples within a few megabytes.
-constexpr std::size_t batch_size = 1024;
-
-void look_around_batch(const Case& tried, const std::vector<Region>& regions, Scrutiny scrutiny) {
+void look_around_batch(const Case& tried, const std::vector<Region>& regions) {
     const auto for_regions = [&](const auto& work) {
         parallel_for(static_cast<int>(regions.size()), tried.tracer().threads(),
                      [&](int i, int) { work(static_cast<std::size_t>(i)); });
     };
     std::vector<std::vector<Neighbourhood>> around(regions.size());
-    for_regions([&](std::size_t i) { around[i] = neighbourhoods(tried, regions[i], scrutiny); });
+    for_regions([&](std::size_t i) { around[i] = neighbourhoods(tried, regions[i]); });
     std::vector<std::size_t> first; // of each region's rays among all
     std::vector<glm::dvec3> rays;
     for (const std::vector<Neighbourhood>& region : around) {
@@ -72,22 +74,6 @@ void look_around_batch(const Case& tried, const std::vector<Region>& regions, Sc
     for_regions([&](std::size_t i) {
         tried.judge.look_around(regions[i], around[i], std::span(truths).subspan(first[i]));
     });
-}
-
-/// `places` sorted by region.
-std::vector<Finding> look_around(const Case& tried, const std::vector<PixelPlace>& places) {
-    std::vector<Finding> findings(places.size());
-    std::uint64_t unexplained = 0;
-    for (std::size_t first = 0; first < places.size(); first += batch_size) {
-        const std::size_t count = std::min(batch_size, places.size() - first);
-        const std::span batch = std::span(findings).subspan(first, count);
-        look_around_batch(tried, regions_of(std::span(places).subspan(first, count), batch),
-                          scrutiny_after(unexplained));
-        const auto is_unexplained = [](const Finding& each) { return !each.evidence_in_band; };
-        unexplained +=
-            static_cast<std::uint64_t>(std::count_if(batch.begin(), batch.end(), is_unexplained));
-    }
-    return findings;
 }
 
 bool is_explained(const Case& tried, PixelPlace p, const Finding& finding) {
@@ -116,17 +102,16 @@ Finding look_across(const Case& tried, PixelPlace p, const CoarseOutlines& outli
 
 /// Limits of the places tried across coarse outlines: for one pixel, and for all pixels of a frame.
 /// Each takes a few milliseconds if coordinates are huge; with these limits a frame with hundreds
-/// of unexplained pixels is still judged in seconds.
+/// of open pixels is still judged in seconds.
 constexpr std::size_t most_places_of_pixel = 32;
 constexpr std::size_t most_places_of_frame = 2048;
 
-/// Tries once more to explain the unexplained pixels.
-void look_across_coarse_outlines(const Case& tried, const std::vector<PixelPlace>& places,
-                                 std::vector<Finding>& findings) {
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        if (!is_explained(tried, places[i], findings[i])) open.push_back(i);
-    if (open.empty() || scrutiny_after(open.size()) == Scrutiny::centre) return;
+/// Pixels, by their numbers among `places`, that nothing explains so far.
+using OpenPixels = std::vector<std::size_t>;
+
+/// Tries once more to explain the open pixels.
+void look_across_coarse_outlines(const Case& tried, std::span<const PixelPlace> places,
+                                 const OpenPixels& open, std::vector<Finding>& findings) {
     const std::size_t most_places =
         std::clamp<std::size_t>(most_places_of_frame / open.size(), 2, most_places_of_pixel);
     const CoarseOutlines outlines = tried.judge.coarse_outlines();
@@ -137,20 +122,77 @@ void look_across_coarse_outlines(const Case& tried, const std::vector<PixelPlace
 }
 
 /// The last attempt to explain pixels: by all faces, wherever they lie.
-void look_at_all_faces(const Case& tried, const std::vector<PixelPlace>& places,
-                       std::vector<Finding>& findings) {
-    std::vector<std::size_t> open;
+void look_at_all_faces(const Case& tried, std::span<const PixelPlace> places,
+                       const OpenPixels& open, std::vector<Finding>& findings) {
     std::vector<PixelPlace> open_places;
     std::vector<Finding> found;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (is_explained(tried, places[i], findings[i])) continue;
-        open.push_back(i);
+    for (const std::size_t i : open) {
         open_places.push_back(places[i]);
         found.push_back(findings[i]);
     }
-    if (open.empty() || scrutiny_after(open.size()) == Scrutiny::centre) return;
     tried.judge.look_at_all_faces(open_places, found);
     for (std::size_t k = 0; k < open.size(); ++k) findings[open[k]] = found[k];
+}
+
+/// Looks further afield for what explains the open pixels. Leaves those that nothing explains.
+void look_further(const Case& tried, std::span<const PixelPlace> places, OpenPixels& open,
+                  std::vector<Finding>& findings) {
+    const auto drop_explained = [&] {
+        std::erase_if(open,
+                      [&](std::size_t i) { return is_explained(tried, places[i], findings[i]); });
+    };
+    if (open.empty()) return;
+    look_across_coarse_outlines(tried, places, open, findings);
+    drop_explained();
+    if (open.empty()) return;
+    look_at_all_faces(tried, places, open, findings);
+    drop_explained();
+}
+
+/// Pixels that are looked at together: few at first, then as many as keep the samples within a few
+/// megabytes.
+constexpr std::size_t first_batch = 64;
+constexpr std::size_t largest_batch = 1024;
+
+/// Whether looking around the pixels that are `left` is given up, after the evidence of `missed` of
+/// `examined` ones from all over the picture was out of band: where many are left, and hardly any
+/// is in band or very many are not. The verdict is certain then, and the others would take minutes.
+/// A picture brings no evidence, is quickly looked at, and is never given up: its edges are told
+/// from its faults, however many these are.
+bool is_hopeless(std::size_t missed, std::size_t examined, std::size_t left) {
+    constexpr std::size_t few = 512;
+    constexpr std::size_t enough_to_tell = 64;
+    constexpr std::size_t very_many = 2048;
+    const bool hardly_any = missed >= enough_to_tell && 4 * missed >= 3 * examined;
+    return left > few && (hardly_any || missed >= very_many);
+}
+
+/// What is found around pixels, sorted by scattered region. Where that becomes hopeless, the others
+/// stay as their centres left them: unexplained.
+std::vector<Finding> look_around(const Case& tried, std::span<const PixelPlace> places) {
+    std::vector<Finding> findings(places.size());
+    OpenPixels open;         // since pixels were last looked further for
+    std::size_t missed = 0;  // of those before, with evidence out of band
+    std::size_t enough = 64; // to look further before all have been looked around
+    std::size_t count = first_batch;
+    for (std::size_t first = 0; first < places.size(); first += count) {
+        if (first > 0) count = std::min(2 * count, largest_batch);
+        count = std::min(count, places.size() - first);
+        look_around_batch(tried, regions_of(places.subspan(first, count),
+                                            std::span(findings).subspan(first, count)));
+        for (std::size_t i = first; i < first + count; ++i)
+            if (!is_explained(tried, places[i], findings[i])) open.push_back(i);
+        if (open.size() < enough) continue;
+        look_further(tried, places, open, findings);
+        missed += static_cast<std::size_t>(std::ranges::count_if(
+            open, [&](std::size_t k) { return !findings[k].evidence_in_band; }));
+        open.clear();
+        enough *= 2;
+        const std::size_t examined = first + count;
+        if (is_hopeless(missed, examined, places.size() - examined)) return findings;
+    }
+    look_further(tried, places, open, findings);
+    return findings;
 }
 
 void record(Comparison& comparison, PixelPlace p, bool in_band) {
@@ -168,6 +210,7 @@ void record(Comparison& comparison, PixelPlace p, bool in_band) {
 
 void mark(Comparison& comparison, PixelPlace p, const PixelCause& cause) {
     comparison.cause.at(p.x, p.y) = static_cast<std::uint8_t>(cause.cause);
+    if (cause.too_near) ++comparison.too_near;
     if (cause.also.empty()) return;
     if (comparison.also.pixels.empty())
         comparison.also = Image<std::uint32_t>(comparison.cause.width, comparison.cause.height);
@@ -221,8 +264,9 @@ std::optional<Cause> cause_of(ColorVerdict verdict) {
     return std::nullopt;
 }
 
-/// Colours differ if they are beyond their bounds; if visibility differs, they are not judged. A
-/// colour that is right for a place that the rasterizer may have drawn instead is `edge`.
+/// Colours differ if they are beyond their bounds; if surface or visibility differ, or are those of
+/// the background, if they are not those of what is shown. A colour that is right for a place that
+/// the rasterizer may have drawn instead is `edge`.
 void check_colors(const Case& tried, Comparison& comparison) {
     comparison.colors = check_colors(tried.tracer(), tried.claim.traced.truth(), tried.claim.frame);
     const Image<ColorVerdict>& verdicts = comparison.colors->verdict;
@@ -278,15 +322,8 @@ Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& 
             if (cause) mark(comparison, p, *cause);
         }
 
-    const auto region_of = [](const PixelPlace& p) {
-        return std::pair(p.y / region_side, p.x / region_side);
-    };
-    std::stable_sort(open.begin(), open.end(), [&](const PixelPlace& a, const PixelPlace& b) {
-        return region_of(a) < region_of(b);
-    });
-    std::vector<Finding> findings = look_around(tried, open);
-    look_across_coarse_outlines(tried, open, findings);
-    look_at_all_faces(tried, open, findings);
+    std::ranges::stable_sort(open, {}, [&](const PixelPlace& p) { return scattered(p, width); });
+    const std::vector<Finding> findings = look_around(tried, open);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PixelPlace p = open[i];
         record(comparison, p, findings[i].evidence_in_band);
@@ -309,9 +346,7 @@ PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const
     std::optional<PixelCause> cause;
     if (!judge.settles(p, cause)) {
         const std::vector<PixelPlace> places{p};
-        std::vector<Finding> findings = look_around(tried, places);
-        look_across_coarse_outlines(tried, places, findings);
-        look_at_all_faces(tried, places, findings);
+        const std::vector<Finding> findings = look_around(tried, places);
         found.unexplained = !findings.front().evidence_in_band;
         if (tried.claim.differs(p)) cause = findings.front().cause;
     }
@@ -324,6 +359,7 @@ PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const
     if (!cause) return found;
     found.cause = static_cast<std::uint8_t>(cause->cause);
     found.also = cause->also;
+    found.too_near = cause->too_near;
     return found;
 }
 

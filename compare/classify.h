@@ -31,6 +31,7 @@ struct Comparison {
     /// pixel right; empty if no pixel has any.
     Image<std::uint32_t> also;
     std::uint64_t several = 0;         ///< pixels with such further causes
+    std::uint64_t too_near = 0;        ///< pixels with PixelCause::too_near
     Image<std::uint8_t> evidence_miss; ///< 1 where the pixel is EvidenceCheck::unexplained
     std::array<std::uint64_t, all_causes.size()> causes{}; ///< pixels by cause
     std::uint64_t differing = 0;
@@ -52,20 +53,22 @@ inline std::uint64_t pixels_of(const Comparison& comparison, Cause cause) {
 /// the claim is partly lit; by 1 elsewhere, and where the truth is background.
 double wrongness(const Image<Visibility>& truth, const Frame& frame, std::size_t pixel);
 
-/// All pictures must have the same size (asserted). `judge`: the frame's (judge_of). After
-/// thousands of unexplained pixels the others are compared at their centres only, so some of those
-/// that are then unexplained may be explained within their bands.
+/// All pictures must have the same size (asserted). `judge`: the frame's (judge_of). Where hardly
+/// any pixel is explained, or thousands are not, those that are not decided at their centres are
+/// not looked at any more: some of those that then count as unexplained may be explained within
+/// their bands.
 Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& judge);
 
 /// What is found at one pixel.
 struct PixelFinding {
     std::uint8_t cause = no_difference; ///< Cause, or no_difference
     CauseSet also{};                    ///< as in Comparison::also
+    bool too_near = false;              ///< as PixelCause has it
     bool unexplained = false;           ///< evidence or surface: see EvidenceCheck::unexplained
 };
 
 /// Classifies the pixel (x, y) alone, always within its band, even in a frame where classify
-/// compares centres only.
+/// gives that up.
 PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const Judge& judge,
                             int x, int y);
 

@@ -25,6 +25,11 @@ const Family* find_family(std::string_view name) {
     return found == families.end() ? nullptr : &*found;
 }
 
+void require_memory(const MemoryBudget& budget, const TechniqueSettings& asked) {
+    for (const Family& family : all_families())
+        if (family.require_memory != nullptr) family.require_memory(budget, asked);
+}
+
 std::unique_ptr<Judge> judge_of(const TracedScene& traced, const Frame& frame) {
     const Family* const family = find_family(frame.family);
     assert(family != nullptr);

@@ -92,6 +92,12 @@ std::uint64_t scene_bytes(const Scene& scene, Workload work) {
     return bytes;
 }
 
+MemoryBudget left_beside(const Scene& scene, Workload work, const MemoryBudget& budget) {
+    MemoryAccount account(budget);
+    const MemoryHold held(account, scene_bytes(scene, work));
+    return account.left();
+}
+
 void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work) {
     const std::array<Part, 3> parts = parts_of(scene, work);
     const Part& most = *std::max_element(

@@ -35,6 +35,9 @@ void require_picture(const MemoryBudget& budget, int width, int height, Workload
 /// Bytes for all work on a scene at the size of its camera, apart from reading it.
 std::uint64_t scene_bytes(const Scene& scene, Workload work);
 
+/// What is left of a budget beside all work on a scene, for what depends on its results.
+MemoryBudget left_beside(const Scene& scene, Workload work, const MemoryBudget& budget);
+
 /// Throws Error naming the scene's file and what of it takes most, where the work on it at the size
 /// of its camera cannot fit.
 void require_scene(const MemoryBudget& budget, const Scene& scene, Workload work);

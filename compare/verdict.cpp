@@ -43,6 +43,7 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<con
         return comparison.causes[static_cast<std::size_t>(cause)] > 0;
     };
     if (!is_explained(comparison)) return Verdict::unexplained;
+    if (comparison.too_near > 0) return Verdict::defect;
     Verdict verdict = Verdict::agrees;
     for (const CauseWords& words : all_causes) {
         if (words.cause == Cause::edge || !found(words.cause)) continue;
@@ -57,6 +58,7 @@ std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fai
     std::vector<Cause> causes;
     for (const CauseWords& words : all_causes) {
         const bool found = comparison.causes[static_cast<std::size_t>(words.cause)] > 0;
+        if (words.cause == Cause::precision && comparison.too_near > 0) continue;
         if (found && words.cause != Cause::edge && excused(scene, fails_at, by_nature, words.cause))
             causes.push_back(words.cause);
     }

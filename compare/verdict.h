@@ -25,11 +25,12 @@ std::string_view name_of(Verdict verdict);
 /// `fails_at`: the causes the technique is known to have. A cause is excused where the technique
 /// has it and the scene declares that it provokes it, or may (a scene that declares nothing may
 /// provoke any). `edge` is not a failure. No scene need declare `precision`, which lies in the
-/// depth format, or the causes in `by_nature`, which lie in the technique.
+/// depth format, or the causes in `by_nature`, which lie in the technique. Nearer than the depth to
+/// which a technique's numbers suffice, `precision` is a defect (Comparison::too_near).
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,
               const Comparison& comparison);
 
-/// The causes found that are so excused, in the order of all_causes; never edge.
+/// The causes found that are excused so, in the order of all_causes; never edge.
 std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fails_at,
                                   std::span<const Cause> by_nature, const Comparison& comparison);
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scenes/cause.h"
+#include "scenes/depth_model.h"
 #include "scenes/frame.h"
 #include "scenes/plan/plan.h"
 #include "scenes/scene.h"
@@ -33,6 +34,9 @@ struct Technique {
     /// It reflects the scene's environment. A technique that lights bump maps without reflections
     /// is only for scenes without an environment.
     bool needs_environment = false;
+    /// The numbers in which it tells apart the depths of volumes and surfaces; null: it counts no
+    /// volumes.
+    DepthModel (*depth_model)(const Scene& scene) = nullptr;
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
     /// The flags that affect it, but not all techniques; without their dashes.
     std::vector<std::string_view> settings = {};

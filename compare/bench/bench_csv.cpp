@@ -44,7 +44,7 @@ std::vector<std::string> stages_in(const BenchRun& run) {
 }
 
 /// Both ends of the interval; two empty fields where there is none.
-std::string ends_of(const TimeInterval& ms) {
+std::string interval_fields(const TimeInterval& ms) {
     return ms.is_known ? fmt::format("{},{}", ms.low, ms.high) : ",";
 }
 
@@ -74,8 +74,8 @@ std::string growth_csv(const BenchRun& run) {
             const TimeInterval ms = median_interval(point.samples);
             csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\r\n", field(growth.axis),
                                field(growth.scene), field(growth.technique), point.size, ms.median,
-                               ends_of(ms), point.samples.size(), is_settled(point.samples), fit,
-                               field(growth.command));
+                               interval_fields(ms), point.samples.size(), is_settled(point.samples),
+                               fit, field(growth.command));
         }
     }
     return csv;
@@ -97,12 +97,12 @@ std::string bench_csv(const BenchRun& run) {
         const auto share = [&](double pixels) {
             return pixels / static_cast<double>(error.pixels);
         };
-        csv +=
-            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
-                        field(point.technique), field(words_of(point.settings)), ms.median,
-                        ends_of(ms), point.samples.size(), is_settled(point.samples), error.pixels,
-                        wrong_pixels(error), share(static_cast<double>(wrong_pixels(error))),
-                        share(error.falsely_lit), share(error.falsely_shadowed));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", field(point.scene),
+                           field(point.technique), field(words_of(point.settings)), ms.median,
+                           interval_fields(ms), point.samples.size(), is_settled(point.samples),
+                           error.pixels, wrong_pixels(error),
+                           share(static_cast<double>(wrong_pixels(error))),
+                           share(error.falsely_lit), share(error.falsely_shadowed));
         csv += error.color ? fmt::format(",{},{},{}", error.color->rmse, error.color->percentile999,
                                          error.color->largest)
                            : ",,,";

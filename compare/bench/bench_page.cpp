@@ -7,8 +7,8 @@ namespace shadowproof {
 std::string bench_page() {
     std::string script;
     for (const char* name :
-         {"elements.js", "numbers.js", "bench/figures.js", "bench/layout.js", "bench/plot.js",
-          "bench/growth_layout.js", "bench/growth.js", "bench/page.js"})
+         {"elements.js", "numbers.js", "labels.js", "bench/figures.js", "bench/layout.js",
+          "bench/plot.js", "bench/growth_layout.js", "bench/growth.js", "bench/page.js"})
         script += viewer_file(name);
     return fill(viewer_file("bench/page.html"),
                 {{"style", std::string(viewer_file("style.css")) +

@@ -22,11 +22,11 @@ std::string causes_beyond_edges(const BenchError& error) {
     return words;
 }
 
-std::string ends_of(const TimeInterval& ms) {
+std::string interval_words(const TimeInterval& ms) {
     return ms.is_known ? fmt::format("{:.2f} {:>8.2f}", ms.low, ms.high) : "no interval";
 }
 
-std::string name_of(const BenchPoint& point) {
+std::string short_name_of(const BenchPoint& point) {
     return point.settings.empty() ? point.technique
                                   : point.technique + " " + words_of(point.settings);
 }
@@ -89,8 +89,9 @@ std::vector<std::string> bench_table(const BenchRun& run, const std::string& sce
         const BenchError& error = point->error;
         std::string line = fmt::format(
             "{} {:<{}}  {:>9.2f}  {:>17}  {:>3}  {:>9.4f}  {:>9.4f}  {:>9.4f}",
-            is_on_front(run, *point) ? "*" : " ", name_of(*point), width, ms.median, ends_of(ms),
-            point->samples.size(), share(static_cast<double>(wrong_pixels(error)), error.pixels),
+            is_on_front(run, *point) ? "*" : " ", short_name_of(*point), width, ms.median,
+            interval_words(ms), point->samples.size(),
+            share(static_cast<double>(wrong_pixels(error)), error.pixels),
             share(error.falsely_lit, error.pixels), share(error.falsely_shadowed, error.pixels));
         if (error.color)
             line += fmt::format("{:>7.2f}{:>8.2f}{:>8.2f}", error.color->rmse,

@@ -49,22 +49,31 @@ RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& 
                   ColorCheck& check, Image<float>& widths) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
-    for (int x = 0; x < check.error.width; ++x)
-        if (judge.judges(x, y)) {
-            columns.push_back(x);
-            points.push_back(judge.point(x, y));
-        }
-    std::vector<Shading> shadings(points.size());
-    shader.shade(points, shadings);
     RowSums sums;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const int x = columns[i];
-        const glm::dvec3 truth = showable(check.model, shadings[i].color());
-        const glm::dvec3 off = 255.0 * glm::abs(judge.claim(x, y) - truth);
+    const auto add_error = [&](int x, const glm::dvec3& right) {
+        const glm::dvec3 off = 255.0 * glm::abs(judge.claim(x, y) - right);
         check.error.at(x, y) = static_cast<float>(std::max({off.x, off.y, off.z}));
         sums.squares += glm::dot(off, off);
+    };
+    for (int x = 0; x < check.error.width; ++x) {
+        if (!judge.shows_background(x, y)) {
+            columns.push_back(x);
+            points.push_back(judge.point(x, y));
+            continue;
+        }
+        check.verdict.at(x, y) = judge.judged_background(x, y);
+        if (check.verdict.at(x, y) == ColorVerdict::as_shown) continue;
+        add_error(x, glm::dvec3(0));
+        ++sums.unpredicted;
+    }
+    std::vector<Shading> shadings(points.size());
+    shader.shade(points, shadings);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const int x = columns[i];
         const ColorJudgement found = judge.judged(x, y, shadings[i], scrutiny);
         check.verdict.at(x, y) = found.verdict;
+        if (found.verdict == ColorVerdict::as_shown) continue;
+        add_error(x, showable(check.model, shadings[i].color()));
         widths.at(x, y) = static_cast<float>(width_of(found.bound));
         if (is_unpredicted(found.verdict)) ++sums.unpredicted;
         if (found.verdict == ColorVerdict::within && (found.spread.aside || found.spread.share > 0))
@@ -93,7 +102,7 @@ void count(ColorCheck& check, const Image<float>& bound_widths) {
     for (int y = 0; y < check.error.height; ++y)
         for (int x = 0; x < check.error.width; ++x) {
             const ColorVerdict verdict = check.verdict.at(x, y);
-            if (verdict == ColorVerdict::not_judged) continue;
+            if (verdict == ColorVerdict::as_shown) continue;
             const float error = check.error.at(x, y);
             errors.push_back(error);
             widths.push_back(bound_widths.at(x, y));
@@ -127,7 +136,7 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     ColorCheck check;
     check.model = frame.color_model;
     check.error = Image<float>(width, height);
-    check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::not_judged);
+    check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::as_shown);
     Image<float> widths(width, height);
     std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
@@ -163,16 +172,25 @@ ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, c
     const ColorModel& model = frame.color_model;
     ColorAccount account;
     account.claim = judge.claim(x, y);
-    if (truth.triangle.at(x, y) == no_triangle) return account;
     RayShader shader(tracer);
-    const SeenPoint point = judge.point(x, y);
-    shader.shade({&point, 1}, {&account.truth, 1});
+    if (truth.triangle.at(x, y) != no_triangle) {
+        const SeenPoint seen{ray_direction(tracer.scene().camera, x + 0.5, y + 0.5),
+                             truth.triangle.at(x, y), truth.visibility.at(x, y) == Visibility::lit};
+        shader.shade({&seen, 1}, {&account.truth, 1});
+    }
     account.showable = showable(model, account.truth.color());
-    const ColorJudgement found = judge.judged(x, y, account.truth, Scrutiny::band);
+    if (judge.shows_background(x, y)) {
+        account.verdict = judge.judged_background(x, y);
+        return account;
+    }
+    Shading shown;
+    const SeenPoint point = judge.point(x, y);
+    shader.shade({&point, 1}, {&shown, 1});
+    const ColorJudgement found = judge.judged(x, y, shown, Scrutiny::band);
+    account.verdict = found.verdict;
     account.bound = found.bound;
     account.predicted = found.predicted;
-    if (judge.judges(x, y)) account.verdict = found.verdict;
-    account.weights = judge.weights(account.truth, point.triangle, found.spread);
+    account.weights = judge.weights(shown, point.triangle, found.spread);
     for (double& weight : account.weights) weight *= 255;
     return account;
 }

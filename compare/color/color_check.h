@@ -1,6 +1,6 @@
-// Judges colours where truth and technique agree on surface and visibility: how far each is from
+// Judges colours. Where truth and technique agree on surface and visibility: how far each is from
 // the truth, whether an error budget explains that distance, and whether the technique's own
-// arithmetic predicts the colour.
+// arithmetic predicts the colour. Elsewhere: whether it is the colour of what the technique shows.
 #pragma once
 
 #include "compare/driver/lighting/lighting_arithmetic.h"
@@ -13,11 +13,12 @@ namespace shadowproof {
 
 /// The verdict on one pixel's colour.
 enum class ColorVerdict : std::uint8_t {
-    not_judged,  ///< background, or a wrong surface or visibility
+    as_shown,    ///< background, or a wrong surface or visibility: what the technique's arithmetic
+                 ///< predicts for what it shows
     within,      ///< within the bound
     beyond,      ///< beyond the bound, but predicted by the technique's arithmetic
     unpredicted, ///< not predicted by that arithmetic, though within the bound
-    unexplained, ///< beyond the bound, and not predicted
+    unexplained, ///< beyond the bound, or of what has none, and not predicted
     moved, ///< beyond 1/255 of the truth, which a technique that uses floats alone may not be; but
            ///< predicted, and right for a place that the rasterizer may have drawn instead
 };
@@ -34,7 +35,7 @@ struct ColorCheck {
     ColorModel model;            ///< how the technique computes them
     Image<float> error;          ///< largest of the channels' differences, in steps of 1/255
     Image<ColorVerdict> verdict; ///< of every pixel
-    std::uint64_t judged = 0;
+    std::uint64_t judged = 0;    ///< pixels of any verdict but as_shown
     // Differences are in steps of 1/255.
     double largest = 0;             ///< a channel's largest difference
     int largest_x = 0;              ///< its pixel: column; the first in rows from the top
@@ -57,7 +58,7 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
 
 /// One pixel's colour in full, for `explain`.
 struct ColorAccount {
-    ColorVerdict verdict = ColorVerdict::not_judged;
+    ColorVerdict verdict = ColorVerdict::as_shown;
     Shading truth;
     glm::dvec3 showable{0, 0, 0}; ///< the truth's colour, clamped as by the frame buffer
     glm::dvec3 claim{0, 0, 0};

@@ -58,15 +58,14 @@ ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Fra
     : tracer_(tracer), scene_(tracer.scene()), truth_(truth), frame_(frame),
       tables_(make_lighting_tables(scene_, frame.color_model)) {}
 
-bool ColorJudge::judges(int x, int y) const {
-    const std::uint32_t triangle = truth_.triangle.at(x, y);
-    return triangle != no_triangle && frame_.triangle.at(x, y) == triangle &&
+bool ColorJudge::is_as_true(int x, int y) const {
+    return !shows_background(x, y) && shown(x, y) == truth_.triangle.at(x, y) &&
            frame_.claim.at(x, y) == truth_.visibility.at(x, y);
 }
 
 SeenPoint ColorJudge::point(int x, int y, const glm::dvec2& beside) const {
-    return {ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y),
-            truth_.triangle.at(x, y), truth_.visibility.at(x, y) == Visibility::lit};
+    return {ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y), shown(x, y),
+            frame_.claim.at(x, y) == Visibility::lit};
 }
 
 InputPoint ColorJudge::input_point(const PixelPlace& pixel, const PixelSpread& spread) const {
@@ -81,9 +80,19 @@ Intervals ColorJudge::predicted(const PixelPlace& pixel, const PixelSpread& spre
     return predicted_color(frame_.color_model, claimed_inputs(tables_, input_point(pixel, spread)));
 }
 
+/// View depth of the surface shown; where the truth is another, of its plane.
+double ColorJudge::depth(int x, int y) const {
+    if (shown(x, y) == truth_.triangle.at(x, y)) return truth_.depth.at(x, y);
+    const glm::dvec3 a = corner(scene_, shown(x, y), 0) - scene_.camera.eye;
+    const glm::dvec3 e = corner(scene_, shown(x, y), 1) - corner(scene_, shown(x, y), 0);
+    const glm::dvec3 f = corner(scene_, shown(x, y), 2) - corner(scene_, shown(x, y), 0);
+    const glm::dvec3 normal = glm::cross(e, f);
+    return glm::dot(a, normal) / glm::dot(point(x, y).direction, normal);
+}
+
 double ColorJudge::lateral(int x, int y) const {
     return lateral_error(scene_, frame_.depth_model,
-                         scene_.camera.eye + truth_.depth.at(x, y) * point(x, y).direction);
+                         scene_.camera.eye + depth(x, y) * point(x, y).direction);
 }
 
 double ColorJudge::share(int x, int y) const {
@@ -166,11 +175,27 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, b
     return found;
 }
 
-/// What holds at the centre, without rounding of interpolated values, also holds for the whole
-/// square with it.
+/// A wrong surface or visibility has no right colour, but one that the arithmetic predicts.
 ColorJudgement ColorJudge::judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const {
-    const PixelPlace pixel{x, y, shading, truth_.triangle.at(x, y)};
-    const glm::dvec3 claimed = claim(x, y);
+    const PixelPlace pixel{x, y, shading, shown(x, y)};
+    ColorJudgement found = judged_as_shown(pixel, scrutiny);
+    if (is_as_true(x, y)) return found;
+    const bool is_predicted = found.verdict == ColorVerdict::within ||
+                              found.verdict == ColorVerdict::beyond ||
+                              found.verdict == ColorVerdict::moved;
+    found.verdict = is_predicted ? ColorVerdict::as_shown : ColorVerdict::unexplained;
+    return found;
+}
+
+ColorVerdict ColorJudge::judged_background(int x, int y) const {
+    return claim(x, y) == glm::dvec3(0) ? ColorVerdict::as_shown : ColorVerdict::unexplained;
+}
+
+/// As if what is shown were the truth. What holds at the centre, without rounding of interpolated
+/// values, also holds for the whole square with it.
+ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const {
+    const Shading& shading = pixel.shading;
+    const glm::dvec3 claimed = claim(pixel.x, pixel.y);
     const auto look = [&](const PixelSpread& spread) {
         ColorJudgement found{
             .bound = bound(pixel, spread), .predicted = predicted(pixel, spread), .spread = spread};
@@ -185,7 +210,7 @@ ColorJudgement ColorJudge::judged(int x, int y, const Shading& shading, Scrutiny
     PixelSpread spread{.middle = shading.weights};
     const ColorJudgement exactly = look(spread);
     if (exactly.verdict == ColorVerdict::within) return exactly;
-    spread.share = share(x, y);
+    spread.share = share(pixel.x, pixel.y);
     const bool finite = std::isfinite(spread.share);
     ColorJudgement rounded = exactly;
     if (finite) rounded = look(spread);

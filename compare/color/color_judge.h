@@ -3,10 +3,10 @@
 #pragma once
 
 #include "compare/color/color_check.h"
+#include "compare/color/scrutiny.h"
 #include "compare/driver/interpolated.h"
 #include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/driver/lighting/lighting_inputs.h"
-#include "compare/driver/scrutiny.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
@@ -17,7 +17,7 @@ namespace shadowproof {
 /// A verdict and the limits behind it. Each limit holds the colours of all places that the
 /// rasterizer may draw, and others between them; the verdict tests place by place.
 struct ColorJudgement {
-    ColorVerdict verdict = ColorVerdict::not_judged;
+    ColorVerdict verdict = ColorVerdict::as_shown;
     Intervals bound;     ///< colours that count as right
     Intervals predicted; ///< colours that the technique's arithmetic may give
     PixelSpread spread;
@@ -29,13 +29,16 @@ public:
     ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame);
 
     /// Whether surface and visibility are the truth's.
-    bool judges(int x, int y) const;
+    bool is_as_true(int x, int y) const;
+    bool shows_background(int x, int y) const { return shown(x, y) == no_triangle; }
     glm::dvec3 claim(int x, int y) const { return frame_.color.at(x, y); }
-    /// What is truly seen through the pixel's centre, or `beside` it by so many pixels.
+    /// What the technique shows through the pixel's centre, or `beside` it by so many pixels.
     SeenPoint point(int x, int y, const glm::dvec2& beside = {0, 0}) const;
 
-    /// `shading`: the truth's at the pixel's centre.
+    /// `shading`: of what is shown at the pixel's centre.
     ColorJudgement judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const;
+    /// The background is what was cleared: no rounding, nothing beside it.
+    ColorVerdict judged_background(int x, int y) const;
 
     /// How far each ColorTerm moves the colour.
     ColorTerms weights(const Shading& shading, std::uint32_t triangle, PixelSpread spread) const;
@@ -59,6 +62,9 @@ private:
     const Frame& frame_;
     LightingTables tables_;
 
+    std::uint32_t shown(int x, int y) const { return frame_.triangle.at(x, y); }
+    double depth(int x, int y) const;
+    ColorJudgement judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const;
     InputPoint input_point(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;

@@ -8,7 +8,6 @@
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/families.h"
-#include "compare/maps/map_memory.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
 #include "compare/report/color_words.h"
@@ -99,6 +98,7 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record,
         at.shows_surface = frame.shows_surface();
         if (at.shows_surface) at.shown = frame.triangle.at(x, y);
         at.cause = found.cause;
+        at.too_near = found.too_near;
         for (const CauseWords& words : all_causes)
             if (found.also.contains(words.cause)) at.also.push_back(words.cause);
         at.account = judge->account(record, traced.scene().unit);
@@ -118,14 +118,14 @@ std::string claim_words(const TechniqueAtPixel& technique) {
     return fmt::format("{} {:.4g}", name_of(technique.claim), technique.share);
 }
 
-/// "near_plane", "near_plane with counter"
+/// "near_plane", "near_plane with counter", "precision where its numbers suffice"
 std::string cause_words(const TechniqueAtPixel& technique) {
     if (technique.cause == no_difference) return "no difference";
     std::string words(all_causes[technique.cause].name);
     for (std::size_t i = 0; i < technique.also.size(); ++i)
         words +=
             fmt::format("{} {}", i == 0 ? " with" : ",", shadowproof::name_of(technique.also[i]));
-    return words;
+    return technique.too_near ? words + " where its numbers suffice" : words;
 }
 
 std::string ray_text(const Scene& scene, const PixelRecord& record) {
@@ -291,7 +291,7 @@ int explain(const ExplainOptions& options, int watcher) {
         throw Error("--pixel", outside(options.pixel, scene.camera.width, scene.camera.height),
                     "name a pixel within it");
     require_scene(memory, scene, Workload::comparison);
-    require_map(memory, options.technique.asked.map);
+    require_memory(memory, options.technique.asked);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
     console.progress(options.scene + ": tracing");

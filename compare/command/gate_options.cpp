@@ -39,7 +39,7 @@ void add_gate_flags(CLI::App& command, GateOptions& options) {
         .add_option_function<std::string>(
             "--gate", [&](const std::string& text) { options.gate.on = parse_gate(text); },
             "Fail on defects, or on all differences beyond edges (defects)")
-        ->type_name("GATE");
+        ->type_name("defects|differences");
     command
         .add_option_function<std::vector<std::string>>(
             "--allow",
@@ -69,7 +69,12 @@ void add_output_flags(CLI::App& command, OutputOptions& options) {
     command.add_option("--junit", options.junit, "Also write JUnit XML here")
         ->type_name("FILE")
         ->check(not_empty());
-    command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
+    CLI::Option* quiet =
+        command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
+    command
+        .add_flag("-v,--verbose", options.verbose,
+                  "Also what a scene does not need and was left out, and all notes, not three")
+        ->excludes(quiet);
 }
 
 std::vector<std::string> settings(const GateOptions& options) {

@@ -22,6 +22,7 @@ struct OutputOptions {
     std::string json;
     std::string junit;
     bool quiet = false;
+    bool verbose = false;
 };
 
 /// Values are checked as they are parsed: a bad one is wrong usage.

@@ -3,6 +3,7 @@
 #include "compare/blank.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/families.h"
+#include "compare/memory.h"
 #include "raster/render.h"
 
 namespace shadowproof {
@@ -27,7 +28,8 @@ JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, co
     if (wanted.strain) judged.strain = family->strain();
     if (!wanted.evidence) return judged;
     const Stopwatch stopwatch;
-    cell.evidence = family->report(cell.comparison.cause);
+    cell.evidence = family->report(cell.comparison.cause,
+                                   left_beside(scene, Workload::comparison, wanted.memory));
     judged.evidence_milliseconds = stopwatch.milliseconds();
     return judged;
 }

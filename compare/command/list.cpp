@@ -1,12 +1,15 @@
 #include "compare/command/commands.h"
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/standard_output.h"
+#include "compare/driver/sufficient_depths.h"
 #include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -30,6 +33,43 @@ std::vector<std::string_view> kinds_of_light(const Technique& technique) {
     return names;
 }
 
+/// What depths are stated for: neither the eye's place nor the light's adds to floats' errors.
+Scene stated_picture() {
+    Scene scene;
+    scene.camera.near = 0.1;
+    scene.camera.far = 100;
+    scene.camera.tan_half_height = std::tan(glm::radians(30.0));
+    scene.lights.emplace_back();
+    return scene;
+}
+
+SufficientDepths precise_depths(const Technique& technique) {
+    const Scene scene = stated_picture();
+    return sufficient_depths(scene, technique.depth_model(scene));
+}
+
+std::string precise_meaning() {
+    const Camera camera = stated_picture().camera;
+    return fmt::format("  precise: at which depths a technique's numbers displace a shadow's "
+                       "border by one pixel at\n"
+                       "  most, where volume and surface meet at 45 degrees; for a near plane of "
+                       "{}, a far plane of\n"
+                       "  {}, and {} rows of pixels over 60 degrees\n",
+                       camera.near, camera.far, camera.height);
+}
+
+Json precise_json(const Technique& technique) {
+    if (technique.depth_model == nullptr) return nullptr;
+    const Camera camera = stated_picture().camera;
+    const SufficientDepths depths = precise_depths(technique);
+    return {{"near", camera.near},
+            {"far", camera.far},
+            {"rows", camera.height},
+            {"yfov", 60},
+            {"from", depths.nearest},
+            {"to", std::isfinite(depths.furthest) ? Json(depths.furthest) : Json(nullptr)}};
+}
+
 std::string as_text() {
     std::size_t width = 0; // of the longest name
     for (const BundledScene& scene : bundled_scenes()) width = std::max(width, scene.name.size());
@@ -39,7 +79,7 @@ std::string as_text() {
     std::string text = "Scenes\n";
     for (const BundledScene& scene : bundled_scenes())
         text += fmt::format("  {:<{}}{}\n", scene.name, width, scene.summary);
-    text += "\nTechniques\n";
+    text += "\nTechniques\n" + precise_meaning();
     for (const Technique& technique : all_techniques()) {
         text += fmt::format("  {:<{}}{}\n", technique.name, width, technique.summary);
         const auto add = [&](std::string_view what, std::string_view words) {
@@ -55,6 +95,8 @@ std::string as_text() {
             add("lights", fmt::format("{}", fmt::join(kinds_of_light(technique), ", ")));
         if (!technique.settings.empty())
             add("flags", fmt::format("--{}", fmt::join(technique.settings, ", --")));
+        if (technique.depth_model != nullptr)
+            add("precise", words_of(precise_depths(technique), stated_picture().camera.near, 1));
         add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
         add("source", technique.source);
     }
@@ -81,6 +123,7 @@ Json as_json() {
                                       {"needs_environment", technique.needs_environment},
                                       {"lights", kinds_of_light(technique)},
                                       {"flags", technique.settings},
+                                      {"precise", precise_json(technique)},
                                       {"cost", technique.cost},
                                       {"fails_at", causes},
                                       {"by_nature", by_nature}});

@@ -1,5 +1,9 @@
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
+#include "compare/command/manual/bash_completion.h"
+#include "compare/command/manual/command_line.h"
+#include "compare/command/manual/examples.h"
+#include "compare/command/manual/man_page.h"
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/signals.h"
 #include "compare/command/process/standard_output.h"
@@ -22,30 +26,10 @@ using namespace shadowproof;
 namespace {
 
 constexpr const char* description =
-    "Which pixels of a rasterized shadow are wrong, why, and would your build have caught it?\n"
-    "For a glTF scene, shadowproof decides exactly at each pixel whether the light is seen,\n"
-    "renders the scene with the classic shadow techniques through OpenGL, and names the cause\n"
-    "of every pixel that differs.\n";
-
-constexpr const char* footer =
-    "\nExamples:\n"
-    "  shadowproof verify                              every bundled scene, report in report/\n"
-    "  shadowproof verify my.glb --technique zfail     one technique on a scene of your own\n"
-    "  shadowproof check my.glb mine.png --unlit off.png   the picture that your renderer made\n"
-    "  shadowproof export-view my.glb --engine three   its camera and light, for three.js\n"
-    "  shadowproof stress near_plane                   where each technique starts to fail\n"
-    "  shadowproof bench ordinary --quick              error against run time\n"
-    "  shadowproof explain near_plane --pixel 229,103  why one pixel is what it is\n"
-    "  shadowproof render ordinary -o truth.png        the truth as a picture\n"
-    "  shadowproof normal-map height.png -o normal.png a height field as a normal map\n"
-    "  shadowproof merge shard-1 shard-2 --out report  the runs of two machines as one\n"
-    "  shadowproof accept report -o accepted.json      what was reviewed, as a baseline\n"
-    "\nExit codes:\n"
-    "  0  every technique agrees with the truth, or fails as was predicted\n"
-    "  1  a defect, an unexplained pixel, a cell above --timeout, or a scene that stopped\n"
-    "     provoking its causes\n"
-    "  2  wrong usage\n"
-    "  3  could not run: unreadable scene, no OpenGL, a blank or NaN render\n";
+    "Which pixels of a rasterized shadow are wrong, why, and would your build have caught it? For "
+    "a glTF scene, shadowproof decides exactly at each pixel whether the light is seen, renders "
+    "the scene with the classic shadow techniques through OpenGL, and names the cause of every "
+    "pixel that differs.";
 
 /// OpenGL's driver, or why there is none.
 std::string driver_in_words() {
@@ -79,6 +63,23 @@ std::string flag_that_was_meant(const CLI::App& command, int argc, char** argv) 
     return {};
 }
 
+/// Flags that print what the installation has in files.
+void add_manual_flags(CLI::App& app) {
+    const auto printed = [&app](const char* flag, const char* words, const auto& text) {
+        app.add_flag_callback(
+            flag,
+            [text] {
+                print(text());
+                throw CLI::Success();
+            },
+            words);
+    };
+    printed("--completion", "Print the script that completes command lines in bash",
+            [&app] { return bash_completion(command_line_of(app)); });
+    printed("--man-page", "Print the manual page, for man",
+            [&app] { return man_page(command_line_of(app), SHADOWPROOF_VERSION); });
+}
+
 int run(int argc, char** argv) {
     CLI::App app(description, "shadowproof");
     app.require_subcommand(1);
@@ -87,8 +88,15 @@ int run(int argc, char** argv) {
                                   add_explain(app), add_stress(app),      add_bench(app),
                                   add_list(app),    add_report(app),      add_merge(app),
                                   add_accept(app),  add_export_view(app), add_normal_map(app)};
-    app.footer(footer); // here, or the subcommands would inherit it
     const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
+    app.footer(help_footer("")); // here, or the subcommands would inherit it
+    for (CLI::App* command : commands) {
+        command->footer(help_footer(command->get_name()));
+        // The name of an argument says what it is.
+        for (CLI::Option* option : command->get_options())
+            if (option->get_positional()) option->type_name("");
+    }
+    add_manual_flags(app);
     std::string offered;
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());

@@ -112,10 +112,8 @@ Work add_normal_map(CLI::App& app) {
     const std::map<std::string, Wrap> wraps{{"repeat", Wrap::repeat},
                                             {"mirror", Wrap::mirrored_repeat},
                                             {"clamp", Wrap::clamp_to_edge}};
-    command
-        ->add_option("--wrap", options->wrap,
-                     "What lies past the border: repeat (the default), mirror or clamp")
-        ->type_name("MODE")
+    command->add_option("--wrap", options->wrap, "What lies past the border (repeat)")
+        ->type_name("repeat|mirror|clamp")
         ->transform(CLI::CheckedTransformer(wraps).description(""));
     command->add_option("--bits", options->bits, "Bits a channel of a .png, 8 or 16 (8)")
         ->type_name("N")

@@ -80,10 +80,10 @@ GlPlatform parse_platform(const std::string& text) {
 }
 
 template <class Values>
-std::string names_of(const Values& values) {
+std::string names_of(const Values& values, std::string_view separator = ", ") {
     std::string names;
     for (const auto value : values)
-        names += (names.empty() ? "" : ", ") + std::string(name_of(value));
+        names += fmt::format("{}{}", names.empty() ? "" : separator, name_of(value));
     return names;
 }
 
@@ -104,9 +104,8 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
             [&](const std::string& text) {
                 settings.normalisation = parse_setting(all_normalisations, "--normalise", text);
             },
-            "How the vectors of lighting are normalised: " + names_of(all_normalisations) +
-                " (each technique's own)")
-        ->type_name("HOW");
+            "How the vectors of lighting are normalised (each technique's own)")
+        ->type_name(names_of(all_normalisations, "|"));
     command
         .add_option("--cube-size", settings.cube_size,
                     fmt::format("Texels a side of the cube map's faces, with --normalise cube-map "
@@ -126,9 +125,8 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
             [&](const std::string& text) {
                 settings.bump_form = parse_setting(all_bump_forms, "--bumps", text);
             },
-            "In which form bump maps are kept: " + names_of(all_bump_forms) +
-                " (each technique's own)")
-        ->type_name("FORM");
+            "In which form bump maps are kept (each technique's own)")
+        ->type_name(names_of(all_bump_forms, "|"));
 }
 
 /// A length in the file's units, `least` or more.
@@ -169,8 +167,8 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                 [&all, &value, flag](const std::string& text) {
                     value = parse_setting(all, flag, text);
                 },
-                words + ": " + names_of(all) + " (each technique's own)")
-            ->type_name("HOW");
+                words + " (each technique's own)")
+            ->type_name(names_of(all, "|"));
     };
     add_choice("--map-value", all_map_values, settings.value, "What shadow maps hold");
     add_choice("--map-format", all_map_formats, settings.format, "How they store it");
@@ -344,12 +342,12 @@ void add_technique_flags(CLI::App& command, TechniqueOptions& options) {
             "Techniques, separated by commas (all)")
         ->delimiter(',')
         ->allow_extra_args(false) // a scene may follow
-        ->type_name("A,B");
+        ->type_name("TECHNIQUE");
     command
         .add_option_function<std::string>(
             "--gl", [&](const std::string& text) { options.platform = parse_platform(text); },
-            "Where OpenGL comes from: osmesa or egl (osmesa)")
-        ->type_name("PLATFORM");
+            "Where OpenGL comes from (osmesa)")
+        ->type_name("osmesa|egl");
     add_lighting_flags(command, options.asked.lighting);
     add_volume_flags(command, options.asked.volumes);
     add_map_flags(command, options.asked.map);

@@ -4,6 +4,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/standard_output.h"
+#include "compare/command/worst_cells.h"
 #include "compare/output/write_file.h"
 #include "raster/technique.h"
 #include "scenes/error.h"
@@ -51,6 +52,12 @@ void append_step_summary(const Report& report) {
         // The console has the same content: a lost summary fails no build.
         complain(fmt::format("GITHUB_STEP_SUMMARY={}", error.what()));
     }
+}
+
+void conclude_worst(Console& console, const Report& report) {
+    const std::vector<std::string> lines = worst_cells(report);
+    if (!lines.empty()) console.heading("worst cells first:");
+    for (const std::string& line : lines) console.line("  " + line);
 }
 
 void conclude_reproducing(Console& console, const Report& report) {
@@ -150,6 +157,7 @@ int conclude(Console& console, const Report& report, const OutputOptions& option
         write_file(options.junit, to_junit(report, started, options.out));
     if (report.baseline)
         for (const std::string& note : report.baseline->notes) console.line("baseline: " + note);
+    conclude_worst(console, report);
     conclude_reproducing(console, report);
     if (console.on_github()) {
         console.commands(to_workflow_commands(report));

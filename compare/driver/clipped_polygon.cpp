@@ -51,7 +51,8 @@ double far_error(const Corner& corner, const Drawing& drawing) {
 }
 
 // Window depth is half the quotient of numerator and depth; the inverse depth is what is left of it
-// to 1, over the near plane.
+// to 1, over the near plane. Where floats may put the corner into the eye or behind it, as only
+// those of faces that pass the eye that closely, it may be anywhere in the picture.
 PicturePoint pictured(const Camera& camera, const Corner& corner, double standard_near) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec4& at = corner.at;
@@ -67,6 +68,7 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
                         depth_error * pixels + 3 * v * pixels;
     point.depth_error = (depth_error + window_depth_roundings * v) * point.inverse_depth;
     if (standard_near > 0) point.depth_error += 0.5 * corner.clip_error / at.z / standard_near;
+    if (!(at.z > corner.error.z)) point.place_error = std::numeric_limits<double>::infinity();
     return point;
 }
 
@@ -120,10 +122,16 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
     clip([&](const Corner& c) {
         return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
     });
-    clip([&](const Corner& c) { return c.at.x + guard.x * c.at.z; });
-    clip([&](const Corner& c) { return -c.at.x + guard.x * c.at.z; });
-    clip([&](const Corner& c) { return c.at.y + guard.y * c.at.z; });
-    clip([&](const Corner& c) { return -c.at.y + guard.y * c.at.z; });
+    // Beyond the near plane the guard band lies outside of the picture: by how much its cuts are
+    // off shows nowhere. Where no near plane cuts, all its planes meet in the eye, and a face that
+    // passes the eye within the corners' errors may or may not be left.
+    const double next_to_eye = drawing.near > 0 ? 0 : sign;
+    for (const int axis : {0, 1})
+        for (const double side : {1.0, -1.0})
+            clip([&](const Corner& c) {
+                return side * c.at[axis] + guard[axis] * c.at.z +
+                       next_to_eye * (c.error[axis] + guard[axis] * c.error.z);
+            });
     if (std::isfinite(drawing.far))
         clip([&](const Corner& c) {
             return drawing.far * c.at.w - c.at.z + sign * far_error(c, drawing);

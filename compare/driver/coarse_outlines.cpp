@@ -58,22 +58,36 @@ void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {
     }
 }
 
+std::optional<CoarseOutlines::NearPlace>
+CoarseOutlines::near(const Outline& outline, const glm::dvec2& place, double step) {
+    const auto& [from, to] = outline;
+    const glm::dvec2 along = to.place - from.place;
+    const double length = glm::length(along);
+    if (!(length > 0)) return std::nullopt;
+    const double t = std::clamp(glm::dot(place - from.place, along) / (length * length), 0.0, 1.0);
+    const glm::dvec2 nearest = from.place + t * along;
+    const double aside = (1 - t) * from.place_error + t * to.place_error;
+    if (glm::length(nearest - place) > aside + step) return std::nullopt;
+    return NearPlace{nearest, along / length, aside};
+}
+
+bool CoarseOutlines::may_reach(const glm::dvec2& place, double step) const {
+    return std::ranges::any_of(outlines_, [&](const Outline& outline) {
+        const std::optional<NearPlace> found = near(outline, place, step);
+        return found && found->aside > step;
+    });
+}
+
 std::vector<glm::dvec2> CoarseOutlines::places_across(const glm::dvec2& place, double step,
                                                       std::size_t most) const {
     std::vector<glm::dvec2> places;
-    for (const auto& [from, to] : outlines_) {
+    for (const Outline& outline : outlines_) {
         if (places.size() >= most) break;
-        const glm::dvec2 along = to.place - from.place;
-        const double length = glm::length(along);
-        if (!(length > 0)) continue;
-        const double t =
-            std::clamp(glm::dot(place - from.place, along) / (length * length), 0.0, 1.0);
-        const glm::dvec2 nearest = from.place + t * along;
-        const double aside = (1 - t) * from.place_error + t * to.place_error;
-        if (glm::length(nearest - place) > aside + step) continue;
-        const glm::dvec2 across = step / length * glm::dvec2(-along.y, along.x);
-        places.push_back(nearest + across);
-        places.push_back(nearest - across);
+        const std::optional<NearPlace> found = near(outline, place, step);
+        if (!found) continue;
+        const glm::dvec2 across = step * glm::dvec2(-found->along.y, found->along.x);
+        places.push_back(found->nearest + across);
+        places.push_back(found->nearest - across);
     }
     return places;
 }

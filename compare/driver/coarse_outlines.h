@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowproof {
@@ -31,13 +32,24 @@ public:
     std::vector<glm::dvec2> places_across(const glm::dvec2& place, double step,
                                           std::size_t most) const;
 
+    /// Whether some outline may be displaced by more than `step`, and within a step of `place`.
+    bool may_reach(const glm::dvec2& place, double step) const;
+
 private:
+    struct NearPlace {
+        glm::dvec2 nearest; ///< the outline's point next to a place
+        glm::dvec2 along;   ///< of length 1
+        double aside = 0;   ///< how far it may be displaced there
+    };
     struct Outline {
         PicturePoint from, to; ///< one of them at least is made by clipping
     };
     std::vector<Outline> outlines_; ///< furthest displacement first
 
     void add(const std::vector<PicturePoint>& polygon);
+    /// None where the outline may not be displaced within `step` of the place.
+    static std::optional<NearPlace> near(const Outline& outline, const glm::dvec2& place,
+                                         double step);
 };
 
 } // namespace shadowproof

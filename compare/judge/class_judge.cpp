@@ -51,8 +51,8 @@ CoarseOutlines ClassJudge::coarse_outlines() const {
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
 }
 
-std::shared_ptr<const EvidenceReport>
-ClassJudge::report(const Image<std::uint8_t>& /*cause*/) const {
+std::shared_ptr<const EvidenceReport> ClassJudge::report(const Image<std::uint8_t>& /*cause*/,
+                                                         const MemoryBudget& /*left*/) const {
     return nullptr;
 }
 

@@ -17,7 +17,8 @@ public:
     Finding look_around(PixelPlace p, const Neighbourhood& around,
                         std::span<const RayTruth> truth) const override;
     CoarseOutlines coarse_outlines() const override;
-    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override;
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause,
+                                                 const MemoryBudget& left) const override;
 
 protected:
     const JudgedClaim& claim() const { return claim_; }

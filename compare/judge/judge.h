@@ -21,6 +21,8 @@
 namespace shadowproof {
 
 struct JsonPlace; // compare/json/json_place.h
+struct MemoryBudget;
+struct TechniqueSettings;
 
 struct PixelPlace {
     int x = 0;
@@ -47,6 +49,9 @@ struct PixelCause {
     Cause cause = Cause::unexplained;
     /// Further limitations that must be lifted together with `cause` to make the pixel right.
     CauseSet also{};
+    /// The cause is `precision`, though the surface is so near that the technique's numbers
+    /// suffice.
+    bool too_near = false;
 };
 
 /// What was found by looking at a pixel's surroundings.
@@ -98,9 +103,10 @@ public:
     /// What the evidence says about the claim as a whole. `cause`: Comparison::cause.
     virtual EvidenceSummary summary(const EvidenceCheck& check,
                                     const Image<std::uint8_t>& cause) const = 0;
-    /// What a report shows of the evidence; null where that is nothing.
-    virtual std::shared_ptr<const EvidenceReport>
-    report(const Image<std::uint8_t>& cause) const = 0;
+    /// What a report shows of the evidence; null where that is nothing. Throws Error where that
+    /// takes more memory than is left beside the program.
+    virtual std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause,
+                                                         const MemoryBudget& left) const = 0;
 
     /// Derive: how near the technique is to failing on this scene, by its arithmetic and the truth
     /// alone, whatever was drawn; beyond 1 some pixel is expected to be wrong. None where nothing
@@ -120,6 +126,9 @@ struct Family {
     /// by the rules of json_rules.h; the members of all families are checked already. Throws Error.
     /// Null: it adds nothing.
     void (*check_results)(const JsonPlace& cell) = nullptr;
+    /// Throws Error naming the setting where what was asked for takes more memory than there is,
+    /// beside that of compare/memory.h. Null: its settings take none.
+    void (*require_memory)(const MemoryBudget& budget, const TechniqueSettings& asked) = nullptr;
 };
 
 } // namespace shadowproof

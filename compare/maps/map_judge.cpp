@@ -7,6 +7,7 @@
 #include "compare/maps/map_account.h"
 #include "compare/maps/map_cause.h"
 #include "compare/maps/map_claim.h"
+#include "compare/maps/map_memory.h"
 #include "compare/maps/map_report.h"
 #include "compare/maps/map_results.h"
 #include "reference/parallel.h"
@@ -119,7 +120,8 @@ public:
         return summary_of_map(*claim_.frame.mapped, figures, claim_.traced.scene().unit);
     }
 
-    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause,
+                                                 const MemoryBudget& /*left*/) const override {
         std::vector<std::optional<PixelLookup>> at(cause.pixels.size());
         parallel_for(cause.height, claim_.traced.tracer().threads(), [&](int y, int) {
             for (int x = 0; x < cause.width; ++x) at[cause.index(x, y)] = lookup_at({x, y});
@@ -390,7 +392,8 @@ Family map_family() {
     return {.name = "map",
             .summary = "shadow maps, whose texels are read back",
             .judge = judge,
-            .check_results = check_map_results};
+            .check_results = check_map_results,
+            .require_memory = require_map};
 }
 
 } // namespace shadowproof

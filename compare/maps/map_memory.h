@@ -2,11 +2,11 @@
 #pragma once
 
 #include "scenes/memory_budget.h"
-#include "scenes/shadow_map.h"
+#include "scenes/technique_settings.h"
 
 namespace shadowproof {
 
 /// Throws Error naming --map-size where a map that was asked for cannot fit.
-void require_map(const MemoryBudget& budget, const MapSettings& settings);
+void require_map(const MemoryBudget& budget, const TechniqueSettings& asked);
 
 } // namespace shadowproof

@@ -20,6 +20,10 @@ bool may_not_give_away(int error) {
     return error == EPERM || error == EINVAL || error == ENOSYS || error == EOPNOTSUPP;
 }
 
+bool cannot_rename_so(int reason) {
+    return reason == EINVAL || reason == ENOSYS || reason == EOPNOTSUPP;
+}
+
 Descriptor::~Descriptor() {
     if (number_ >= 0) ::close(number_);
 }

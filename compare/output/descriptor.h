@@ -18,6 +18,9 @@ namespace shadowproof {
 /// user namespace or a file system knows no such owner.
 bool may_not_give_away(int error);
 
+/// Whether an error of renameat2 says that the file system knows no such way of renaming.
+bool cannot_rename_so(int reason);
+
 /// An open file, closed on destruction.
 class Descriptor {
 public:

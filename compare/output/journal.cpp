@@ -32,16 +32,17 @@ void take(JournalRecord& record, const std::string& line) {
     case of_folder:
         if (words >> folder.device >> folder.inode) record.folder = folder;
         break;
-    case of_begun:
-        if (is_name_below(name)) record.begun.insert(name);
-        break;
-    case of_complete: {
-        std::string written;
-        if (words >> fingerprint.size >> fingerprint.xxh3 &&
-            std::getline(words >> std::ws, written))
-            record.written.insert_or_assign(written, fingerprint);
+    case of_begun: {
+        std::string begun;
+        if (words >> fingerprint.size >> fingerprint.xxh3 && std::getline(words.ignore(), begun) &&
+            is_name_below(begun))
+            record.begun.insert_or_assign(begun, fingerprint);
         break;
     }
+    case of_complete:
+        if (const auto begun = record.begun.find(name); begun != record.begun.end())
+            record.written.insert(*begun);
+        break;
     case of_kept:
         record.kept.insert(name);
         break;
@@ -63,12 +64,12 @@ Journal::Journal(const fs::path& file, const FolderIdentity& folder)
     append(file_, of_folder, fmt::format("{} {}", folder.device, folder.inode));
 }
 
-void Journal::begin(const std::string& name) const {
-    append(file_, of_begun, name);
+void Journal::begin(const std::string& name, const Fingerprint& fingerprint) const {
+    append(file_, of_begun, fmt::format("{} {} {}", fingerprint.size, fingerprint.xxh3, name));
 }
 
-void Journal::complete(const std::string& name, const Fingerprint& fingerprint) const {
-    append(file_, of_complete, fmt::format("{} {} {}", fingerprint.size, fingerprint.xxh3, name));
+void Journal::complete(const std::string& name) const {
+    append(file_, of_complete, name);
 }
 
 void Journal::keep(const std::string& name) const {

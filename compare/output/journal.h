@@ -23,8 +23,8 @@ FolderIdentity identity_of(const std::filesystem::path& folder);
 
 struct JournalRecord {
     std::optional<FolderIdentity> folder; ///< that is being filled; none if not known
-    std::set<std::string> begun;          ///< names of the files that are or will be created
-    Manifest written;                     ///< those that are complete
+    Manifest begun;                       ///< files that are or will be at their place, whole
+    Manifest written;                     ///< those that are
     std::set<std::string> kept;           ///< names of files kept from the folder that is replaced
 };
 
@@ -37,8 +37,8 @@ public:
     /// Begins a new one.
     Journal(const std::filesystem::path& file, const FolderIdentity& folder);
 
-    void begin(const std::string& name) const;
-    void complete(const std::string& name, const Fingerprint& fingerprint) const;
+    void begin(const std::string& name, const Fingerprint& fingerprint) const;
+    void complete(const std::string& name) const;
     void keep(const std::string& name) const;
 
 private:

@@ -118,6 +118,12 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
     return manifest;
 }
 
+bool is_as_listed(const Manifest& manifest, std::string_view name, const fs::path& file) {
+    const auto entry = manifest.find(name);
+    return entry != manifest.end() && fs::is_regular_file(fs::symlink_status(file)) &&
+           fingerprint_of(file) == entry->second;
+}
+
 bool lists_below(const Manifest& manifest, std::string_view folder) {
     const std::string prefix = std::string(folder) + "/";
     const auto first = manifest.lower_bound(prefix);

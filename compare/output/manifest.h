@@ -32,6 +32,11 @@ inline constexpr const char* manifest_name = "manifest.json";
 /// the folder.
 bool is_name_below(std::string_view name);
 
+/// Whether a manifest lists the regular file `file` as `name`, and it has not changed since. Throws
+/// std::system_error where it cannot be read.
+bool is_as_listed(const Manifest& manifest, std::string_view name,
+                  const std::filesystem::path& file);
+
 /// manifest.json of schema shadowproof/manifest/1.
 std::string to_json(const Manifest& manifest);
 

@@ -2,6 +2,7 @@
 
 #include "compare/output/followed.h"
 #include "compare/output/kept.h"
+#include "compare/output/passing_file.h"
 #include "compare/output/report_place.h"
 #include "compare/output/unwritable.h"
 #include "scenes/error.h"
@@ -48,19 +49,13 @@ FateOf fate_of_old_content(const fs::path& folder, const std::set<std::string>& 
     return [manifest = read_manifest(folder).value_or(Manifest()),
             &replaced](const std::string& name, const fs::path& file) {
         if (name == manifest_name || replaced.contains(name)) return Fate::remove;
-        const auto entry = manifest.find(name);
-        const bool as_written = entry != manifest.end() &&
-                                fs::is_regular_file(fs::symlink_status(file)) &&
-                                fingerprint_of(file) == entry->second;
-        return as_written ? Fate::remove : Fate::bring_home;
+        return is_as_listed(manifest, name, file) ? Fate::remove : Fate::bring_home;
     };
 }
 
 FateOf fate_of_new_content(const JournalRecord& record, bool has_home) {
-    return [&record, has_home](const std::string& name, const fs::path&) {
-        const bool ours =
-            name == manifest_name ? record.folder.has_value() : record.begun.contains(name);
-        if (ours) return Fate::remove;
+    return [&record, has_home](const std::string& name, const fs::path& file) {
+        if (is_as_listed(record.begun, name, file)) return Fate::remove;
         return has_home && record.kept.contains(name) ? Fate::bring_home : Fate::leave;
     };
 }
@@ -73,6 +68,7 @@ std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path&
     const fs::path content = work / "report";
     const fs::path older = work / "older";
     const JournalRecord record = read_journal(work / "journal");
+    remove_leftovers(work, Writers::none);
     std::vector<std::string> left;
     if (is_there(older)) {
         // It was moved away, and nothing has taken its place.
@@ -99,10 +95,6 @@ void make_folders_for(const fs::path& file) {
 void sync_file_system(const fs::path& folder) {
     const Descriptor opened = open_file(folder, O_RDONLY | O_DIRECTORY);
     if (::syncfs(opened.number()) != 0) throw_errno();
-}
-
-bool cannot_rename_so(int reason) {
-    return reason == EINVAL || reason == ENOSYS || reason == EOPNOTSUPP;
 }
 
 /// "a, b, c, d and 3 more"
@@ -157,24 +149,34 @@ void ReplacedFolder::prepare() {
     const std::vector<std::string> left = empty_work_folder(work_, place_, {});
     if (!left.empty() || is_there(content_))
         throw Error((work_ / "report").string(),
-                    fmt::format("is left of a run that was cut off, and holds {}, which this "
-                                "program did not write",
+                    fmt::format("is left of a run that was cut off, and holds {}, not as this "
+                                "program wrote it",
                                 left.empty() ? "a folder" : listed(left)),
                     "move it away, or name another folder with --out");
     if (::mkdir(content_.c_str(), 0777) != 0) throw_errno();
     journal_ = Journal(work_ / "journal", identity_of(content_));
 }
 
+/// Its name is that of the whole file from the beginning, so that what is found under it can be
+/// compared with the journal.
+void ReplacedFolder::make_whole(const std::string& name, std::string_view bytes) const {
+    journal_.begin(name, fingerprint_of(bytes));
+    make_folders_for(content_ / name);
+    PassingFile file = make_passing_file(work_);
+    try {
+        write_all(file.opened, bytes);
+        put_at_place(file, content_ / name);
+    } catch (...) {
+        discard(file);
+        throw;
+    }
+}
+
 void ReplacedFolder::add(const std::string& name, std::string_view bytes) const {
     try {
         if (!is_name_below(name)) throw std::system_error(EINVAL, std::generic_category());
-        const Fingerprint fingerprint = fingerprint_of(bytes);
-        journal_.begin(name);
-        make_folders_for(content_ / name);
-        Descriptor file = open_file(content_ / name, O_CREAT | O_EXCL | O_WRONLY | O_NOFOLLOW);
-        write_all(file, bytes);
-        file.close();
-        journal_.complete(name, fingerprint);
+        make_whole(name, bytes);
+        journal_.complete(name);
     } catch (const std::system_error& error) {
         throw unwritable_report(named_ / name, error.code().value());
     }
@@ -236,17 +238,16 @@ void ReplacedFolder::finish() {
     const auto lock = hold_unfinished();
     try {
         const JournalRecord record = read_journal(work_ / "journal");
-        for (const std::string& name : record.begun) {
-            if (record.written.contains(name)) continue;
+        for (const auto& [name, fingerprint] : record.begun) {
+            const fs::path file = content_ / name;
+            if (record.written.contains(name) || !is_as_listed(record.begun, name, file)) continue;
             // The process that wrote it has died.
-            if (::unlink((content_ / name).c_str()) != 0 && errno != ENOENT) throw_errno();
+            if (::unlink(file.c_str()) != 0) throw_errno();
         }
         check_report_place(named_, place_, fixed_);
         const bool replaces = is_there(place_);
         if (replaces) keep_what_is_foreign(record.written);
-        Descriptor file = open_file(content_ / manifest_name, O_CREAT | O_EXCL | O_WRONLY);
-        write_all(file, to_json(record.written));
-        file.close();
+        make_whole(manifest_name, to_json(record.written));
         if (replaces) take_over_mode(place_, content_);
         sync_file_system(content_);
         exchange();

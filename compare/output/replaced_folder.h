@@ -1,7 +1,8 @@
 // Replaces the folder of a report in one step. The new folder is written beside its place, in
 // DIR.writing/, which holds
 //   lock      held by the process that writes; its first line names it
-//   journal   what has been written so far, for finishing the work or cleaning up
+//   journal   what has been written so far, with hashes, for finishing the work or cleaning up
+//   .shadowproof-...  a file that is being written, where it cannot be without a name
 //   report/   the new content; then, for a moment, the old one that was exchanged for it
 //   older/    the old one, where the file system cannot exchange two folders
 #pragma once
@@ -48,6 +49,7 @@ public:
 
 private:
     void prepare();
+    void make_whole(const std::string& name, std::string_view bytes) const;
     void keep_what_is_foreign(const Manifest& manifest);
     void exchange();
     void clean_up();

@@ -10,8 +10,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <system_error>
 
 namespace shadowproof {
@@ -29,6 +32,10 @@ constexpr std::array version_control{".git", ".hg", ".svn",      ".bzr",     "_d
     throw Error(named.string(), what, "name another folder with --out");
 }
 
+/// Of the accounts that this machine itself knows; those of a network's directory are not asked
+/// for, which may be many and slow.
+constexpr const char* accounts_file = "/etc/passwd";
+
 fs::path home_of(uid_t user) {
     const passwd* entry = ::getpwuid(user); // called by one thread, before the work
     return entry != nullptr && entry->pw_dir != nullptr ? entry->pw_dir : "";
@@ -44,8 +51,10 @@ void refuse_folders_of_people(const fs::path& named, const fs::path& place) {
     if (holds(place, fs::current_path(ignored)))
         refuse(named, "is the current folder, or holds it, and a report replaces its folder");
     const char* const home = std::getenv("HOME");
-    for (const fs::path& each : {fs::path(home != nullptr ? home : ""), home_of(::getuid()),
-                                 home_of(::geteuid()), home_of(0), fs::path("/root")})
+    std::vector<fs::path> homes = homes_in(accounts_file);
+    homes.insert(homes.end(), {home != nullptr ? home : "", home_of(::getuid()),
+                               home_of(::geteuid()), home_of(0), "/root"});
+    for (const fs::path& each : homes)
         if (each.is_absolute() && holds(place, fs::weakly_canonical(each, ignored)))
             refuse(named, "is a home folder, or holds one, and a report replaces its folder");
 }
@@ -82,16 +91,30 @@ std::optional<Manifest> manifest_of(const fs::path& named, const fs::path& place
     }
 }
 
-bool is_as_written(const fs::path& file, const Manifest& manifest, const std::string& name) {
-    const auto entry = manifest.find(name);
+bool may_be_replaced(const Manifest& manifest, const std::string& name, const fs::path& file) {
     try {
-        return entry != manifest.end() && fingerprint_of(file) == entry->second;
+        return is_as_listed(manifest, name, file);
     } catch (const std::system_error&) {
         return false;
     }
 }
 
 } // namespace
+
+std::vector<fs::path> homes_in(const fs::path& accounts) {
+    constexpr std::size_t most_accounts = 100'000;
+    std::vector<fs::path> homes;
+    const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(
+        std::fopen(accounts.c_str(), "re"), &std::fclose);
+    if (!file) return homes;
+    // Called by one thread, before the work.
+    while (homes.size() < most_accounts) {
+        const passwd* const entry = ::fgetpwent(file.get());
+        if (entry == nullptr) break;
+        homes.emplace_back(entry->pw_dir);
+    }
+    return homes;
+}
 
 void refuse_in_the_way(const fs::path& folder, const std::string& name) {
     throw Error((folder / name).string(),
@@ -130,7 +153,7 @@ void check_report_place(const fs::path& named, const fs::path& place,
                     "remove it, or name another folder with --out");
     for (const std::string& name : fixed)
         if (fs::exists(fs::symlink_status(place / name, error)) &&
-            !is_as_written(place / name, *manifest, name))
+            !may_be_replaced(*manifest, name, place / name))
             refuse_in_the_way(named, name);
 }
 

@@ -2,16 +2,15 @@
 
 #include "compare/output/descriptor.h"
 #include "compare/output/followed.h"
+#include "compare/output/passing_file.h"
 #include "compare/output/unfinished.h"
 #include "compare/output/unwritable.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -87,58 +86,6 @@ void write_into(const Destination& to, const fs::path& file, std::string_view by
     opened.close();
 }
 
-constexpr std::string_view passing_prefix = ".shadowproof-";
-
-/// A name that no file of this run, or of another running one, has.
-fs::path passing_name(const fs::path& folder) {
-    static std::atomic<int> number = 0;
-    return folder / fmt::format("{}{}-{}", passing_prefix, getpid(), number++);
-}
-
-/// Files under a temporary name are locked as long as their writer lives: unlocked ones are left
-/// from a killed run.
-void remove_leftovers(const fs::path& folder) {
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-        const std::string name = entry.path().filename().string();
-        const bool ours =
-            name.starts_with(passing_prefix) && name.size() > passing_prefix.size() &&
-            name.find_first_not_of("0123456789-", passing_prefix.size()) == std::string::npos;
-        if (!ours || !fs::is_regular_file(entry.symlink_status(ignored))) continue;
-        const Descriptor file(
-            ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-        if (file && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
-    }
-}
-
-/// A new file in `folder`: without a name if the file system can do that, else under a temporary
-/// one.
-struct NewFile {
-    Descriptor opened;
-    fs::path name; ///< empty: it has none
-};
-
-bool takes_no_unnamed(int reason) {
-    return reason == EOPNOTSUPP || reason == EISDIR || reason == EINVAL || reason == ENOENT;
-}
-
-NewFile make_file(const fs::path& folder) {
-    try {
-        return {open_file(folder, O_TMPFILE | O_WRONLY), {}};
-    } catch (const std::system_error& error) {
-        if (!takes_no_unnamed(error.code().value())) throw;
-    }
-    NewFile made{{}, passing_name(folder)};
-    made.opened = open_file(made.name, O_CREAT | O_EXCL | O_WRONLY);
-    return made;
-}
-
-void give_name(const Descriptor& unnamed, const fs::path& name) {
-    const std::string itself = fmt::format("/proc/self/fd/{}", unnamed.number());
-    if (::linkat(AT_FDCWD, itself.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-        throw_errno();
-}
-
 /// Keeps owner and mode.
 void take_over_mode(const Descriptor& file, const Status& from) {
     // If the owner may not be changed, at least the mode is kept.
@@ -149,28 +96,21 @@ void take_over_mode(const Descriptor& file, const Status& from) {
 
 void put_in_place(const Destination& to, std::string_view bytes) {
     const fs::path folder = to.place.parent_path();
-    remove_leftovers(folder);
-    NewFile made = make_file(folder);
-    const auto remove = [&made] {
-        if (!made.name.empty()) ::unlink(made.name.c_str());
-    };
-    Unfinished unfinished(remove);
-    // Not every file system has locks: a file left by kill -9 may then be taken for another run's,
-    // and stays.
-    static_cast<void>(::flock(made.opened.number(), LOCK_EX | LOCK_NB));
+    remove_leftovers(folder, Writers::others);
+    PassingFile made = make_passing_file(folder);
+    Unfinished unfinished([&made] { discard(made); });
     if (to.there) take_over_mode(made.opened, *to.there);
     write_all(made.opened, bytes);
     sync_to_disk(made.opened);
-    const bool is_new = !to.there && made.name.empty();
-    if (is_new) give_name(made.opened, to.place);
-    if (!is_new && made.name.empty()) {
-        const fs::path name = passing_name(folder);
-        give_name(made.opened, name);
-        made.name = name;
+    if (to.there || !made.name.empty()) {
+        name_in_passing(made, folder);
+        if (::rename(made.name.c_str(), to.place.c_str()) != 0) throw_errno();
+        unfinished.done();
+        made.opened.close();
+    } else {
+        put_at_place(made, to.place);
+        unfinished.done();
     }
-    if (!is_new && ::rename(made.name.c_str(), to.place.c_str()) != 0) throw_errno();
-    unfinished.done();
-    made.opened.close();
     sync_folder(folder);
 }
 
@@ -210,8 +150,7 @@ void check_writable(const fs::path& file) {
         const fs::path folder = to.place.parent_path();
         if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) throw_errno();
         const auto lock = hold_unfinished();
-        const NewFile made = make_file(folder); // one without a name goes with its descriptor
-        if (!made.name.empty()) ::unlink(made.name.c_str()); // or the write that follows does
+        discard(make_passing_file(folder)); // one without a name goes with its descriptor
         // A name too long for the file system.
         Status ignored{};
         if (::lstat(to.place.c_str(), &ignored) != 0 && errno != ENOENT) throw_errno();

@@ -22,8 +22,8 @@ std::string words_of(const Intervals& color) {
 
 std::string_view meaning_of(ColorVerdict verdict) {
     switch (verdict) {
-    case ColorVerdict::not_judged:
-        return "not judged: surface or visibility are not the truth's";
+    case ColorVerdict::as_shown:
+        return "that of what it shows, which is background or not the truth's";
     case ColorVerdict::within:
         return "within the bound of what the error budget explains";
     case ColorVerdict::beyond:
@@ -66,8 +66,8 @@ Json ends_json(const Intervals& color) {
 
 std::string_view name_of(ColorVerdict verdict) {
     switch (verdict) {
-    case ColorVerdict::not_judged:
-        return "not_judged";
+    case ColorVerdict::as_shown:
+        return "as_shown";
     case ColorVerdict::within:
         return "within";
     case ColorVerdict::beyond:
@@ -83,7 +83,7 @@ std::string_view name_of(ColorVerdict verdict) {
 }
 
 std::string to_text(const ColorAccount& account, const std::string& technique) {
-    if (account.verdict == ColorVerdict::not_judged)
+    if (account.verdict == ColorVerdict::as_shown)
         return fmt::format("  colour of {}: {}\n", technique, meaning_of(account.verdict));
     std::string text =
         fmt::format("  colour of {}: {}\n    true      {}\n    claimed   {}\n    bound     {}\n"
@@ -102,7 +102,7 @@ nlohmann::ordered_json to_json(const ColorAccount& account) {
     Json json{{"verdict", name_of(account.verdict)},
               {"true", color_json(account.showable)},
               {"claimed", color_json(account.claim)}};
-    if (account.verdict == ColorVerdict::not_judged) return json;
+    if (account.verdict == ColorVerdict::as_shown) return json;
     json["bound"] = ends_json(account.bound);
     json["predicted"] = ends_json(account.predicted);
     for (const ColorTerm term : heaviest_first(account))

@@ -8,7 +8,7 @@
 
 namespace shadowproof {
 
-/// Several lines, each indented; none where the colour is not judged.
+/// Several lines, each indented; one where it is that of what is shown.
 std::string to_text(const ColorAccount& account, const std::string& technique);
 
 nlohmann::ordered_json to_json(const ColorAccount& account);

@@ -24,6 +24,7 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
         technique.cause == no_difference ? Json(nullptr) : Json(all_causes[technique.cause].name);
     json["also"] = Json::array();
     for (const Cause cause : technique.also) json["also"].push_back(name_of(cause));
+    if (technique.too_near) json["too_near"] = true;
     if (technique.color) json["color"] = to_json(*technique.color);
     return json;
 }

@@ -24,6 +24,7 @@ struct TechniqueAtPixel {
     std::uint32_t shown = no_triangle;  ///< the triangle read back, where it shows surfaces
     std::uint8_t cause = no_difference; ///< Cause, or no_difference
     std::vector<Cause> also;            ///< further causes: see Comparison::also
+    bool too_near = false;              ///< as PixelCause has it
     Account account;
     std::optional<ColorAccount> color; ///< where it lights bump maps
 };

@@ -1,6 +1,7 @@
 #include "compare/report/report_data.h"
 
 #include "compare/json/blocks.h"
+#include "compare/judge/crossing_json.h"
 #include "compare/report/color_picture.h"
 #include "compare/report/light_json.h"
 
@@ -15,10 +16,6 @@ namespace shadowproof {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json vector_json(const glm::dvec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
 
 /// A line of script that hands the viewer an object by its name: the members of `header`, and
 /// blocks.

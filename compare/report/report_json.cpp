@@ -79,6 +79,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     json["differing"] = comparison.differing;
     json["causes"] = causes_of(comparison);
     if (comparison.several > 0) json["several"] = comparison.several;
+    if (comparison.too_near > 0) json["too_near"] = comparison.too_near;
     if (comparison.shares) {
         json["partly_lit"] = comparison.shares->partly_lit;
         json["wrongness"] = comparison.shares->wrongness;

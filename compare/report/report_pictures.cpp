@@ -98,7 +98,7 @@ PalettePicture color_error_picture(const ColorCheck& colors) {
     };
     for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
         switch (colors.verdict.pixels[i]) {
-        case ColorVerdict::not_judged:
+        case ColorVerdict::as_shown:
             picture.indices.pixels[i] = background;
             break;
         case ColorVerdict::within:

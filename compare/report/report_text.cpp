@@ -39,6 +39,17 @@ std::string excused_words(const Cell& cell, const Gate& gate) {
                        cell.technique, names);
 }
 
+namespace {
+
+/// "3 of precision where the technique's numbers suffice"; empty where there are none.
+std::string too_near_words(const Comparison& comparison) {
+    if (comparison.too_near == 0) return {};
+    return fmt::format("{} of precision where the technique's numbers suffice",
+                       grouped(comparison.too_near));
+}
+
+} // namespace
+
 std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWidths& widths) {
     const std::string_view verdict = outcome_name(cell);
     std::string line = fmt::format("{:<{}}  {:<{}}  {:<{}}  ", cell.technique, widths.technique,
@@ -55,6 +66,7 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
     if (comparison.first)
         line += fmt::format("  first ({},{}) {}", comparison.first->x, comparison.first->y,
                             name_of(comparison.first->cause));
+    if (const std::string near = too_near_words(comparison); !near.empty()) line += "  " + near;
     for (const std::string& clause : unexplained_evidence(comparison)) line += "  " + clause;
     if (comparison.colors) line += "  " + words_of(*comparison.colors);
     if (!comparison.summary.words.empty()) line += "  " + comparison.summary.words;
@@ -75,6 +87,7 @@ std::string why_it_fails(const Cell& cell, const Gate& gate) {
         cell.first_failing ? cell.first_failing : comparison.first;
     if (first)
         words += fmt::format("; first ({},{}) {}", first->x, first->y, name_of(first->cause));
+    if (const std::string near = too_near_words(comparison); !near.empty()) words += "; " + near;
     for (const std::string& clause : unexplained_evidence(comparison)) words += "; " + clause;
     if (comparison.colors && comparison.colors->unpredicted > 0)
         words += "; " + words_of(*comparison.colors);

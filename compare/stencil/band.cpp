@@ -1,25 +1,24 @@
 #include "compare/stencil/band.h"
 
 #include "compare/stencil/pixel_readings.h"
+#include "reference/predict/tally.h"
 
 #include <algorithm>
 
 namespace shadowproof {
 
-namespace {
-
-/// Rays through all parts into which the outlines of volumes divide the neighbourhood.
-std::vector<glm::dvec3> rays_between_outlines(const PixelVolumes& volumes,
+std::vector<glm::dvec3> rays_between_outlines(const PixelVolumes& volumes, const Frame& frame,
                                               const Neighbourhood& around) {
     std::vector<glm::dvec3> planes = volumes.counted.outlines(around.corners);
-    if (volumes.ideal != nullptr) {
-        const std::vector<glm::dvec3> more = volumes.ideal->outlines(around.corners);
+    const auto add = [&](const std::vector<glm::dvec3>& more) {
         planes.insert(planes.end(), more.begin(), more.end());
-    }
+    };
+    // Volumes left open at infinity are counted to there, and a side ends in its vanishing line.
+    if (tally_of_dark_caps(frame.counted->counting, frame.depth_model) == Tally::lost_cap)
+        add(volumes.counted.vanishing_lines(around.corners));
+    if (volumes.ideal != nullptr) add(volumes.ideal->outlines(around.corners));
     return rays_between(around, std::move(planes));
 }
-
-} // namespace
 
 PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,
                     double far, std::uint32_t shown, const Neighbourhood& around,
@@ -40,7 +39,7 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
     };
     look_along(around.rays, truth);
     if (!found && around.rays.size() > 1) {
-        const std::vector<glm::dvec3> rays = rays_between_outlines(volumes, around);
+        const std::vector<glm::dvec3> rays = rays_between_outlines(volumes, frame, around);
         std::vector<RayTruth> truth_there;
         for (const glm::dvec3& ray : rays) truth_there.push_back(trace_ray(tracer, ray));
         look_along(rays, truth_there);

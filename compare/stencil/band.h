@@ -20,6 +20,11 @@ struct PixelBand {
     std::vector<Reading> readings; ///< without repetition; none where it cannot be seen here
 };
 
+/// Rays through all parts into which the outlines of volumes, as the frame counts them, divide the
+/// neighbourhood.
+std::vector<glm::dvec3> rays_between_outlines(const PixelVolumes& volumes, const Frame& frame,
+                                              const Neighbourhood& around);
+
 /// `truth`: what trace_rays finds along the neighbourhood's rays. Stops at the first ray that has a
 /// reading for which `matches` holds. If none has, it also tries rays between the outlines of
 /// volumes, and then all further readings of pixel_readings.h.

@@ -136,13 +136,17 @@ private:
     }
 
     /// Volumes are entered through their layers, in front of everything; what a volume with a split
-    /// far end is cut into may count either way.
+    /// far end is cut into may count either way. A layer of which no bound is known, as the light
+    /// lies in the near plane or on its caster, makes no pixel coarse: it would let the counter be
+    /// anything there.
     void add_layer(std::size_t number, std::vector<FaceSums>& sums) const {
         const NearLayer& layer = picture_.faces.near_layers[number - picture_.faces.faces.size()];
         const PicturedFace face = faces_.face(number);
+        const bool is_bound = std::isfinite(face.margin);
         for (const std::size_t i : by_row_.within(by_row_.rows_of(face))) {
             const Chance covered = covers(face, pixels_[i]);
-            sums[i].is_coarse = sums[i].is_coarse || is_coarse(face, covered, pixels_[i]);
+            sums[i].is_coarse =
+                sums[i].is_coarse || (is_bound && is_coarse(face, covered, pixels_[i]));
             sums[i].counted += steps(layer.touches_light ? 0 : 1, 1, covered);
         }
     }

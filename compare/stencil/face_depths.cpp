@@ -53,18 +53,21 @@ DepthRange FaceDepths::surface(std::uint32_t triangle) const {
 // its sign.
 DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& direction) const {
     DepthRange range{crossing.depth, crossing.depth, crossing.depth};
-    const double square = crossing.depth * crossing.depth;
-    // Light caps that may be in front belong to culled surfaces, or fill holes.
-    if (crossing.is_side())
-        range.include(crossing.depth, plane_error(crossing) * square);
-    else if (crossing.triangle < scene_.triangles.size())
-        range.include(crossing.depth, plane_error(crossing.triangle) * square);
+    range.include(crossing.depth, setup_error_at(crossing));
     const double here = glm::dot(direction, crossing.plane);
     for (const glm::dvec3& other : around_.corners) {
         const double ratio = here / glm::dot(other, crossing.plane);
         range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
     }
     return range;
+}
+
+// Light caps that may be in front belong to culled surfaces, or fill holes.
+double FaceDepths::setup_error_at(const Crossing& crossing) const {
+    if (crossing.is_side()) return plane_error(crossing) * crossing.depth * crossing.depth;
+    return crossing.triangle < scene_.triangles.size()
+               ? setup_error_at(crossing.triangle, crossing.depth)
+               : 0;
 }
 
 double FaceDepths::clip_far() const {

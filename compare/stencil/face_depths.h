@@ -50,6 +50,12 @@ public:
     /// A volume face's plane over the neighbourhood, met on a ray of direction `direction`.
     DepthRange face(const Crossing& crossing, const glm::dvec3& direction) const;
 
+    /// How far off the planes of both are set up, in view depth, where a ray meets them.
+    double setup_error_at(std::uint32_t triangle, double depth) const {
+        return plane_error(triangle) * depth * depth;
+    }
+    double setup_error_at(const Crossing& crossing) const;
+
     /// The far plane's depth where it clips, else infinity.
     double clip_far() const;
     /// A clipping plane's depth, moved by -1, 0 or 1 times that depth's error: it is rounded like

@@ -4,6 +4,7 @@
 #include "reference/predict/pixel_ledger.h"
 #include "reference/predict/tally.h"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -13,9 +14,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// Regions of a band, from top to bottom.
-constexpr int regions_high = 8;
 
 struct Inputs {
     const Tracer& tracer;
@@ -33,28 +31,36 @@ struct Place {
 /// A ledger as numbers, the same for pixels whose ledgers are the same.
 using Words = std::vector<std::uint64_t>;
 
-constexpr std::uint64_t crossing_word(const Crossing& crossing, Tally tally) {
-    return std::uint64_t{crossing.triangle} << 32U | static_cast<std::uint64_t>(tally) << 8U |
-           static_cast<std::uint64_t>(crossing.part) << 1U | (crossing.change > 0 ? 1U : 0U);
+constexpr std::uint64_t pair(std::int32_t high, std::int32_t low) {
+    return std::uint64_t{static_cast<std::uint32_t>(high)} << 32U | static_cast<std::uint32_t>(low);
+}
+constexpr std::int32_t high(std::uint64_t word) {
+    return static_cast<std::int32_t>(word >> 32U);
+}
+constexpr std::int32_t low(std::uint64_t word) {
+    return static_cast<std::int32_t>(word);
+}
+
+constexpr std::uint64_t crossing_word(std::uint32_t triangle, Crossing::Part part, int change,
+                                      Tally tally) {
+    return std::uint64_t{triangle} << 32U | static_cast<std::uint64_t>(tally) << 8U |
+           static_cast<std::uint64_t>(part) << 1U | (change > 0 ? 1U : 0U);
 }
 
 constexpr std::size_t count_words = 4; ///< words before those of the crossings
 
 void append_words(const Inputs& in, const PixelLedger& ledger, const Place& p, Words& words) {
     const std::uint32_t seen = in.truth.triangle.at(p.x, p.y);
-    const auto pair = [](std::int32_t high, std::int32_t low) {
-        return std::uint64_t{static_cast<std::uint32_t>(high)} << 32U |
-               static_cast<std::uint32_t>(low);
-    };
     const RayCounts& counts = ledger.counts;
     words.push_back(pair(counts.at_near, counts.at_surface));
     words.push_back(pair(counts.at_far, counts.at_infinity));
     words.push_back(pair(counts.at_eye, ledger.adds_up ? 1 : 0));
     words.push_back(pair(0, in.prediction.counts().at(p.x, p.y)));
     for (const Crossing& crossing : ledger.crossings)
-        words.push_back(crossing_word(
-            crossing, tally(crossing, ledger.surface, seen, in.prediction.depths().far,
-                            in.frame.counted->counting, in.frame.depth_model)));
+        words.push_back(
+            crossing_word(crossing.triangle, crossing.part, crossing.change,
+                          tally(crossing, ledger.surface, seen, in.prediction.depths().far,
+                                in.frame.counted->counting, in.frame.depth_model)));
 }
 
 /// The differing pixels of one region, in rows from the top, and their ledgers.
@@ -94,36 +100,6 @@ std::vector<Place> differing_places(const Image<std::uint8_t>& cause) {
     return places;
 }
 
-/// Lists of words, each kept once and numbered.
-class WordLists {
-public:
-    struct Numbered {
-        std::uint32_t number = 0;
-        bool is_new = false;
-    };
-    Numbered number_of(std::span<const std::uint64_t> words) {
-        // Another list with the same hash is one number further.
-        for (std::uint64_t hash = XXH3_64bits(words.data(), words.size_bytes());; ++hash) {
-            const auto count = static_cast<std::uint32_t>(start_.size() - 1);
-            const auto [place, is_new] = numbers_.try_emplace(hash, count);
-            if (is_new) {
-                words_.insert(words_.end(), words.begin(), words.end());
-                start_.push_back(words_.size());
-                return {count, true};
-            }
-            const auto kept = words_.begin() + static_cast<std::ptrdiff_t>(start_[place->second]);
-            const std::size_t size = start_[place->second + 1] - start_[place->second];
-            if (size == words.size() && std::equal(words.begin(), words.end(), kept))
-                return {place->second, false};
-        }
-    }
-
-private:
-    std::unordered_map<std::uint64_t, std::uint32_t> numbers_; ///< by hash
-    Words words_;
-    std::vector<std::size_t> start_{0};
-};
-
 /// Fills a table in a fixed order, whichever thread found the ledgers.
 class TableBuilder {
 public:
@@ -140,9 +116,16 @@ public:
         table_.exactness.push_back(static_cast<std::uint8_t>(in_.truth.exactness.at(x, y)));
         need(seen);
         need(shown);
-        const auto [ledger, is_new] = ledgers_.number_of(words);
-        if (is_new) add_ledger(words);
-        table_.ledger.push_back(ledger);
+        table_.ledger.push_back(ledger_of(words));
+    }
+
+    std::uint64_t bytes() const {
+        const auto of = [](const auto&... lists) {
+            return (std::uint64_t{0} + ... + (lists.capacity() * sizeof(lists[0])));
+        };
+        return of(table_.seen, table_.shown, table_.exactness, table_.ledger, table_.start,
+                  table_.counts, table_.adds_up, table_.predicted, table_.crossing_face,
+                  table_.crossing_change, table_.crossing_tally, table_.face);
     }
 
     LedgerTable finish() {
@@ -158,7 +141,7 @@ private:
     const Inputs& in_;
     const Scene& scene_;
     LedgerTable table_;
-    WordLists ledgers_;
+    std::unordered_map<std::uint64_t, std::uint32_t> ledgers_; ///< by the hash of their words
     std::vector<std::uint32_t> faces_; ///< 5 per triangle: each part's face, or unnumbered
     std::vector<std::uint8_t> needed_; ///< one flag per triangle, then those of the far ends
 
@@ -185,9 +168,37 @@ private:
         if (triangle != no_triangle) needed_[triangle] = 1;
     }
 
+    /// The ledger of these words, which is added where it is new.
+    std::uint32_t ledger_of(std::span<const std::uint64_t> words) {
+        // Another ledger with the same hash is one number further.
+        for (std::uint64_t hash = XXH3_64bits(words.data(), words.size_bytes());; ++hash) {
+            const auto count = static_cast<std::uint32_t>(table_.predicted.size());
+            const auto [place, is_new] = ledgers_.try_emplace(hash, count);
+            if (is_new) add_ledger(words);
+            if (is_new || has_words(place->second, words)) return place->second;
+        }
+    }
+
+    bool has_words(std::uint32_t ledger, std::span<const std::uint64_t> words) const {
+        const std::int32_t* counts = table_.counts.data() + 5 * std::size_t{ledger};
+        if (words[0] != pair(counts[1], counts[2]) || words[1] != pair(counts[3], counts[4]) ||
+            words[2] != pair(counts[0], table_.adds_up[ledger]) ||
+            words[3] != pair(0, table_.predicted[ledger]))
+            return false;
+        const std::size_t first = table_.start[ledger];
+        if (table_.start[ledger + 1] - first != words.size() - count_words) return false;
+        for (std::size_t i = 0; i < words.size() - count_words; ++i) {
+            const std::size_t face = 2 * std::size_t{table_.crossing_face[first + i]};
+            if (words[count_words + i] !=
+                crossing_word(table_.face[face], static_cast<Crossing::Part>(table_.face[face + 1]),
+                              table_.crossing_change[first + i],
+                              static_cast<Tally>(table_.crossing_tally[first + i])))
+                return false;
+        }
+        return true;
+    }
+
     void add_ledger(std::span<const std::uint64_t> words) {
-        const auto high = [](std::uint64_t word) { return static_cast<std::int32_t>(word >> 32U); };
-        const auto low = [](std::uint64_t word) { return static_cast<std::int32_t>(word); };
         table_.counts.insert(table_.counts.end(), {high(words[2]), high(words[0]), low(words[0]),
                                                    high(words[1]), low(words[1])});
         table_.adds_up.push_back(static_cast<std::uint8_t>(low(words[2])));
@@ -214,36 +225,41 @@ private:
 } // namespace
 
 LedgerTable list_ledgers(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                         const Prediction& prediction, const Image<std::uint8_t>& cause) {
+                         const Prediction& prediction, const Image<std::uint8_t>& cause,
+                         const MemoryBudget& left) {
     const std::vector<Place> places = differing_places(cause);
     if (places.empty()) return {};
     const Inputs in{tracer, truth, frame, prediction, cause};
     TableBuilder builder(in);
-    const int columns = (cause.width + region_side - 1) / region_side;
-    const auto band_of = [](const Place& p) { return p.y / (region_side * regions_high); };
-    const auto region_of = [&](const Place& p) {
-        const int row = p.y / region_side % regions_high;
-        return static_cast<std::size_t>(row * columns + p.x / region_side);
+    const auto columns = static_cast<std::size_t>((cause.width + region_side - 1) / region_side);
+    const auto row_of = [](const Place& p) { return p.y / region_side; };
+    const auto column_of = [](const Place& p) {
+        return static_cast<std::size_t>(p.x / region_side);
     };
-    // One band of regions at a time, so that little waits for its place in the table.
+    // One row of regions at a time, so that little waits for its place in the table.
     for (auto begin = places.begin(); begin != places.end();) {
-        const auto end = std::find_if(
-            begin, places.end(), [&](const Place& p) { return band_of(p) != band_of(*begin); });
-        std::vector<Region> regions(static_cast<std::size_t>(columns) * regions_high);
-        for (auto p = begin; p != end; ++p) regions[region_of(*p)].places.push_back(*p);
+        const auto end = std::find_if(begin, places.end(),
+                                      [&](const Place& p) { return row_of(p) != row_of(*begin); });
+        std::vector<Region> regions(columns);
+        for (auto p = begin; p != end; ++p) regions[column_of(*p)].places.push_back(*p);
         // A few pixels are not worth starting a thread.
         const int threads = end - begin < 256 ? 1 : tracer.threads();
         parallel_for(static_cast<int>(regions.size()), threads,
                      [&](int i, int) { find_words(in, regions[static_cast<std::size_t>(i)]); });
         std::vector<std::size_t> next(regions.size(), 0); // place of each region
         for (auto p = begin; p != end; ++p) {
-            const Region& region = regions[region_of(*p)];
-            const std::size_t i = next[region_of(*p)]++;
+            const Region& region = regions[column_of(*p)];
+            const std::size_t i = next[column_of(*p)]++;
             builder.add_pixel(p->x, p->y,
                               std::span(region.words)
                                   .subspan(region.start[i], region.start[i + 1] - region.start[i]));
         }
         begin = end;
+        // As much again for its text, and while a list grows.
+        require_memory(left, program_bytes,
+                       {2 * builder.bytes(), tracer.scene().file.string(),
+                        fmt::format("what rays cross at {} pixels that differ", places.size()),
+                        "try a smaller --size, or fewer volumes"});
     }
     return builder.finish();
 }

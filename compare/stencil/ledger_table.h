@@ -4,6 +4,7 @@
 
 #include "reference/predict/prediction.h"
 #include "reference/predict/region_ledger.h"
+#include "scenes/memory_budget.h"
 
 #include <cstdint>
 #include <vector>
@@ -36,7 +37,10 @@ struct LedgerTable {
 };
 
 /// `cause`: no_difference where a pixel agrees. All pictures have the same size.
+/// Throws Error where the table, and its text in a report, take more memory than is left beside the
+/// program.
 LedgerTable list_ledgers(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                         const Prediction& prediction, const Image<std::uint8_t>& cause);
+                         const Prediction& prediction, const Image<std::uint8_t>& cause,
+                         const MemoryBudget& left);
 
 } // namespace shadowproof

@@ -3,7 +3,7 @@
 
 namespace shadowproof {
 
-void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
+void add_moved(const Counting& counting, std::int64_t least, std::int64_t most, bool by_depth,
                std::vector<Reading>& readings) {
     const std::size_t unmoved = readings.size();
     for (std::int64_t by = least; by <= most; ++by)
@@ -13,6 +13,7 @@ void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
             moved.ideal += by;
             moved.off_ray += by;
             moved.by_rounding = true;
+            moved.by_depth = moved.by_depth || by_depth;
             readings.push_back(moved);
         }
 }
@@ -20,13 +21,13 @@ void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
 void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
     const std::int64_t most = pixel.volumes().counted.edge_on_sides(pixel.around().corners);
-    add_moved(pixel.counting(), -most, most, readings);
+    add_moved(pixel.counting(), -most, most, false, readings);
 }
 
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
     const StepRange steps = pixel.steps_of_slivers();
-    add_moved(pixel.counting(), steps.least, steps.most, readings);
+    add_moved(pixel.counting(), steps.least, steps.most, false, readings);
 }
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
 #include "compare/stencil/pixel_cause.h"
 
 #include "compare/stencil/counterfactual.h"
+#include "compare/stencil/precision_check.h"
 
 #include <algorithm>
 #include <functional>
@@ -56,9 +57,15 @@ std::optional<PixelCause> cause_of_reading(const CountedClaim& judged, const Rea
     const bool saturates = judged.counting().operation == Counting::Operation::saturate;
     const std::int64_t off_ray =
         saturates ? reading.off_ray : reading.count - judged.prediction.count_without({}, ray);
+    // A plane that cuts nothing cuts nothing for being rounded, either.
+    const auto by_clip = [&](Limitations lifted) {
+        return (lifted.contains(Limitation::near_clip) ? reading.by_near : 0) +
+               (lifted.contains(Limitation::far_clip) ? reading.by_far : 0);
+    };
     const auto needed =
         algorithmic_cause(judged, reading.count, true_visibility, [&](Limitations lifted) {
-            return off_ray + judged.prediction.count_without(lifted, ray);
+            return off_ray - (saturates ? 0 : by_clip(lifted)) +
+                   judged.prediction.count_without(lifted, ray);
         });
     if (!needed) return std::nullopt;
     return needing(*needed);
@@ -103,14 +110,21 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
     const Visibility truth_of_shown =
         seen != truth.end() ? seen->visibility : judged.truth().visibility.at(p.x, p.y);
     std::optional<PixelCause> algorithmic;
+    bool precision = false;
+    bool by_depth = true; // whatever else may have led to it
     for (const Reading& reading : band.readings) {
         if (!explains(judged, p, reading)) continue;
-        // The ideal count leads to this claim, too, with faces moved in depth.
-        if (reading.by_rounding && claim_of(judged, reading.ideal, shown, reading.in_cone) == claim)
-            return {Cause::precision, {}};
+        // The ideal count leads to this claim, too, with faces moved.
+        if (reading.by_rounding &&
+            claim_of(judged, reading.ideal, shown, reading.in_cone) == claim) {
+            precision = true;
+            by_depth = by_depth && reading.by_depth;
+            continue;
+        }
         if (!algorithmic)
             algorithmic = cause_of_reading(judged, reading, shown, around, truth_of_shown);
     }
+    if (precision) return {Cause::precision, {}, by_depth && is_too_near(judged, p)};
     return algorithmic.value_or(PixelCause{});
 }
 

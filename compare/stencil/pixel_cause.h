@@ -1,6 +1,7 @@
 // The cause of one differing pixel: why a technique shows another claim there than the truth.
 #pragma once
 
+#include "compare/driver/sufficient_depths.h"
 #include "compare/judge/judge.h"
 #include "compare/stencil/band.h"
 #include "reference/predict/prediction.h"
@@ -19,6 +20,7 @@ namespace shadowproof {
 struct CountedClaim : JudgedClaim {
     const Prediction& prediction;
     std::vector<std::uint8_t> receives; ///< one flag per triangle
+    SufficientDepths sufficient;        ///< of the technique's numbers
 
     const Tracer& tracer() const { return traced.tracer(); }
     const GroundTruth& truth() const { return traced.truth(); }

@@ -139,14 +139,29 @@ bool PixelFaces::is_never_in_front(const Crossing& crossing) const {
            sides_of(tracer_, crossing.triangle).visible;
 }
 
+/// Whether a face lies in front of the shown surface if no depth is rounded. One whose triangle
+/// lies exactly in the surface's plane does not, whatever doubles make of it.
+bool PixelFaces::is_nominally_in_front(const Crossing& crossing, const Sample& sample) const {
+    if (crossing.depth >= sample.depth) return false;
+    if (crossing.part != Crossing::Part::light_cap || shown_ == no_triangle) return true;
+    for (int k = 0; k < 3; ++k)
+        if (side(scene_, shown_, {corner(volumes_.casters, crossing.triangle, k), 1}) != 0)
+            return true;
+    return false;
+}
+
 /// Shadow depth of the sample's shown surface in the casters' own volumes. `crossings`: memory for
-/// those along its ray.
+/// those along its ray. A light cap before the near plane is in front, as its surface is not seen.
 std::int64_t PixelFaces::ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const {
     RegionLedger& ledger = volumes_.ideal != nullptr ? *volumes_.ideal : volumes_.counted;
     ledger.crossings(sample.direction, crossings);
     std::int64_t s = volumes_.ideal_at_eye;
-    for (const Crossing& crossing : crossings)
-        if (crossing.depth < sample.depth && !is_never_in_front(crossing)) s += crossing.change;
+    for (const Crossing& crossing : crossings) {
+        const bool before_near = crossing.depth < scene_.camera.near;
+        if (is_nominally_in_front(crossing, sample) &&
+            (before_near || !is_never_in_front(crossing)))
+            s += crossing.change;
+    }
     return s;
 }
 
@@ -215,7 +230,7 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample,
         const bool maybe_front = !behind && range.lower <= shown_range_.upper;
         const bool maybe_behind = behind || range.upper >= shown_range_.lower;
         if (!(pass ? maybe_front : maybe_behind)) continue;
-        const bool in_front = !behind && crossing.depth < sample.depth;
+        const bool in_front = !behind && is_nominally_in_front(crossing, sample);
         const bool certain =
             !(maybe_front && maybe_behind) && !maybe_cut && !is_displaced_cap(crossing, range);
         found.push_back({crossing, in_front == pass && !is_cut, certain});

@@ -123,6 +123,7 @@ private:
     bool may_lie_in(const FlatVolume& flat, const Sample& sample) const;
     bool is_never_in_front(const Crossing& crossing) const;
     std::int64_t ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const;
+    bool is_nominally_in_front(const Crossing& crossing, const Sample& sample) const;
     std::int32_t depth_at_near(const std::vector<Crossing>& crossings, int move) const;
     std::vector<std::int32_t> possible_starts() const;
 };

@@ -34,7 +34,8 @@ void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings);
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings);
 
 /// Each reading that is there, with from `least` to `most` more faces in front of the surface.
-void add_moved(const Counting& counting, std::int64_t least, std::int64_t most,
+/// `by_depth`: as Reading has it.
+void add_moved(const Counting& counting, std::int64_t least, std::int64_t most, bool by_depth,
                std::vector<Reading>& readings);
 
 } // namespace shadowproof

@@ -7,7 +7,8 @@ namespace shadowproof {
 
 void sort_out(std::vector<Reading>& readings) {
     const auto key = [](const Reading& r) {
-        return std::array<std::int64_t, 5>{r.count, r.ideal, r.in_cone, r.by_rounding, r.off_ray};
+        return std::array<std::int64_t, 8>{r.count,    r.ideal,   r.in_cone, r.by_rounding,
+                                           r.by_depth, r.off_ray, r.by_near, r.by_far};
     };
     std::sort(readings.begin(), readings.end(),
               [&](const Reading& a, const Reading& b) { return key(a) < key(b); });

@@ -25,6 +25,11 @@ std::vector<CountOfSum> counts_with_uncertain(const std::vector<CandidateFace>& 
     return possible_sums(std::move(possible), start, last, counting);
 }
 
+/// The sum of the faces that are counted with these clipping planes.
+std::int64_t sum_with(const PixelFaces& pixel, const Sample& sample, const ClipDepths& clip) {
+    return nominal_count(pixel.candidates(sample, clip), 0, 0, pixel.counting()).sum;
+}
+
 /// Readings with the clipping planes moved.
 void add_clipped(const PixelFaces& pixel, const Sample& sample, const ClipDepths& clip,
                  std::vector<Reading>& readings) {
@@ -35,11 +40,21 @@ void add_clipped(const PixelFaces& pixel, const Sample& sample, const ClipDepths
         start_of(counting, pixel.volumes().counted_at_eye, pixel.depth_at_near(sample));
     // A reading off the nominal one by faces in front or behind moves the ideal one with it.
     const CountOfSum nominal = nominal_count(faces, start, last, counting);
+    std::int64_t by_near = 0;
+    std::int64_t by_far = 0;
+    if (clip.moved) {
+        ClipDepths far_unmoved = pixel.clip_depths().front();
+        const std::int64_t unmoved = sum_with(pixel, sample, far_unmoved);
+        far_unmoved.near = clip.near;
+        by_near = sum_with(pixel, sample, far_unmoved) - unmoved;
+        by_far = nominal.sum - start - last - unmoved - by_near;
+    }
     const auto add = [&](const CountOfSum& found) {
         const std::int64_t off = found.sum - nominal.sum;
-        const bool rounded = sample.moved || clip.moved || found != nominal;
-        readings.push_back({found.count, sample.ideal + off, sample.in_cone, rounded,
-                            sample.direction, sample.depth, off});
+        const bool by_depth = clip.moved || found != nominal;
+        readings.push_back({found.count, sample.ideal + off, sample.in_cone,
+                            sample.moved || by_depth, by_depth, sample.direction, sample.depth, off,
+                            by_near, by_far});
     };
     if (!clip.moved) add(nominal);
     for (const std::int32_t other : pixel.starts())
@@ -55,7 +70,7 @@ void add_sample(const PixelFaces& pixel, const Sample& sample, std::vector<Readi
     // In its plane the faces of a flat volume may come in any order, with the surface among them:
     // each one that is entered is left again, and in between the count is one more or less.
     const std::int64_t most = pixel.flat_volumes_around(sample);
-    add_moved(pixel.counting(), -most, most, readings);
+    add_moved(pixel.counting(), -most, most, true, readings);
 }
 
 } // namespace shadowproof

@@ -1,11 +1,13 @@
 #include "compare/stencil/stencil_account.h"
 
+#include "compare/driver/sufficient_depths.h"
 #include "compare/judge/crossing_json.h"
 #include "reference/predict/tally.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace shadowproof {
@@ -141,20 +143,34 @@ Json members_of(const CounterAtPixel& at, const Counting& counting, const Volume
     return json;
 }
 
+/// The depths at which the numbers suffice; null where there are none, and `to` where they have no
+/// end.
+Json sufficient_json(const SufficientDepths& depths, double unit) {
+    if (depths.nearest > depths.furthest) return nullptr;
+    Json json{{"from", depths.nearest * unit}, {"to", nullptr}};
+    if (std::isfinite(depths.furthest)) json["to"] = depths.furthest * unit;
+    return json;
+}
+
 } // namespace
 
 Account account_of_counter(const Frame& frame, const Prediction& prediction,
                            const PixelRecord& record, double unit) {
     const Counting& counting = frame.counted->counting;
     const CounterAtPixel at = counter_at(frame, prediction, record);
+    const Scene& scene = prediction.volumes().casters();
+    const double near = scene.camera.near;
+    const SufficientDepths sufficient = sufficient_depths(scene, frame.depth_model);
     Account account;
     account.columns = {{"predicted", std::to_string(at.predicted)},
                        {"stored", std::to_string(at.stored)},
-                       {"read back", std::to_string(at.read_back)}};
+                       {"read back", std::to_string(at.read_back)},
+                       {"precise", words_of(sufficient, near, unit)}};
     account.remark = {"lost", lost_words(at, counting, record.ledger.counts.at_eye, unit)};
     account.note = other_volumes_words(at, record, unit);
-    account.members = members_of(at, counting, prediction.volumes(), unit)
-                          .dump(-1, ' ', false, Json::error_handler_t::replace);
+    Json members = members_of(at, counting, prediction.volumes(), unit);
+    members["sufficient"] = sufficient_json(sufficient, unit);
+    account.members = members.dump(-1, ' ', false, Json::error_handler_t::replace);
     return account;
 }
 

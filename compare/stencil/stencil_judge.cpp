@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <optional>
 
 namespace shadowproof {
 
@@ -76,7 +78,10 @@ class StencilJudge final : public Judge {
 public:
     StencilJudge(const TracedScene& traced, const Frame& frame)
         : prediction_(traced.volumes(), frame.counted->counting, frame.depth_model),
-          claim_{{traced, frame}, prediction_, receiving_triangles(traced.scene())} {}
+          claim_{{traced, frame},
+                 prediction_,
+                 receiving_triangles(traced.scene()),
+                 sufficient_depths(traced.scene(), frame.depth_model)} {}
 
     std::string_view evidence() const override { return "counter"; }
 
@@ -112,6 +117,7 @@ public:
             truths = truths.subspan(truth.size());
             region.findings[i] =
                 find_in_band(claim_, region.places[i], around[i], counted_here, ideal_here, truth);
+            excuse_where_displaced(region.places[i], region.findings[i]);
         }
     }
 
@@ -119,7 +125,9 @@ public:
                         std::span<const RayTruth> truth) const override {
         RegionLedger counted = prediction_.volumes().ledger(around.corners);
         RegionLedger ideal = prediction_.volumes().ideal_ledger(around.corners);
-        return find_in_band(claim_, p, around, counted, ideal, truth);
+        Finding finding = find_in_band(claim_, p, around, counted, ideal, truth);
+        excuse_where_displaced(p, finding);
+        return finding;
     }
 
     void look_at_all_faces(std::span<const PixelPlace> places,
@@ -151,8 +159,9 @@ public:
                                         prediction_.volumes(), claim_.frame, claim_.traced.far()));
     }
 
-    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
-        return report_counters(claim_.traced, claim_.frame, prediction_, cause);
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause,
+                                                 const MemoryBudget& left) const override {
+        return report_counters(claim_.traced, claim_.frame, prediction_, cause, left);
     }
 
     std::optional<double> strain() const override { return shadowproof::strain(claim_); }
@@ -164,6 +173,15 @@ public:
 private:
     Prediction prediction_;
     CountedClaim claim_;
+    mutable std::once_flag outlines_made_;
+    mutable std::optional<CoarseOutlines> outlines_; ///< made when they are first asked for
+
+    /// No depth suffices where the clipper may draw an outline more than a pixel aside.
+    void excuse_where_displaced(PixelPlace p, Finding& finding) const {
+        if (!finding.cause.too_near) return;
+        std::call_once(outlines_made_, [&] { outlines_ = coarse_outlines(); });
+        if (outlines_->may_reach({p.x + 0.5, p.y + 0.5}, 1)) finding.cause.too_near = false;
+    }
 };
 
 std::unique_ptr<Judge> judge(const TracedScene& traced, const Frame& frame) {

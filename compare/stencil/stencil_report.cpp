@@ -144,11 +144,12 @@ EvidenceSummary summary_of(const Frame& frame, const EvidenceCheck& check,
 
 std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced, const Frame& frame,
                                                       const Prediction& prediction,
-                                                      const Image<std::uint8_t>& cause) {
+                                                      const Image<std::uint8_t>& cause,
+                                                      const MemoryBudget& left) {
     const Counting& counting = frame.counted->counting;
     return std::make_shared<CounterReport>(
         header_of(frame, traced.scene()),
-        list_ledgers(traced.tracer(), traced.truth(), frame, prediction, cause),
+        list_ledgers(traced.tracer(), traced.truth(), frame, prediction, cause, left),
         converted<std::uint32_t>(prediction.counts(),
                                  [&](std::int32_t count) { return stored(count, counting); }));
 }

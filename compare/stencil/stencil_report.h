@@ -6,6 +6,7 @@
 #include "compare/stencil/figures/volume_check.h"
 #include "reference/predict/prediction.h"
 #include "reference/predict/traced_scene.h"
+#include "scenes/memory_budget.h"
 
 #include <memory>
 
@@ -14,10 +15,12 @@ namespace shadowproof {
 EvidenceSummary summary_of(const Frame& frame, const EvidenceCheck& check,
                            const VolumeCheck& volumes);
 
-/// `prediction`: of how the frame counts. `cause`: Comparison::cause.
+/// `prediction`: of how the frame counts. `cause`: Comparison::cause. Throws Error where this takes
+/// more memory than is left beside the program.
 std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced, const Frame& frame,
                                                       const Prediction& prediction,
-                                                      const Image<std::uint8_t>& cause);
+                                                      const Image<std::uint8_t>& cause,
+                                                      const MemoryBudget& left);
 
 /// The dimmed claim, overlaid with the number of volume faces that nothing hides at each pixel.
 /// Full colour is the largest number at any pixel, at least six.

@@ -6,8 +6,9 @@ namespace shadowproof {
 
 std::string stress_page() {
     std::string script;
-    for (const char* name : {"elements.js", "numbers.js", "bench/figures.js", "bench/layout.js",
-                             "bench/plot.js", "stress/chart.js", "stress/page.js"})
+    for (const char* name :
+         {"elements.js", "numbers.js", "labels.js", "bench/figures.js", "bench/layout.js",
+          "bench/plot.js", "stress/chart.js", "stress/page.js"})
         script += viewer_file(name);
     return fill(viewer_file("stress/page.html"),
                 {{"style", std::string(viewer_file("style.css")) +

@@ -167,7 +167,9 @@ FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3
     const Bounds bounds = Bounds::fine(numbers);
     meeting = overflow ? Meeting::perhaps : decided(numbers, bounds, ray);
     if (meeting == Meeting::never) return {};
-    meeting = std::min(meeting, box_meeting(ray, t, enlargement));
+    // A leaf's triangles are compared together, even those whose own boxes are missed: a box that
+    // is missed proves nothing.
+    if (box_meeting(ray, t, enlargement) != Meeting::always) meeting = Meeting::perhaps;
     // t = T / |den| by a reciprocal: at most 8 u for that. First order is doubled for the rest.
     const double relative = bounds.t / std::abs(numbers.t) + bounds.den / numbers.den + 8 * u;
     const double at = numbers.t / numbers.den;

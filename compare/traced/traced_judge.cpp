@@ -73,7 +73,8 @@ public:
                 fmt::format("the first pixel's {}", fault_at({check.first_x, check.first_y}));
         return summary;
     }
-    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause) const override {
+    std::shared_ptr<const EvidenceReport> report(const Image<std::uint8_t>& cause,
+                                                 const MemoryBudget& /*left*/) const override {
         return of_all_.empty() ? report_rays(claim_, cause) : nullptr;
     }
     Account account(const PixelRecord& record, double unit) const override {

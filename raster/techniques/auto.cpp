@@ -134,6 +134,7 @@ Technique auto_technique() {
             .needs = "closed volumes, glClipControl, a D32F depth buffer, and a plan of the scene",
             .cost = 0.81,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -27,6 +27,7 @@ Technique bump_eye_space_technique() {
             .cost = 3.7,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
+            .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
             .run = run};
 }

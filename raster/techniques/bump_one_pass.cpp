@@ -35,6 +35,7 @@ Technique bump_one_pass_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,
+            .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
             .run = run};
 }

@@ -27,6 +27,7 @@ Technique bump_reflective_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .needs_environment = true,
+            .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
             .run = run};
 }

@@ -24,6 +24,7 @@ Technique invert_technique() {
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
                          Cause::open_mesh, Cause::light_inside},
             .by_nature = {Cause::parity},
+            .depth_model = finite_depths,
             .run = run};
 }
 

@@ -12,7 +12,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
     return draw_stencil_shadows(
         gpu, scene,
         {.counting = {.test = Counting::Test::depth_fail, .dark_cap = false},
-         .depth_model = {.near = scene.camera.near, .far = finite_far(scene)}});
+         .depth_model = finite_depths(scene)});
 }
 
 } // namespace
@@ -25,6 +25,7 @@ Technique zfail_technique() {
             .cost = 1.08,
             .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::light_inside},
+            .depth_model = finite_depths,
             .run = run};
 }
 

@@ -8,14 +8,9 @@ namespace {
 /// Counts volume faces behind the visible surface; depth clamping keeps faces past the far plane,
 /// so the whole volume is counted. Where no volume reaches that plane, nothing is clamped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(gpu, scene,
-                                {.counting = {.test = Counting::Test::depth_fail,
-                                              .dark_cap = plan.dark_cap,
-                                              .flips = {.around_light = true}},
-                                 .depth_model = {.near = scene.camera.near,
-                                                 .far = finite_far(scene),
-                                                 .clamp = plan.volume_meets_far},
-                                 .flipped = plan.around_light});
+    DepthModel depth_model = finite_depths(scene);
+    depth_model.clamp = plan.volume_meets_far;
+    return draw_stencil_shadows(gpu, scene, zfail_recipe(plan, depth_model));
 }
 
 } // namespace
@@ -27,6 +22,7 @@ Technique zfail_clamp_technique() {
             .needs = "closed volumes, and GL_DEPTH_CLAMP",
             .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = finite_depths,
             .run = run};
 }
 

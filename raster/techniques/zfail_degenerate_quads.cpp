@@ -22,6 +22,7 @@ Technique zfail_degenerate_quads_technique() {
             .needs = "both triangles of each edge, known beforehand",
             .cost = 1.42,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -25,6 +25,7 @@ Technique zfail_float_technique() {
             .needs = "blending into an R32F colour buffer",
             .cost = 1.09,
             .fails_at = {Cause::precision, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -21,6 +21,7 @@ Technique zfail_geometry_shader_technique() {
             .needs = "geometry shaders, and triangles with adjacency",
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -25,6 +25,7 @@ Technique zfail_half_edge_technique() {
             .needs = "a half-edge mesh; holes are filled",
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

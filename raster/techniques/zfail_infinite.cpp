@@ -8,13 +8,7 @@ namespace {
 /// Counts volume faces behind the visible surface; the far plane is at infinity, where the dark cap
 /// is just not clipped.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(
-        gpu, scene,
-        {.counting = {.test = Counting::Test::depth_fail,
-                      .dark_cap = plan.dark_cap,
-                      .flips = {.around_light = true}},
-         .depth_model = {.projection = DepthModel::Projection::infinite, .near = scene.camera.near},
-         .flipped = plan.around_light});
+    return draw_stencil_shadows(gpu, scene, zfail_recipe(plan, infinite_depths(scene)));
 }
 
 } // namespace
@@ -26,6 +20,7 @@ Technique zfail_infinite_technique() {
             .needs = "closed volumes",
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = infinite_depths,
             .run = run};
 }
 

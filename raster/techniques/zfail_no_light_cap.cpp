@@ -22,6 +22,7 @@ Technique zfail_no_light_cap_technique() {
             .cost = 0.78,
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::cap},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

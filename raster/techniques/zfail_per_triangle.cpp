@@ -29,6 +29,7 @@ Technique zfail_per_triangle_technique() {
             .needs = "nothing of the mesh",
             .cost = 8.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

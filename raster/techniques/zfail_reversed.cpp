@@ -22,6 +22,7 @@ Technique zfail_reversed_technique() {
             .needs = "closed volumes, glClipControl and a D32F depth buffer",
             .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -23,6 +23,7 @@ Technique zfail_saturate_technique() {
             .cost = 0.85,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::counter},
+            .depth_model = reversed_depths,
             .run = run};
 }
 

@@ -24,6 +24,7 @@ Technique zfail_truncated_technique() {
             .needs = "shadows that end within the distance",
             .cost = 0.95,
             .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = reversed_depths,
             .settings = {"extrusion"},
             .run = run};
 }

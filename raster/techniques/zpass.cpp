@@ -22,6 +22,7 @@ Technique zpass_technique() {
             .cost = 1.05,
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
                          Cause::open_mesh, Cause::light_inside},
+            .depth_model = finite_depths,
             .run = run};
 }
 

@@ -27,6 +27,7 @@ Technique zpass_capped_technique() {
             .needs = "a finite projection, and a CPU that cuts volumes",
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .depth_model = finite_depths,
             .run = run};
 }
 

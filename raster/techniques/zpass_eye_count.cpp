@@ -23,6 +23,7 @@ Technique zpass_eye_count_technique() {
             .cost = 1,
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::light_inside},
+            .depth_model = finite_depths,
             .run = run};
 }
 

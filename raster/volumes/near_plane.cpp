@@ -4,10 +4,14 @@
 #include "raster/volumes/near_cap.h"
 #include "raster/volumes/volume.h"
 #include "scenes/mesh/topology.h"
+#include "scenes/mesh/touching_light.h"
+#include "scenes/roundoff.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <memory>
 
@@ -99,10 +103,11 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
 
 namespace {
 
-/// The point that occluders' positions are relative to: the eye; but the light where one touches
-/// it, because next to the light a difference from any other point keeps few bits of the direction.
-glm::dvec3 origin_of_occluders(const Scene& scene, bool touch_light) {
-    return touch_light ? chosen_light(scene).position : scene.camera.eye;
+/// The point that occluders' positions are relative to: the eye; but the light where one is
+/// near it, because next to the light a difference from any other point keeps few bits of the
+/// direction.
+glm::dvec3 origin_of_occluders(const Scene& scene, bool near_light) {
+    return near_light ? chosen_light(scene).position : scene.camera.eye;
 }
 
 /// With view coordinates (x, y, depth), a homogeneous light (l, w) and the near plane's depth n,
@@ -111,7 +116,7 @@ glm::dvec3 origin_of_occluders(const Scene& scene, bool touch_light) {
 /// of the light. Row z tells how far p lies on the light's side of the plane. Relative to the
 /// light, p = l
 /// + q, it is (q (n - l.depth) + l q.depth) / q.depth, without a constant.
-glm::dmat4 clip_from_occluder(const Scene& scene, bool touch_light) {
+glm::dmat4 clip_from_occluder(const Scene& scene, bool near_light) {
     const Camera& camera = scene.camera;
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3 from_eye = glm::dvec3(light) - light.w * camera.eye;
@@ -122,14 +127,14 @@ glm::dmat4 clip_from_occluder(const Scene& scene, bool touch_light) {
     const glm::dvec2 extent = half_extent(camera) * camera.near;
     // Rows: coefficients of a point relative to the origin, and the constant.
     const auto across = [&](const glm::dvec3& axis, double of_light, double half) {
-        const glm::dvec4 along(camera.forward, touch_light ? 0 : -camera.near);
+        const glm::dvec4 along(camera.forward, near_light ? 0 : -camera.near);
         return (glm::dvec4(axis, 0) * std::abs(to_plane) + along * (sign * of_light)) / half;
     };
-    const double before = touch_light ? to_plane : camera.near; // of the origin, before the plane
+    const double before = near_light ? to_plane : camera.near; // of the origin, before the plane
     const std::array<glm::dvec4, 4> rows{
         across(camera.right, l.x, extent.x), across(camera.up, l.y, extent.y),
         -sign * glm::dvec4(camera.forward, -before),
-        sign * glm::dvec4(light.w * camera.forward, touch_light ? 0 : -l.z)};
+        sign * glm::dvec4(light.w * camera.forward, near_light ? 0 : -l.z)};
     glm::dmat4 matrix(0);
     for (int i = 0; i < 4; ++i)
         for (int k = 0; k < 4; ++k) matrix[k][i] = rows[static_cast<std::size_t>(i)][k];
@@ -169,6 +174,35 @@ std::vector<glm::uvec3> occluding_triangles(const Scene& scene, const SplitFarEn
 
 } // namespace
 
+// clip_from_occluder's rows in floats: an entry, its product and the sums round 5 times, the point
+// relative to the origin twice before. That moves a coordinate of the size of the row's terms by 7
+// v of it; divided by the last row, which in the plane is the light's distance from it, and times
+// half the picture, these are pixels. Of a point that is seen in the near plane, no component is
+// larger than the far end of that plane's diagonal. Of a triangle that almost touches the light,
+// clipping moves the corner next to the light in all directions.
+bool places_occluders(const Scene& scene) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::uint32_t triangle = 0; triangle < casts.size(); ++triangle)
+        if (casts[triangle] != 0 && almost_touches_light(scene, triangle)) return false;
+    const Camera& camera = scene.camera;
+    const bool near_light = casters_near_light(scene);
+    const glm::dmat4 matrix = clip_from_occluder(scene, near_light);
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    const glm::dvec3 from_eye = glm::dvec3(light) - light.w * camera.eye;
+    const double to_plane = std::abs(light.w * camera.near - glm::dot(camera.forward, from_eye));
+    const glm::dvec2 half = half_extent(camera);
+    const double reach = camera.near * std::sqrt(1 + glm::dot(half, half)) +
+                         glm::length(camera.eye - origin_of_occluders(scene, near_light));
+    const std::array sizes{camera.width, camera.height};
+    return std::ranges::all_of(std::array{0, 1}, [&](int axis) {
+        const double terms =
+            glm::dot(glm::abs(glm::row(matrix, axis)), glm::dvec4(reach, reach, reach, 1));
+        const double pixels =
+            0.5 * sizes[static_cast<std::size_t>(axis)] * 7 * float_roundoff * terms;
+        return pixels <= to_plane;
+    });
+}
+
 std::vector<glm::vec3> occluder_points(const Scene& scene, const SplitFarEnds& split) {
     const Camera& camera = scene.camera;
     const glm::dvec3 light = chosen_light(scene).position;
@@ -186,12 +220,12 @@ std::vector<glm::vec3> occluder_points(const Scene& scene, const SplitFarEnds& s
 }
 
 VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                              const SplitFarEnds& far_ends, std::uint32_t first, bool touch_light) {
+                              const SplitFarEnds& far_ends, std::uint32_t first, bool near_light) {
     const auto made = std::make_shared<Occluders>();
     made->program = link_files(gl, {"from_light.vert", "volume.frag"});
-    const auto update = [&gl, &scene, &far_ends, made, first, touch_light] {
-        const TwoFloats origin = split(origin_of_occluders(scene, touch_light));
-        const glm::mat4 matrix(clip_from_occluder(scene, touch_light));
+    const auto update = [&gl, &scene, &far_ends, made, first, near_light] {
+        const TwoFloats origin = split(origin_of_occluders(scene, near_light));
+        const glm::mat4 matrix(clip_from_occluder(scene, near_light));
         const GLuint program = made->program.name();
         gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, glm::value_ptr(matrix));
         gl.ProgramUniform3fv(program, 1, 1, glm::value_ptr(origin.high));

@@ -17,13 +17,18 @@ VolumePass make_capped_pass(const GlFunctions& gl, const Scene& scene, const Geo
                             const SpecialCaps& special, const SplitFarEnds& split);
 
 /// Draws the casters between light and near plane from the light, through that plane: at each
-/// pixel, one layer for each volume that contains the pixel's point on the near plane. Draws
-/// nothing where the light lies in the near plane itself. Hornus, Hoberock, Lefebvre & Hart 2005,
-/// "ZP+". A triangle with a split far end is drawn as a pyramid along just those directions,
-/// between light and plane: what it covers it covers next to the light. `first`: the number of the
-/// first of its occluder_points. `touch_light`: whether some of the casters touch the light.
+/// pixel, one layer for each volume that contains the pixel's point on the near plane. Hornus,
+/// Hoberock, Lefebvre & Hart 2005, "ZP+". A triangle with a split far end is drawn as a pyramid
+/// along just those directions, between light and plane: what it covers it covers next to the
+/// light. `first`: the number of the first of its occluder_points. `near_light`:
+/// casters_near_light.
 VolumePass make_occluder_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
-                              const SplitFarEnds& far_ends, std::uint32_t first, bool touch_light);
+                              const SplitFarEnds& far_ends, std::uint32_t first, bool near_light);
+
+/// Whether floats place what make_occluder_pass draws near the picture to within a pixel. The
+/// nearer the light is to the near plane, the further aside a rounding throws what is projected
+/// onto it.
+bool places_occluders(const Scene& scene);
 
 /// Points between light and near plane: first along the directions of a split, then along those of
 /// the corners of each triangle that is split.

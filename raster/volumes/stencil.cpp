@@ -161,7 +161,7 @@ struct Frames {
                 gl, parts.front()->scene, geometry, parts.front()->split,
                 parts.front()->first_split +
                     static_cast<std::uint32_t>(parts.front()->split.directions.size()),
-                touches_light);
+                casters_near_light(parts.front()->scene));
         if (with.lighting) {
             add_color(gl, target,
                       with.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
@@ -326,22 +326,38 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     return frame;
 }
 
-StencilRecipe zpass_recipe(const Scene& scene) {
-    return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
-            .depth_model = {.projection = DepthModel::Projection::finite,
-                            .near = scene.camera.near,
-                            .far = finite_far(scene)}};
+DepthModel finite_depths(const Scene& scene) noexcept {
+    return {.projection = DepthModel::Projection::finite,
+            .near = scene.camera.near,
+            .far = finite_far(scene)};
 }
 
-StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan) {
+DepthModel infinite_depths(const Scene& scene) noexcept {
+    return {.projection = DepthModel::Projection::infinite, .near = scene.camera.near};
+}
+
+DepthModel reversed_depths(const Scene& scene) noexcept {
+    return {.projection = DepthModel::Projection::infinite_reversed,
+            .near = scene.camera.near,
+            .floating = true,
+            .eye_relative = true};
+}
+
+StencilRecipe zpass_recipe(const Scene& scene) {
+    return {.counting = {.test = Counting::Test::depth_pass, .dark_cap = false},
+            .depth_model = finite_depths(scene)};
+}
+
+StencilRecipe zfail_recipe(const Plan& plan, const DepthModel& depth_model) {
     return {.counting = {.test = Counting::Test::depth_fail,
                          .dark_cap = plan.dark_cap,
                          .flips = {.around_light = true}},
-            .depth_model = {.projection = DepthModel::Projection::infinite_reversed,
-                            .near = scene.camera.near,
-                            .floating = true,
-                            .eye_relative = true},
+            .depth_model = depth_model,
             .flipped = plan.around_light};
+}
+
+StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan) {
+    return zfail_recipe(plan, reversed_depths(scene));
 }
 
 } // namespace shadowproof

@@ -40,8 +40,15 @@ struct StencilRecipe {
 /// Throws Error where the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
 
+/// The numbers in which techniques tell depths apart: window depth of 24 bits, up to a far plane or
+/// to infinity; or reversed, up to infinity, in floats.
+DepthModel finite_depths(const Scene& scene) noexcept;
+DepthModel infinite_depths(const Scene& scene) noexcept;
+DepthModel reversed_depths(const Scene& scene) noexcept;
+
 /// The recipes that the techniques start from.
 StencilRecipe zpass_recipe(const Scene& scene);
+StencilRecipe zfail_recipe(const Plan& plan, const DepthModel& depth_model);
 StencilRecipe zfail_reversed_recipe(const Scene& scene, const Plan& plan);
 
 } // namespace shadowproof

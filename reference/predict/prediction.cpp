@@ -282,10 +282,11 @@ std::int64_t Prediction::count_without(Limitations limitations, const SurfaceRay
     ledger.crossings(ray.direction, crossings);
     std::int32_t at_near = at_eye;
     for (Crossing& crossing : crossings) {
-        if (crossing.depth < tracer.scene().camera.near) at_near += crossing.change;
+        const bool before_near = crossing.depth < tracer.scene().camera.near;
+        if (before_near) at_near += crossing.change;
         // A visible triangle's cap lies in its surface, which hides what is not in front of it.
-        if (crossing.part == Crossing::Part::light_cap && crossing.depth < ray.depth &&
-            crossing.triangle < tracer.scene().triangles.size() &&
+        if (!before_near && crossing.part == Crossing::Part::light_cap &&
+            crossing.depth < ray.depth && crossing.triangle < tracer.scene().triangles.size() &&
             sides_of(tracer, crossing.triangle).visible && crossing.depth < far)
             crossing.depth = ray.depth;
     }

@@ -363,6 +363,14 @@ std::vector<glm::dvec3> RegionLedger::outlines(const std::array<glm::dvec3, 4>& 
     return planes;
 }
 
+std::vector<glm::dvec3>
+RegionLedger::vanishing_lines(const std::array<glm::dvec3, 4>& corners) const {
+    std::vector<glm::dvec3> planes;
+    for (const Silhouette::Side& side : sides_)
+        if (Signs(corners, side.plane).mixed()) planes.push_back(side.plane);
+    return planes;
+}
+
 int RegionLedger::edge_on_sides(const std::array<glm::dvec3, 4>& corners) const {
     int edge_on = 0;
     for (const Silhouette::Side& side : sides_)

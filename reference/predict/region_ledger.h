@@ -77,6 +77,10 @@ public:
     /// on the same sides of all of them cross the same faces.
     std::vector<glm::dvec3> outlines(const std::array<glm::dvec3, 4>& corners) const;
 
+    /// The same of the lines in which sides that reach to infinity end: they bound what is counted
+    /// where no dark caps close the volumes there.
+    std::vector<glm::dvec3> vanishing_lines(const std::array<glm::dvec3, 4>& corners) const;
+
     /// How many sides are seen edge-on within the rectangle of four rays: both the line of their
     /// edges and the vanishing line of their planes pass through it.
     int edge_on_sides(const std::array<glm::dvec3, 4>& corners) const;

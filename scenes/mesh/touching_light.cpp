@@ -89,6 +89,18 @@ bool touches_light(const Scene& scene, std::uint32_t triangle) {
            direction_error * glm::dot(weights, lengths) + error_of_light(light);
 }
 
+bool almost_touches_light(const Scene& scene, std::uint32_t triangle) {
+    const Light& light = chosen_light(scene);
+    if (light.kind == Light::Kind::directional || touches_light(scene, triangle)) return false;
+    std::array<glm::dvec3, 3> corners;
+    double furthest = 0;
+    for (int k = 0; k < 3; ++k) {
+        corners[k] = corner(scene, triangle, k) - light.position;
+        furthest = std::max(furthest, glm::length(corners[k]));
+    }
+    return glm::length(nearest_to_origin(corners)) <= direction_error * furthest;
+}
+
 bool edge_touches_light(const Scene& scene, std::uint32_t a, std::uint32_t b) {
     const Light& light = chosen_light(scene);
     if (light.kind == Light::Kind::directional) return false;
@@ -106,6 +118,22 @@ bool is_lost_in_floats(const Scene& scene, std::uint32_t position) {
     return light.kind != Light::Kind::directional &&
            glm::distance(glm::dvec3(scene.positions[position]), light.position) <=
                near_enough_to_be_lost * glm::length(light.position);
+}
+
+// Relative to the eye, a place and the light are off by 7 v of their distance from it together.
+bool casters_near_light(const Scene& scene) {
+    const Light& light = chosen_light(scene);
+    if (light.kind == Light::Kind::directional) return false;
+    const double near =
+        0x1p12 * 7 * float_roundoff * glm::distance(light.position, scene.camera.eye);
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    for (std::uint32_t triangle = 0; triangle < casts.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        const auto from_light = [&](int k) { return corner(scene, triangle, k) - light.position; };
+        const glm::dvec3 nearest = nearest_to_origin({from_light(0), from_light(1), from_light(2)});
+        if (glm::length(nearest) <= near || touches_light(scene, triangle)) return true;
+    }
+    return false;
 }
 
 std::vector<std::uint32_t> triangles_touching_light(const Scene& scene) {

@@ -29,6 +29,15 @@ bool is_lost_in_floats(const Scene& scene, std::uint32_t position);
 /// Whether a triangle is too far away for any of the above to hold: a quick test.
 bool is_far_from_light(const Scene& scene, std::uint32_t triangle);
 
+/// Whether a triangle comes nearer to the light than what float rounding and clipping displace its
+/// furthest corner by, relative to the light, and yet does not touch it: as one does that has a
+/// corner next to the light.
+bool almost_touches_light(const Scene& scene, std::uint32_t triangle);
+
+/// Whether casters come so near the light that places relative to the eye keep less than 12 bits of
+/// their directions from the light.
+bool casters_near_light(const Scene& scene);
+
 /// The casting triangles that touch the light, in ascending order.
 std::vector<std::uint32_t> triangles_touching_light(const Scene& scene);
 

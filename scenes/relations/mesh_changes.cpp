@@ -11,7 +11,7 @@ namespace shadowproof {
 namespace {
 
 /// Beyond that many triangles nothing is subdivided.
-constexpr std::size_t most_triangles = 2'000'000;
+constexpr std::size_t most_triangles_changed = 2'000'000;
 
 /// All numbers below a count, in an order that is always the same. Standard distributions and
 /// shuffles differ from library to library.
@@ -147,7 +147,8 @@ std::optional<std::array<glm::vec3, 3>> exact_middles(const Scene& scene, const 
 /// the surface is the same.
 std::optional<ChangedScene> subdivide(const Scene& scene) {
     // Surfaces would have to be interpolated, which rounds.
-    if (is_bump_lit(scene) || 4 * scene.triangles.size() > most_triangles) return std::nullopt;
+    if (is_bump_lit(scene) || 4 * scene.triangles.size() > most_triangles_changed)
+        return std::nullopt;
     Rewriter rewriter(scene);
     for (const Mesh& mesh : scene.meshes) {
         rewriter.begin_mesh(mesh);

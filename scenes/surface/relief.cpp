@@ -73,14 +73,14 @@ std::vector<Share> shares_of(int texel, int coarse, int fine) {
     return shares;
 }
 
-glm::dvec3 normal_of(const glm::dvec2& slope) {
+glm::dvec3 normal_of_slope(const glm::dvec2& slope) {
     return glm::normalize(glm::dvec3(-slope.x, slope.y, 1));
 }
 
 } // namespace
 
 Image<glm::dvec4> normal_map_of(const Image<glm::dvec2>& slopes, int level) {
-    const auto normals = converted<glm::dvec3>(slopes, normal_of);
+    const auto normals = converted<glm::dvec3>(slopes, normal_of_slope);
     Image<glm::dvec4> map(std::max(1, slopes.width >> level), std::max(1, slopes.height >> level));
     for (int y = 0; y < map.height; ++y) {
         const std::vector<Share> rows = shares_of(y, map.height, slopes.height);

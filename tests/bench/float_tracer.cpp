@@ -54,7 +54,7 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
     const glm::vec3 eye(camera.eye);
     const glm::vec3 light(chosen_light(scene).position);
     alignas(64) std::array<int, packet> valid{};
-    RTCRayHit16 rays;
+    RTCRayHit16 rays{};
     for (int i = 0; i < packet; ++i) {
         const int x = left + i % tile_side;
         const int y = top + i / tile_side;
@@ -78,7 +78,7 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
     rtcIntersect16(valid.data(), world, &context, &rays);
 
     alignas(64) std::array<int, packet> shadowed{};
-    RTCRay16 shadow;
+    RTCRay16 shadow{};
     for (int i = 0; i < packet; ++i) {
         const auto k = static_cast<std::size_t>(i);
         if (valid[k] == 0 || rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;

@@ -27,7 +27,11 @@ const ways = {
   meshopt: [meshopt({ encoder: MeshoptEncoder, level: 'medium' })],
   optimized: [dedup(), weld(), prune(), meshopt({ encoder: MeshoptEncoder, level: 'high' })],
 };
-const scenes = ['ordinary', 'open_lid', 'many_lights', 'bumpy_torus', 'walking_figure', 'nested'];
+// A sanitizer makes a run some twenty times as long; what decodes is reached by two scenes.
+const sanitized = Boolean(process.env.SHADOWPROOF_SANITIZED);
+const scenes = sanitized ? ['ordinary', 'walking_figure']
+  : ['ordinary', 'open_lid', 'many_lights', 'bumpy_torus', 'walking_figure', 'nested'];
+const tried = sanitized ? ['--size', '32x32', '--technique', 'zfail_half_edge'] : ['--size', '96x96'];
 
 /** A scene compressed in one of the ways, and the same file decompressed by glTF-Transform. */
 async function write(scene, way) {
@@ -63,7 +67,7 @@ for (const scene of scenes)
       assert.ok(!json(readFileSync(plain)).includes(extension));
       assert.deepEqual(truth(compressed), truth(plain));
       const results = `${compressed}.json`;
-      const run = shadowproof(['verify', compressed, '--size', '96x96', '-q', '--json', results, '--out',
+      const run = shadowproof(['verify', compressed, ...tried, '-q', '--json', results, '--out',
                                `${compressed}.report`]);
       assert.equal(run.code, 0, run.out + run.err);
       for (const each of JSON.parse(readFileSync(results)).scenes)

@@ -5,7 +5,7 @@ import { existsSync, readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { shadowproof } from './shadowproof.mjs';
+import { filesBelow, shadowproof } from './shadowproof.mjs';
 
 const root = fileURLToPath(new URL('../../', import.meta.url));
 const textOf = (file) => readFileSync(join(root, file), 'utf8');
@@ -28,7 +28,7 @@ test('the table of techniques says what list says', () => {
   const shown = rows.map((row) => Object.fromEntries(titles.map((title, i) => [title, row[i]])));
   // What all may show, the text below the table says.
   const uncounted = ['invert', 'zfail_float'];
-  const common = ({ name }) => (/^traced_|_map/.test(name) ? ['precision']
+  const common = ({ name, precise }) => (precise === null ? ['precision']
     : ['precision', 'open_mesh', ...(uncounted.includes(name) ? [] : ['counter'])]);
   for (const technique of techniques)
     for (const cause of common(technique))
@@ -47,6 +47,16 @@ test('the table of bundled scenes has each of them, once', () => {
   const { scenes } = JSON.parse(shadowproof(['list', '--json']).out);
   assert.deepEqual(namesIn('docs/scenes.md', 'bundled scene').sort(),
                    scenes.map(({ name }) => name).sort());
+});
+
+test("the README's example lines are what verify prints, but for times", () => {
+  const withoutTimes = (line) => line.replace(/  [\d.]+ ms$/, '');
+  const examples = textOf('README.md').match(/^\w+ +near_plane  .* ms$/gm);
+  assert.equal(examples.length, 2);
+  const techniques = examples.map((line) => line.split(' ')[0]).join();
+  const run = shadowproof(['verify', 'near_plane', '--technique', techniques]);
+  assert.equal(run.code, 0, run.err);
+  assert.deepEqual(examples.map(withoutTimes), run.out.match(/^\w+ +near_plane  .* ms$/gm).map(withoutTimes));
 });
 
 test('the README is read in two minutes', () => {
@@ -82,8 +92,39 @@ test('every link leads to a file, and to a heading that it has', () => {
     }
 });
 
+test('every test that the page of promises names is there, and each promise names one', () => {
+  const all = filesBelow(join(root, 'tests'));
+  const page = textOf('docs/reliability.md');
+  const named = [...page.matchAll(/`([^`\s]*_test\.(?:mjs|cpp))`/g)].map(([, name]) => name);
+  assert.ok(named.length > 40);
+  for (const name of named) {
+    const text = `(^|/)${name.replace(/^tests\//, '').replaceAll('.', '\\.').replaceAll('*', '[^/]*')}$`;
+    assert.ok(all.some((file) => new RegExp(text).test(file)), name);
+  }
+  for (const [, folder] of page.matchAll(/`(tests\/[^`\s]*)`/g)) assert.ok(existsSync(join(root, folder)), folder);
+  // A test that is quoted by its own name: `file`, "name".
+  const quoted = [...page.matchAll(/`(\w+\/\w+_test\.mjs)`,\s+"([^"]+)"/g)];
+  assert.ok(quoted.length >= 7);
+  for (const [, file, name] of quoted)
+    assert.ok(textOf(`tests/${file}`).includes(name.replaceAll(/\s+/g, ' ')), `${file}: ${name}`);
+  for (const [, promise] of page.split('## Your files')[1].split('\nLimits. ')[0].matchAll(/\n(\*\*[^]*?)\n\n/g))
+    assert.match(promise, /_test\.mjs`/, promise);
+});
+
 test('what the pages link to is installed with them', () => {
   const installed = textOf('cmake/install.cmake');
   for (const [file] of pages.flatMap(linksOf))
     if (file.startsWith('docs/')) assert.ok(installed.includes(file), file);
+});
+
+test('the house has a line for each room, and no other', () => {
+  const named = namesIn('docs/house.md', 'folder').filter((name) => !name.startsWith('tests') &&
+                                                                    name !== 'scenes/bundled');
+  const roomsBelow = (folder) => readdirSync(join(root, folder), { withFileTypes: true })
+    .filter((entry) => entry.isDirectory()).flatMap(({ name }) => roomsBelow(join(folder, name)))
+    .concat(existsSync(join(root, folder, 'CMakeLists.txt')) ? [folder] : []);
+  const rooms = ['scenes', 'reference', 'raster', 'compare'].flatMap(roomsBelow);
+  assert.deepEqual(named.filter((name) => !existsSync(join(root, name))), []);
+  assert.deepEqual(rooms.filter((room) => !named.includes(room)), ['scenes/bundled']
+    .filter((room) => rooms.includes(room)));
 });

@@ -29,6 +29,19 @@ test('every crossing of the record is a line of the text, with its running sum',
   assert.equal(inside, record.inside.infinity);
 });
 
+test('the depth to which a technique\'s numbers suffice follows from the scene\'s near plane', () => {
+  const { text, record } = explained('ordinary', '256,256', ['--technique', 'zfail,zfail_reversed']);
+  const [zfail, reversed] = record.techniques;
+  const deeper = explained('ordinary', '256,256',
+                           ['--technique', 'zfail', '--stress', 'near_plane=0.0913']).record;
+  assert.equal(zfail.sufficient.from, record.near);
+  assert.ok(Math.abs(zfail.sufficient.to / deeper.techniques[0].sufficient.to -
+                     record.near / deeper.near) < 0.2);
+  assert.deepEqual(reversed.sufficient, { from: record.near, to: null });
+  assert.match(text, new RegExp(`zfail .* to ${Math.round(zfail.sufficient.to)} `));
+  assert.match(text, /zfail_reversed .* at any depth /);
+});
+
 test('what a technique lost makes the difference between its counter and the right one', () => {
   for (const [scene, pixel, technique, loss] of [
     ['near_plane', '229,103', 'zpass', /before the near plane$/m],

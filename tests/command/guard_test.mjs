@@ -133,18 +133,32 @@ test('render and explain end with a sentence where a library crashes', () => {
   assert.ok(!existsSync(join(scratch, 'truth.png')));
 });
 
+const printing = [[...verify], ['list'], ['--help'], ['verify', '--help'], ['--version'],
+                  ['explain', 'ordinary', '--pixel', '3,3', '--technique', 'zpass', ...size],
+                  ['render', 'ordinary', '-o', 'r.png', ...size]];
+const quoted = (args) => args.map((word) => `'${word}'`).join(' ');
+
 test('output that cannot be printed is no success', () => {
-  for (const args of [[...verify], ['list'], ['--help'], ['verify', '--help'], ['--version'],
-                      ['explain', 'ordinary', '--pixel', '3,3', '--technique', 'zpass', ...size],
-                      ['render', 'ordinary', '-o', 'r.png', ...size]]) {
-    const words = args.map((word) => `'${word}'`).join(' ');
+  for (const args of printing)
     for (const where of ['>/dev/full', '>&-']) {
-      const run = spawnSync('sh', ['-c', `"$SHADOWPROOF" ${words} ${where}`],
+      const run = spawnSync('sh', ['-c', `"$SHADOWPROOF" ${quoted(args)} ${where}`],
                             { cwd: scratch, encoding: 'utf8' });
       assert.equal(run.status, 3, `${args} ${where}: ${run.stderr}`);
       assert.match(run.stderr, /^shadowproof: standard output cannot be written \(/m);
     }
+});
+
+test('a pipe whose reader has gone is no success, and no signal', () => {
+  for (const args of printing) {
+    // The command starts when the pipe has no reader any more, which is when the FIFO at `gone` ends.
+    const script = `rm -f gone code; mkfifo gone;
+      { cat gone; "$SHADOWPROOF" ${quoted(args)}; echo $? >code; } | { exec <&-; : >gone; }
+      cat code`;
+    const run = spawnSync('sh', ['-c', script], { cwd: scratch, encoding: 'utf8' });
+    assert.equal(run.stdout, '3\n', `${args}: ${run.stderr}`);
+    assert.match(run.stderr, /^shadowproof: standard output cannot be written \(Broken pipe\)[^\n]*$/m, `${args}`);
   }
+  for (const name of ['gone', 'code']) rmSync(join(scratch, name));
 });
 
 test('nothing is left in the folder but what was asked for', () => {

@@ -1,8 +1,8 @@
 // Bundled scenes, each traced once in a process, for tests that ask for the same ones again.
 #pragma once
 
-#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <map>
 #include <memory>

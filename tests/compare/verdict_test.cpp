@@ -25,6 +25,16 @@ TEST(Verdict, edge_pixels_alone_agree) {
     EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, with({Cause::edge})), Verdict::agrees);
 }
 
+TEST(Verdict, precision_where_the_numbers_suffice_is_a_defect_and_excused_nowhere) {
+    Comparison comparison = with({Cause::precision});
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, comparison), Verdict::fails_as_predicted);
+    EXPECT_EQ(excused_causes(declaring({}), zpass_fails_at, {}, comparison),
+              std::vector{Cause::precision});
+    comparison.too_near = 1;
+    EXPECT_EQ(judge(declaring({}), zpass_fails_at, {}, comparison), Verdict::defect);
+    EXPECT_TRUE(excused_causes(declaring({}), zpass_fails_at, {}, comparison).empty());
+}
+
 TEST(Verdict, a_figure_that_the_volumes_do_not_make_is_unexplained) {
     const auto verdict_of = [](const VolumeCheck& volumes) {
         Frame frame;

@@ -49,7 +49,7 @@ test('what it has forgotten is unexplained, told pixel by pixel, and fails the r
                                  'pixel.json'], { env: forgetting });
   assert.equal(explained.code, 0, explained.err);
   assert.match(explained.out, / technique +remembered +claim +cause\n +remembered +shadowed +shadowed +unexplained\n/);
-  assert.match(explained.out, / technique +predicted +stored +read back +claim +cause +lost\n/);
+  assert.match(explained.out, / technique +predicted +stored +read back +precise +claim +cause +lost\n/);
   const record = JSON.parse(readFileSync(join(scratch, 'pixel.json'), 'utf8'));
   const [remembered, counted] = record.techniques;
   assert.equal(record.truth, 'lit');

@@ -30,6 +30,8 @@ const writers = {
   svg: (file) => [program, 'explain', 'near_plane', '--pixel', '3,3', '--size', '16x16',
                   '--technique', 'zpass', '--svg', file],
   merge: (file) => [program, 'merge', shard, '--out', 'r', '--json', file],
+  accept: (file) => [program, 'accept', shard, '-o', file],
+  'export-view': (file) => [program, 'export-view', 'near_plane', '-o', file],
   bench: (file) => bench('--json', file),
   csv: (file) => bench('--csv', file),
   // A parameter that this scene has not: no point is judged, which would take seconds.
@@ -210,10 +212,21 @@ for (const [name, command] of Object.entries(pictures))
       if (device === '/dev/null') assert.equal(done.code, 0, done.err);
       else assertRefused(done, device);
     }
+    // A pipe gets the very bytes; nothing can be made in /proc, by root either.
     rmSync(join(below, file));
+    run(['mkfifo', 'pipe'], { cwd: below });
+    symlinkSync('pipe', join(below, file));
+    const words = command.map((word) => `'${word}'`).join(' ');
+    const piped = run(['sh', '-c', `cat pipe > piped & ${words} && wait`], { cwd: below });
+    assert.equal(piped.code, 0, piped.err);
+    assert.ok(lstatSync(join(below, 'pipe')).isFIFO());
+    assert.equal(createHash('sha256').update(readFileSync(join(below, 'piped'))).digest('hex'), first);
+    rmSync(join(below, file));
+    symlinkSync('/proc/sys/file', join(below, file));
+    assertRefused(run(command, { cwd: below }), 'a read-only place');
+    for (const name of [file, 'pipe', 'piped']) rmSync(join(below, name));
     assert.deepEqual(readdirSync(below), ['target']);
-    const limited = run(['sh', '-c', `ulimit -f 0; exec ${command.map((word) => `'${word}'`).join(' ')}`],
-                        { cwd: below });
+    const limited = run(['sh', '-c', `ulimit -f 0; exec ${words}`], { cwd: below });
     assertRefused(limited, 'ulimit -f');
     assert.match(limited.err, /File too large/);
     assert.deepEqual(readdirSync(below), ['target']);

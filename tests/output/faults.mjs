@@ -45,6 +45,16 @@ export function operationsOf(command, below, { cwd, ...settings } = {}) {
   return calls;
 }
 
+/** The calls below a folder, in their order, that write, sync, link or rename: "fsync report". */
+export function loggedOf(command, below, { cwd, ...settings } = {}) {
+  const log = join(scratch, '.log');
+  writeFileSync(log, '');
+  const { code, out, err } = run(command, { cwd, env: faults(below, { log, ...settings }) });
+  assert.ok(code === 0, out + err);
+  return readFileSync(log, 'utf8').trim().split('\n')
+    .map((line) => line.replace(/\S*#\d+ \(deleted\)$/, 'unnamed').replace(/\.shadowproof-\S+$/, 'passing'));
+}
+
 /**
  * Kills a command with SIGKILL after some milliseconds, unless it ended. Returns when it has ended:
  * with its children, or a moment before them.

@@ -29,8 +29,11 @@ function place(name) {
   return below;
 }
 
-/** One report whole, and what is not its own; returns its technique. */
-function assertWhole(below, where) {
+/**
+ * One report whole, and what is not its own; returns its technique. `damaged`: pictures may lack, where
+ * the run that wrote it says so.
+ */
+function assertWhole(below, where, damaged = false) {
   const { ['manifest.json']: text, ...all } = contentOf(join(below, 'report'));
   const own = Object.keys(all).filter((name) => all[name] !== 'folder' && name !== 'notes.txt');
   const manifest = JSON.parse(text);
@@ -38,7 +41,10 @@ function assertWhole(below, where) {
   for (const { name, size } of manifest.files) assert.equal(all[name].length, size, `${where}: ${name}`);
   assert.equal(all['notes.txt'], 'mine', where);
   const [cell] = JSON.parse(all['results.json']).scenes[0].techniques;
-  assert.ok(own.includes(`near_plane/${cell.name}/claim.png`), where);
+  for (const file of ['claim.png', 'cell.js'])
+    assert.ok(damaged || own.includes(`near_plane/${cell.name}/${file}`), `${where}: ${file}`);
+  const other = cell.name === 'zpass' ? 'zfail' : 'zpass';
+  assert.deepEqual(own.filter((name) => name.startsWith(`near_plane/${other}/`)), [], where);
   return cell.name;
 }
 
@@ -109,26 +115,54 @@ for (const [name, command] of Object.entries(files))
     }
   });
 
-test('merge and explain: where any one file operation fails, what they write is whole', () => {
-  const below = place('merge');
-  run(['mv', 'report', 'shard'], { cwd: below });
-  const commands = [
-    [program, 'merge', 'shard', '--out', 'report', '-q'],
-    [program, 'explain', 'near_plane', '--pixel', '3,3', ...picture, '--technique', 'zpass', '-q',
-     '--json', 'pixel.json', '--svg', 'pixel.svg'],
-  ];
-  for (const command of commands) {
-    const count = operationsOf(command, below, { cwd: below });
+for (const [name, errno] of [['EIO', 5], ['ENOSPC', 28]]) {
+  test(`merge: where any one file operation fails by ${name}, a report is whole`, () => {
+    const below = place(`merge-${name}`);
+    for (const technique of ['zpass', 'zfail'])
+      assert.equal(run([...verify(technique).slice(0, -2), technique, '-q'], { cwd: below }).code, 0);
+    const merge = (shard) => [program, 'merge', shard, '--out', 'report'];
+    const count = operationsOf(merge('zfail'), below, { cwd: below });
+    let old = 'zfail';
     for (let at = 1; at <= count; ++at) {
-      const where = `${command[1]}, operation ${at} of ${count}`;
-      const done = run(command, { cwd: below, env: faults(below, { at, errno: 5 }) });
-      // What cannot be read of a shard is damage, which is said.
-      if (done.code !== 0) assertRefused(done, where);
-      for (const name of readdirSync(below))
-        assert.ok(['report', 'shard', 'pixel.json', 'pixel.svg'].includes(name), `${where}: ${name}`);
+      const where = `operation ${at} of ${count}`;
+      const next = old === 'zpass' ? 'zfail' : 'zpass';
+      const done = run(merge(next), { cwd: below, env: faults(below, { at, errno }) });
+      // What cannot be read of a shard is damage, which is said, and is in this report alone.
+      const damaged = done.code === 0 && /^damaged: [^\n]+\.(png|js) (is missing|cannot be read)/m.test(done.out);
+      if (damaged) {
+        assert.equal(assertWhole(below, where, true), next, where);
+        assert.equal(run(merge(next), { cwd: below }).code, 0, where);
+      }
+      const now = assertWhole(below, where);
+      if (done.code === 0) assert.equal(now, next, where);
+      else assertRefused(done, where);
+      assert.deepEqual(readdirSync(below).sort(), ['report', 'zfail', 'zpass'], where);
+      old = now;
     }
-  }
-});
+  });
+
+  test(`explain: where any one file operation fails by ${name}, its files are old or new, and whole`, () => {
+    const below = join(scratch, `explain-${name}`);
+    mkdirSync(below);
+    const command = [program, 'explain', 'near_plane', '--pixel', '3,3', ...picture, '--technique', 'zpass',
+                     '-q', '--json', 'pixel.json', '--svg', 'pixel.svg'];
+    const count = operationsOf(command, below, { cwd: below });
+    const whole = contentOf(below);
+    assert.equal(typeof JSON.parse(whole['pixel.json']), 'object');
+    assert.match(whole['pixel.svg'], /^<svg [^]*<\/svg>\s*$/);
+    for (let at = 1; at <= count; ++at) {
+      const where = `operation ${at} of ${count}`;
+      for (const file of Object.keys(whole)) writeFileSync(join(below, file), 'old');
+      const done = run(command, { cwd: below, env: faults(below, { at, errno }) });
+      const now = contentOf(below);
+      if (done.code === 0) assert.deepEqual(now, whole, where);
+      else assertRefused(done, where);
+      assert.deepEqual(Object.keys(now), Object.keys(whole), where);
+      for (const [file, content] of Object.entries(now))
+        assert.ok(content === 'old' || content === whole[file], `${where}: ${file}`);
+    }
+  });
+}
 
 /** Whether a file system of its own can be mounted here, unseen by others. */
 const mounts = run(['unshare', '-m', 'mount', '-t', 'tmpfs', 'none', scratch]).code === 0;

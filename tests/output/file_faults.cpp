@@ -9,6 +9,8 @@
 //   FAULTS_WITHOUT  what the file system does not have: "unnamed" files, "exchange" of two names,
 //                   or both, with a comma between
 //   FAULTS_CHANGES  set: calls that only read or ask are not counted
+//   FAULTS_LOG      a file with a line for each call that writes, syncs, links or renames: the call
+//                   and the path, relative to the folder, "." itself
 //   FAULTS_BYTES    from that many bytes written below the folder on, writing fails (ENOSPC)
 #include "tests/output/file_faults.h"
 
@@ -44,6 +46,7 @@ struct Settings {
     bool without_exchange = false;
     bool has_budget = false;
     std::atomic<long> budget = 0; ///< bytes that may still be written
+    int log = -1;
     Shared* shared = nullptr;
 
     Settings();
@@ -68,6 +71,8 @@ Settings::Settings() {
         has_budget = true;
         budget = std::atol(text);
     }
+    if (const char* text = std::getenv("FAULTS_LOG"))
+        log = original<int(const char*, int, ...)>("open")(text, O_WRONLY | O_APPEND | O_CLOEXEC);
     const int file = original<int(const char*, int, ...)>("open")(counter, O_RDWR | O_CLOEXEC);
     void* const mapped =
         file < 0 ? MAP_FAILED
@@ -95,6 +100,16 @@ Settings& settings() {
     for (;;) pause();
 }
 
+bool path_of(int descriptor, char (&path)[PATH_MAX]) {
+    char name[64];
+    std::snprintf(name, sizeof name, "/proc/self/fd/%d", descriptor);
+    const ssize_t length =
+        original<ssize_t(const char*, char*, std::size_t)>("readlink")(name, path, sizeof path - 1);
+    if (length <= 0) return false;
+    path[length] = '\0';
+    return true;
+}
+
 } // namespace
 
 bool is_below(const char* path) {
@@ -104,15 +119,8 @@ bool is_below(const char* path) {
 }
 
 bool is_below(int descriptor) {
-    if (settings().shared == nullptr) return false;
-    char name[64];
     char path[PATH_MAX];
-    std::snprintf(name, sizeof name, "/proc/self/fd/%d", descriptor);
-    const ssize_t length =
-        original<ssize_t(const char*, char*, std::size_t)>("readlink")(name, path, sizeof path - 1);
-    if (length <= 0) return false;
-    path[length] = '\0';
-    return is_below(path);
+    return settings().shared != nullptr && path_of(descriptor, path) && is_below(path);
 }
 
 bool is_below(int folder, const char* path) {
@@ -124,6 +132,24 @@ bool is_below(int folder, const char* path) {
     if (getcwd(current, sizeof current) == nullptr) return false;
     const int length = std::snprintf(whole, sizeof whole, "%s/%s", current, path);
     return length > 0 && static_cast<std::size_t>(length) < sizeof whole && is_below(whole);
+}
+
+void record(const char* call, const char* path) {
+    const Settings& set = settings();
+    if (set.log < 0 || !is_below(path)) return;
+    const int before = errno;
+    const char* const relative = path[set.length] == '/' ? path + set.length + 1 : ".";
+    char line[PATH_MAX + 64];
+    const int length = std::snprintf(line, sizeof line, "%s %s\n", call, relative);
+    // One that is cut is missed by the test.
+    static_cast<void>(!original<ssize_t(int, const void*, std::size_t)>("write")(
+        set.log, line, static_cast<std::size_t>(length)));
+    errno = before;
+}
+
+void record(const char* call, int descriptor) {
+    char path[PATH_MAX];
+    if (settings().log >= 0 && path_of(descriptor, path)) record(call, path);
 }
 
 bool fails(bool counted) {

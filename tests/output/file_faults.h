@@ -27,6 +27,10 @@ bool fails(bool counted);
 /// The same of a call that changes nothing, which FAULTS_CHANGES leaves out.
 bool fails_to_ask(bool counted);
 
+/// Appends to the log a call on an absolute path, or on an open file.
+void record(const char* call, const char* path);
+void record(const char* call, int descriptor);
+
 /// How many of `bytes` still fit: fewer, where the budget ends among them.
 std::size_t granted(int descriptor, std::size_t bytes);
 

@@ -22,6 +22,7 @@ mode_t mode_of(int flags, va_list arguments) {
 /// Counts a call that writes, and charges it to what still fits: how many bytes it may write, or
 /// none where it fails.
 std::optional<std::size_t> taken_of(int file, std::size_t bytes) {
+    record("write", file);
     if (fails(is_below(file))) return std::nullopt;
     const std::size_t taken = granted(file, bytes);
     if (taken > 0 || bytes == 0) return taken;
@@ -100,11 +101,13 @@ int close(int file) {
 }
 
 int fsync(int file) {
+    record("fsync", file);
     if (fails(is_below(file))) return -1;
     return original<int(int)>("fsync")(file);
 }
 
 int syncfs(int file) {
+    record("syncfs", file);
     if (fails(is_below(file))) return -1;
     return original<int(int)>("syncfs")(file);
 }
@@ -170,12 +173,14 @@ int remove(const char* path) {
 }
 
 int rename(const char* from, const char* to) {
+    record("rename", to);
     if (fails(is_below(AT_FDCWD, to))) return -1;
     return original<int(const char*, const char*)>("rename")(from, to);
 }
 
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned int flags) {
+    record("renameat2", to);
     if (fails(is_below(to_folder, to))) return -1;
     if (lacks_exchange(to_folder, to, flags)) return -1;
     return original<int(int, const char*, int, const char*, unsigned int)>("renameat2")(
@@ -183,6 +188,7 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
 }
 
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) {
+    record("linkat", to);
     if (fails(is_below(to_folder, to))) return -1;
     return original<int(int, const char*, int, const char*, int)>("linkat")(from_folder, from,
                                                                             to_folder, to, flags);

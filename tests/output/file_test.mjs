@@ -1,11 +1,11 @@
 // Files that the user names: what may stand there already, and what is left where writing fails.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { chmodSync, closeSync, copyFileSync, linkSync, lstatSync, mkdirSync, openSync, readFileSync,
-         readdirSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { chmodSync, copyFileSync, linkSync, lstatSync, mkdirSync, readFileSync,
+         readdirSync, renameSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertRefused, changes, contentOf, faults, killed, operationsOf, run, scratch }
+import { assertRefused, changes, contentOf, faults, killed, loggedOf, operationsOf, run, scratch }
   from './faults.mjs';
 
 const program = process.env.WRITE_OUTPUT;
@@ -200,30 +200,97 @@ test('where any one file operation fails, the old file or the new one is whole, 
     }
 });
 
-test('killed at any file operation, the old file or the new one is whole, and the next run alone', () => {
-  const below = folder('killed', { old: 'old' });
-  const count = operationsOf([program, 'old'], below, { cwd: below, ...changes });
-  for (let at = 1; at <= count; ++at) {
-    const where = `operation ${at} of ${count}`;
-    writeFileSync(join(below, 'old'), 'old');
-    const done = run([program, 'old'], { cwd: below, env: faults(below, { at, ...killed }) });
-    assert.equal(done.signal, 'SIGKILL', where);
-    assert.ok(['old', fresh].includes(readFileSync(join(below, 'old'), 'utf8')), where);
-    assert.equal(run([program, 'old'], { cwd: below }).code, 0);
-    assert.deepEqual(contentOf(below), { old: fresh }, where);
+/** What some file systems do not have, NFS and FUSE among them. */
+const poor = { without: 'unnamed' };
+
+for (const lacking of [{}, poor])
+  test(`killed at any file operation, the old file or the new one is whole, and the next run alone${
+    lacking.without ? ', also where no file can be without a name' : ''}`, () => {
+    const below = folder(`killed-${lacking.without ?? ''}`, { old: 'old' });
+    const count = operationsOf([program, 'old'], below, { cwd: below, ...changes, ...lacking });
+    let left = 0;
+    for (let at = 1; at <= count; ++at) {
+      const where = `operation ${at} of ${count}`;
+      writeFileSync(join(below, 'old'), 'old');
+      const done = run([program, 'old'], { cwd: below, env: faults(below, { at, ...killed, ...lacking }) });
+      assert.equal(done.signal, 'SIGKILL', where);
+      assert.ok(['old', fresh].includes(readFileSync(join(below, 'old'), 'utf8')), where);
+      left += readdirSync(below).length - 1;
+      assert.equal(run([program, 'old'], { cwd: below }).code, 0);
+      assert.deepEqual(contentOf(below), { old: fresh }, where);
+    }
+    assert.ok(left > 0, 'no leftover was met');
+  });
+
+test('a file is on the disk before it has its name, and the name after', () => {
+  const below = folder('synced', { old: 'old' });
+  const calls = (name, lacking) => loggedOf([program, name], below, { cwd: below, ...lacking });
+  assert.deepEqual(calls('new'), ['write unnamed', 'fsync unnamed', 'linkat new', 'fsync .']);
+  assert.deepEqual(calls('old'), ['write unnamed', 'fsync unnamed', 'linkat passing', 'rename old', 'fsync .']);
+  for (const name of ['old', 'newer']) {
+    const asked = 'rename passing'; // for the question whether it can be written
+    assert.deepEqual(calls(name, poor), [asked, 'rename passing', 'write passing', 'fsync passing',
+                                         `rename ${name}`, 'fsync .']);
   }
 });
 
-test('a file that another process is just giving its name is no leftover', () => {
-  const below = folder('passing');
-  const name = join(below, '.shadowproof-1-0');
-  writeFileSync(name, 'in use');
-  const held = openSync(name, 'r');
+/** A leftover of a killed process in a folder that holds a file `old`: its name. */
+function leftover(below) {
+  const names = () => readdirSync(below).filter((name) => name.startsWith('.shadowproof-'));
+  for (let at = 1; ; ++at) {
+    const done = run([program, 'old'], { cwd: below, env: faults(below, { at, ...killed }) });
+    assert.equal(done.signal, 'SIGKILL', 'it leaves nothing');
+    if (names().length > 0) return names()[0];
+  }
+}
+
+test('a file that another process is just giving its name is no leftover; unlocked, it is', () => {
+  const below = folder('passing', { old: 'old' });
+  const name = leftover(below);
   const done = run(['flock', name, program, 'new'], { cwd: below });
-  closeSync(held);
   assert.equal(done.code, 0, done.err);
-  assert.deepEqual(Object.keys(contentOf(below)), ['.shadowproof-1-0', 'new']);
-  writeFileSync(join(below, '.shadowproof-notes'), 'mine');
+  assert.deepEqual(Object.keys(contentOf(below)), [name, 'new', 'old']);
   assert.equal(run([program, 'new'], { cwd: below }).code, 0);
-  assert.deepEqual(Object.keys(contentOf(below)), ['.shadowproof-notes', 'new']);
+  assert.deepEqual(Object.keys(contentOf(below)), ['new', 'old']);
+});
+
+test('what only looks like a leftover stays: names of digits, copies, links, and other names of it', () => {
+  const below = folder('like-leftovers', { old: 'old' });
+  const name = leftover(below);
+  const mine = { '.shadowproof-2024-01-31': 'mine', '.shadowproof-2024-02': '', '.shadowproof-1-0': 'mine',
+                 '.shadowproof-notes': 'mine', '.shadowproof-': 'mine' };
+  for (const [file, content] of Object.entries(mine)) writeFileSync(join(below, file), content);
+  const copy = () => {
+    copyFileSync(join(below, name), join(below, 'copy'));
+    renameSync(join(below, 'copy'), join(below, name)); // beside the original: of another inode
+  };
+  const link = () => {
+    renameSync(join(below, name), join(below, 'target'));
+    symlinkSync('target', join(below, name));
+  };
+  const rename = () => renameSync(join(below, name), join(below, name.replace(/-\d+-/, '-7-')));
+  for (const change of [copy, link, rename]) {
+    change();
+    const before = contentOf(below);
+    assert.equal(run([program, 'old'], { cwd: below }).code, 0);
+    assert.deepEqual(contentOf(below), { ...before, old: fresh }, change.name);
+  }
+});
+
+test('a name for a file that is still empty proves nothing once it has content', () => {
+  const below = folder('filled', { old: 'old' });
+  // Killed between the call that makes the file and the one that gives it its next name.
+  const names = () => readdirSync(below).filter((name) => name !== 'old');
+  let name;
+  for (let at = 1; !name; ++at) {
+    run([program, 'old'], { cwd: below, env: faults(below, { at, ...killed, ...poor }) });
+    [name] = names();
+  }
+  assert.equal(statSync(join(below, name)).size, 0);
+  writeFileSync(join(below, name), 'mine');
+  assert.equal(run([program, 'old'], { cwd: below }).code, 0);
+  assert.deepEqual(contentOf(below), { [name]: 'mine', old: fresh });
+  writeFileSync(join(below, name), '');
+  assert.equal(run([program, 'old'], { cwd: below }).code, 0);
+  assert.deepEqual(contentOf(below), { old: fresh });
 });

@@ -6,7 +6,7 @@ import { chmodSync, existsSync, lstatSync, mkdirSync, readFileSync, readdirSync,
          symlinkSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { assertRefused, changes, contentOf, faults, killed, killedAfter, operationsOf, run, scratch }
+import { assertRefused, changes, contentOf, faults, killed, killedAfter, loggedOf, operationsOf, run, scratch }
   from './faults.mjs';
 
 const program = process.env.REPLACE_FOLDER;
@@ -118,6 +118,27 @@ test('places that are not a report are refused, and stay as they are', () => {
   assert.deepEqual(contentOf(below), before);
 });
 
+test('the empty home of any account is refused, and what holds it, but not what lies in it', (t) => {
+  const below = join(scratch, 'homes');
+  mkdirSync(join(below, 'people/ann'), { recursive: true });
+  const accounts = join(scratch, 'passwd');
+  writeFileSync(accounts, `${readFileSync('/etc/passwd', 'utf8')}ann:x:4711:4711::${below}/people/ann:\n`);
+  // Seen by these runs alone.
+  const knowing = (...args) =>
+    ['unshare', '-m', 'sh', '-c', `mount --bind '${accounts}' /etc/passwd && exec "$@"`, 'sh', ...args];
+  if (run(knowing('true')).code !== 0) return t.skip('nothing can be mounted here');
+  symlinkSync('people/ann', join(below, 'link'));
+  for (const name of ['people/ann', 'people/ann/', 'people', 'link']) {
+    const done = run(knowing(...command(name, ...newFiles)), { cwd: below });
+    assertRefused(done, name);
+    assert.match(done.err, /is a home folder, or holds one/);
+  }
+  assert.deepEqual(contentOf(below), { link: '-> people/ann', people: 'folder', 'people/ann': 'folder' });
+  assert.equal(run(knowing(...command('people/ann/report', ...newFiles)), { cwd: below }).code, 0);
+  assert.equal(run(command('people', ...newFiles), { cwd: below }).code, 3, 'neither empty nor a report');
+  assert.ok(existsSync(join(below, 'people/ann/report/index.html')));
+});
+
 test('a manifest cannot lead out of the folder', () => {
   const below = place('led-out');
   const manifest = JSON.parse(readFileSync(join(below, 'report/manifest.json'), 'utf8'));
@@ -211,8 +232,59 @@ test('a file that came into the work folder of a dead process is never removed',
   nothingBeside(below);
 });
 
+test('a file of the work folder of a dead process that was edited, or put there, is never removed', async () => {
+  const edits = {
+    edited: (file) => writeFileSync(file, 'mine'),
+    'of the same size': (file) => writeFileSync(file, 'nex'),
+    'a link': (file) => { rmSync(file); symlinkSync('../../neighbour.txt', file); },
+    'a manifest': (file) => writeFileSync(join(file, '../manifest.json'), '{}'),
+  };
+  for (const [name, edit] of Object.entries(edits)) {
+    const below = place(`edited-${name.replaceAll(' ', '-')}`);
+    const { child } = await holder(below);
+    const dead = new Promise((resolve) => child.on('close', resolve));
+    child.kill('SIGKILL');
+    await dead;
+    const content = join(below, 'report.writing/report');
+    assert.ok(existsSync(join(content, 'index.html')));
+    edit(join(content, 'index.html'));
+    const changed = name === 'a manifest' ? 'manifest.json' : 'index.html';
+    const mine = contentOf(content)[changed];
+    for (let i = 0; i < 2; ++i) {
+      const done = run(command('report', ...newFiles), { cwd: below });
+      assertRefused({ ...done, err: done.err.replace('.writing/report', '') }, name);
+      assert.ok(done.err.includes(`holds ${changed}, not as this program wrote it; move it away`), done.err);
+      assert.equal(assertWhole(below), 'old');
+      assert.deepEqual(contentOf(content), { [changed]: mine }, name); // all else was the program's
+    }
+    rmSync(join(content, changed));
+    assert.equal(run(command('report', ...newFiles), { cwd: below }).code, 0);
+    assert.equal(assertWhole(below), 'new');
+    nothingBeside(below);
+  }
+});
+
 /** What some file systems do not have, NFS and FUSE among them. */
 const poor = { without: 'unnamed,exchange' };
+
+test('a report is on the disk before it is at its place, and its name after', () => {
+  const below = place('synced');
+  for (const [folder, lacking, ...exchange] of [
+    ['report', {}, 'renameat2 report'],
+    ['new', {}, 'renameat2 new'],
+    // Tried in vain first.
+    ['report', poor, 'renameat2 report', 'rename report.writing/older', 'rename report'],
+    ['newer', poor, 'renameat2 newer', 'rename newer'],
+  ]) {
+    const calls = loggedOf(command(folder, ...newFiles), below, { cwd: below, ...lacking });
+    const synced = calls.indexOf(`syncfs ${folder}.writing/report`);
+    assert.ok(synced > 0, calls.join('\n'));
+    assert.ok(calls.slice(0, synced).filter((call) => call.startsWith('write ')).length > newFiles.length);
+    for (const name of [...newFiles.map((file) => file.split('=')[0]), 'manifest.json'])
+      assert.ok(calls.slice(0, synced).some((call) => call.endsWith(` ${folder}.writing/report/${name}`)), name);
+    assert.deepEqual(calls.slice(synced + 1), [...exchange, 'fsync .'], folder);
+  }
+});
 
 test('where any one file operation fails, the old report or the new one is whole', () => {
   for (const [reason, lacking] of [[5, {}], [28, {}], [5, poor]]) { // EIO, ENOSPC

@@ -3,6 +3,7 @@
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
 #include "tests/raster/small_scenes.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
@@ -95,12 +96,7 @@ TEST_P(AutoClaims, are_those_of_zfail_reversed_but_for_depths_that_tie) {
     EXPECT_FALSE(frame.left_out.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, AutoClaims, testing::ValuesIn([] {
-                             std::vector<std::string> names;
-                             for (const BundledScene& scene : bundled_scenes())
-                                 names.emplace_back(scene.name);
-                             return names;
-                         }()),
+INSTANTIATE_TEST_SUITE_P(Bundled, AutoClaims, testing::ValuesIn(tests::bundled_scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST(Auto, draws_no_volume_where_no_caster_can_shadow_anything) {

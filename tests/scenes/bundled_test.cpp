@@ -5,6 +5,7 @@
 #include "scenes/mesh/topology.h"
 #include "scenes/mesh/touching_light.h"
 #include "scenes/plan/plan.h"
+#include "tests/scenes/bundled_names.h"
 #include "tests/scenes/small_gltf.h"
 
 #include <gtest/gtest.h>
@@ -32,6 +33,21 @@ TEST(bundled, the_author_writes_the_bytes_that_are_checked_in) {
         EXPECT_EQ(stages[i].name, bundled_scenes()[i].name);
         expect_written(stages[i], bundled_folder());
     }
+}
+
+TEST(bundled, the_names_that_tests_go_by_are_those_of_the_files) {
+    std::vector<std::string> under_each_light;
+    std::vector<std::string> bump_lit;
+    for (const std::string& name : tests::bundled_scene_names()) {
+        SceneRequest request;
+        request.every_light = true;
+        const Scene scene = load_scene(name, request);
+        for (const Light& light : scene.lights)
+            under_each_light.push_back(scene.lights.size() > 1 ? name + "-" + light.choice : name);
+        if (is_bump_lit(scene)) bump_lit.push_back(name);
+    }
+    EXPECT_EQ(tests::bundled_names(), under_each_light);
+    EXPECT_EQ(tests::bump_lit_scenes(), bump_lit);
 }
 
 TEST(bundled, sun_and_spot_have_the_lights_that_they_are_named_for) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace shadowproof {
@@ -13,6 +15,28 @@ template <class Value>
 std::uint64_t differing(const Image<Value>& a, const Image<Value>& b) {
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i] ? 1U : 0U;
+    return count;
+}
+
+/// Bit by bit, so that what is not a number equals itself.
+std::uint64_t differing_rays(const TracedRays& a, const TracedRays& b) {
+    const auto bits = [](const TracedPixel& pixel) {
+        const FloatRay& shadow = pixel.shadow;
+        std::array<std::uint32_t, 15> words{pixel.seen, pixel.shot ? 1U : 0U, pixel.occluder};
+        std::size_t next = 3;
+        for (const float number :
+             {pixel.direction.x, pixel.direction.y, pixel.direction.z, pixel.depth, shadow.origin.x,
+              shadow.origin.y, shadow.origin.z, shadow.direction.x, shadow.direction.y,
+              shadow.direction.z, shadow.near, shadow.far})
+            words[next++] = std::bit_cast<std::uint32_t>(number);
+        return words;
+    };
+    if (a.eye != b.eye || a.near != b.near || a.far != b.far || a.model.start != b.model.start ||
+        a.model.distance != b.model.distance)
+        return a.pixels.pixels.size();
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.pixels.size(); ++i)
+        count += bits(a.pixels.pixels[i]) != bits(b.pixels.pixels[i]) ? 1U : 0U;
     return count;
 }
 
@@ -27,6 +51,8 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
         effect.evidence += differing(right.mapped->faces[face], faulty.mapped->faces[face]);
     effect.surfaces =
         std::max(differing(right.triangle, faulty.triangle), differing(right.depth, faulty.depth));
+    if (right.rays) effect.rays = differing_rays(*right.rays, *faulty.rays);
+    effect.shares = differing(right.share, faulty.share);
     effect.colors = differing(right.color, faulty.color);
     for (std::size_t i = 0; i < right.color.pixels.size(); ++i)
         for (int k = 0; k < 3; ++k)
@@ -46,6 +72,8 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
 std::string words_of(const Effect& effect) {
     std::string words = fmt::format("{} claims, {} {}, {} surfaces", effect.claims, effect.evidence,
                                     effect.of_map ? "texels" : "counters", effect.surfaces);
+    if (effect.rays > 0) words += fmt::format(", {} rays", effect.rays);
+    if (effect.shares > 0) words += fmt::format(", {} shares", effect.shares);
     if (effect.colors > 0)
         words +=
             fmt::format(", {} colours by up to {:.2f}/255", effect.colors, effect.largest_color);

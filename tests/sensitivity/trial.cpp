@@ -1,6 +1,6 @@
 #include "tests/sensitivity/trial.h"
 
-#include "tests/compare/bundled_names.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <algorithm>
 #include <exception>

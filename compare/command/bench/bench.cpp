@@ -16,6 +16,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/process/console.h"
 #include "compare/command/process/exit_code.h"
+#include "compare/command/process/place_in_run.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/rebuild.h"
 #include "compare/command/start_gpu.h"
@@ -57,16 +58,6 @@ std::vector<std::string> scenes_to_measure(const BenchOptions& options) {
     return all;
 }
 
-/// "scene 2 of 37, about 300 s left: "; the time is that of the earlier scenes on average.
-std::string place_of(std::size_t scene, std::size_t scenes, double seconds) {
-    if (scenes == 1) return {};
-    std::string words = fmt::format("scene {} of {}", scene + 1, scenes);
-    if (scene > 0)
-        words += fmt::format(", about {:.0f} s left", seconds / static_cast<double>(scene) *
-                                                          static_cast<double>(scenes - scene));
-    return words + ": ";
-}
-
 /// The last elements, from the given number on.
 template <class T>
 std::vector<T> tail(const std::vector<T>& all, std::size_t from) {
@@ -106,7 +97,7 @@ bool measure_scenes(BenchWork work) {
     bool complete = true;
     const Stopwatch stopwatch;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        work.place = place_of(i, scenes.size(), stopwatch.milliseconds() / 1000);
+        work.place = place_in_run(i, scenes.size(), stopwatch.milliseconds() / 1000);
         try {
             complete = measure_as_piece(work, scenes[i]) && complete;
             continue;
@@ -344,8 +335,9 @@ void add_bench_flags(CLI::App& command, BenchOptions& options) {
     add_timeout_flag(command, options.timeout,
                      "Seconds for judging a point, for a sample of it, and for reading or tracing "
                      "a scene, above which it is given up (600; 0: any number)");
-    command.add_flag("!--no-pictures", options.pictures,
-                     "Keep no pictures of the points beside the plot");
+    command.add_flag_callback(
+        "--no-pictures", [&options] { options.pictures = false; },
+        "Keep no pictures of the points beside the plot");
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
 }
 

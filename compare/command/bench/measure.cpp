@@ -11,7 +11,7 @@
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
-#include "compare/maps/map_memory.h"
+#include "compare/families.h"
 #include "compare/memory.h"
 #include "compare/words.h"
 #include "raster/render.h"
@@ -32,7 +32,7 @@ namespace shadowproof {
 namespace {
 
 /// A scene, traced, and the points that are measured on it.
-struct Trial {
+struct BenchTrial {
     const BenchWork& work;
     std::string argument;
     const Scene& scene;
@@ -50,9 +50,9 @@ struct Trial {
 };
 
 /// The plan by which a technique draws with these settings.
-const Plan& plan_with(Trial& trial, const BenchSettings& settings) {
+const Plan& plan_with(BenchTrial& trial, const BenchSettings& settings) {
     trial.plan.asked = with_settings(trial.work.options.technique, settings).asked;
-    require_map(trial.work.options.scene.memory, trial.plan.asked.map);
+    require_memory(trial.work.options.scene.memory, trial.plan.asked);
     return trial.plan;
 }
 
@@ -62,13 +62,14 @@ std::string name_of_point(const Technique& technique, const BenchSettings& setti
 }
 
 /// Draws a point, judges it and keeps its pictures.
-JudgedPoint judge_point(Trial& trial, const Technique& technique, BenchPoint point) {
+JudgedPoint judge_point(BenchTrial& trial, const Technique& technique, BenchPoint point) {
     const BenchWork& work = trial.work;
     Cell cell;
     try {
-        cell = judged_cell(technique, trial.traced, plan_with(trial, point.settings), work.gpu,
-                           {.evidence = work.pictures != nullptr})
-                   .cell;
+        cell =
+            judged_cell(technique, trial.traced, plan_with(trial, point.settings), work.gpu,
+                        {.evidence = work.pictures != nullptr, .memory = work.options.scene.memory})
+                .cell;
     } catch (const std::bad_alloc&) {
         return {.why = out_of_memory};
     } catch (const Error& error) {
@@ -88,8 +89,8 @@ JudgedPoint judge_point(Trial& trial, const Technique& technique, BenchPoint poi
 
 /// Adds a point, as an earlier run had it or newly drawn and judged. Returns null where it cannot
 /// be drawn; then `why` says so. Throws LostPiece.
-const BenchPoint* add_point(Trial& trial, const Technique& technique, const BenchSettings& settings,
-                            std::string& why) {
+const BenchPoint* add_point(BenchTrial& trial, const Technique& technique,
+                            const BenchSettings& settings, std::string& why) {
     const BenchWork& work = trial.work;
     BenchPoint point{.scene = trial.name,
                      .technique = std::string(technique.name),
@@ -124,13 +125,13 @@ const BenchPoint* add_point(Trial& trial, const Technique& technique, const Benc
     return &work.run.points.emplace_back(std::move(point));
 }
 
-void leave_out(Trial& trial, std::string_view technique, const BenchSettings& settings,
+void leave_out(BenchTrial& trial, std::string_view technique, const BenchSettings& settings,
                const std::string& why, Loss loss = Loss::none) {
     trial.work.run.left_out.push_back({trial.name, std::string(technique), settings, why, loss});
 }
 
 /// Says once what was lost, and leaves it out.
-void lose(Trial& trial, std::string_view technique, const BenchSettings& settings,
+void lose(BenchTrial& trial, std::string_view technique, const BenchSettings& settings,
           const LostPiece& lost) {
     if (!trial.work.pieces.catching_up()) complain(fmt::format("{}: {}", trial.name, lost.what()));
     leave_out(trial, technique, settings, lost.what(), lost.loss);
@@ -141,7 +142,7 @@ void lose(Trial& trial, std::string_view technique, const BenchSettings& setting
 }
 
 /// The exact truth is its own yardstick: no pixel of it is wrong.
-void add_truth(Trial& trial) {
+void add_truth(BenchTrial& trial) {
     const BenchWork& work = trial.work;
     BenchPoint point{.scene = trial.name,
                      .technique = truth_point,
@@ -159,7 +160,7 @@ void add_truth(Trial& trial) {
 }
 
 /// Where bumps are lit and no technique is named, which the truth's means would outlast.
-void add_sampled_truth(Trial& trial) {
+void add_sampled_truth(BenchTrial& trial) {
     const BenchWork& work = trial.work;
     if (!is_bump_lit(trial.scene) || !work.options.technique.techniques.empty()) return;
     BenchPoint mean = work.run.points.back(); // the truth itself
@@ -189,7 +190,7 @@ void add_sampled_truth(Trial& trial) {
 }
 
 /// The settings by flags that a technique heeds.
-BenchSettings fixed_for(const Trial& trial, const Technique& technique) {
+BenchSettings fixed_for(const BenchTrial& trial, const Technique& technique) {
     BenchSettings fixed;
     for (const SweptSetting& setting : swept_settings())
         for (const auto& each : trial.work.options.fixed)
@@ -197,7 +198,7 @@ BenchSettings fixed_for(const Trial& trial, const Technique& technique) {
     return fixed;
 }
 
-void add_points_of(Trial& trial, const Technique& technique) {
+void add_points_of(BenchTrial& trial, const Technique& technique) {
     const BenchSettings fixed = fixed_for(trial, technique);
     std::string why;
     BenchSettings own_of_technique;
@@ -226,7 +227,7 @@ void add_points_of(Trial& trial, const Technique& technique) {
     }
 }
 
-void add_points(Trial& trial) {
+void add_points(BenchTrial& trial) {
     const BenchOptions& options = trial.work.options;
     add_truth(trial);
     add_sampled_truth(trial);
@@ -247,7 +248,7 @@ void add_stages(std::vector<BenchStage>& stages, const BenchSample& sample) {
 }
 
 /// One sample of the trial's i-th point. Throws LostPiece.
-BenchSample take_sample(Trial& trial, std::size_t i) {
+BenchSample take_sample(BenchTrial& trial, std::size_t i) {
     const BenchWork& work = trial.work;
     const Technique* const technique = trial.techniques[i];
     const BenchSettings& settings = work.run.points[trial.first + i].settings;
@@ -274,13 +275,13 @@ BenchSample take_sample(Trial& trial, std::size_t i) {
 }
 
 /// Points that were lost while they were measured have no result.
-void remove_points(Trial& trial, const std::vector<bool>& lost) {
+void remove_points(BenchTrial& trial, const std::vector<bool>& lost) {
     std::vector<BenchPoint>& points = trial.work.run.points;
     for (std::size_t i = lost.size(); i-- > 0;)
         if (lost[i]) points.erase(points.begin() + static_cast<std::ptrdiff_t>(trial.first + i));
 }
 
-void measure(Trial& trial) {
+void measure(BenchTrial& trial) {
     const BenchWork& work = trial.work;
     BenchRun& run = work.run;
     std::vector<std::vector<double>> samples;
@@ -336,7 +337,7 @@ void measure(Trial& trial) {
 }
 
 /// What the report of the pictures tells of the scene, whose truth lies in it.
-void describe(SceneResult& result, const Trial& trial) {
+void describe(SceneResult& result, const BenchTrial& trial) {
     result.argument = trial.argument;
     result.name = trial.name;
     describe(result, trial.scene);
@@ -385,16 +386,16 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
     });
     const Tracer& tracer = *traced;
     const GroundTruth& truth = result.truth;
-    Trial trial{.work = work,
-                .argument = argument,
-                .scene = scene,
-                .tracer = tracer,
-                .truth = truth,
-                .traced = TracedScene(tracer, truth),
-                .plan = make_plan(scene),
-                .name = name,
-                .first = work.run.points.size(),
-                .techniques = {}};
+    BenchTrial trial{.work = work,
+                     .argument = argument,
+                     .scene = scene,
+                     .tracer = tracer,
+                     .truth = truth,
+                     .traced = TracedScene(tracer, truth),
+                     .plan = make_plan(scene),
+                     .name = name,
+                     .first = work.run.points.size(),
+                     .techniques = {}};
     if (work.pictures != nullptr) {
         describe(result, trial);
         work.pictures->begin(result);

@@ -5,7 +5,7 @@
 #include "compare/command/bench/sweep.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
-#include "compare/maps/map_memory.h"
+#include "compare/families.h"
 #include "compare/memory.h"
 #include "compare/report/escape.h"
 #include "compare/words.h"
@@ -184,7 +184,7 @@ void measure_size(const BenchWork& work, const Axis& axis, std::vector<Runner>& 
     TechniqueOptions options = work.options.technique;
     if (axis.flag != nullptr)
         options = with_settings(options, {{axis.flag, fmt::format("{}", size)}});
-    require_map(work.options.scene.memory, options.asked.map);
+    require_memory(work.options.scene.memory, options.asked);
     require_scene(work.options.scene.memory, scenes.front(), Workload::comparison);
     const Drawable first =
         work.pieces.step("tracing", [&] { return Drawable(work, scenes.front(), options.asked); });

@@ -171,9 +171,12 @@ Work add_check(CLI::App& app) {
         ->check(not_empty());
     add_picture_flags(*command, *options);
     add_renderer_flags(*command, *options);
-    command->add_flag("!--no-alignment", options->alignment,
-                      "Judge a picture even where it seems to show another view");
-    command->add_flag("!--no-diagnosis", options->diagnosis, "Do not ask why pixels are wrong");
+    command->add_flag_callback(
+        "--no-alignment", [options] { options->alignment = false; },
+        "Judge a picture even where it seems to show another view");
+    command->add_flag_callback(
+        "--no-diagnosis", [options] { options->diagnosis = false; },
+        "Do not ask why pixels are wrong");
     command->add_flag("--controls", options->controls,
                       "Would it be caught? Makes small faults in the truth (a caster's shadow "
                       "missing, the light moved, ...), and puts them through the same check");

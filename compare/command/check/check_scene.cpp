@@ -192,7 +192,7 @@ Judged check_picture(const CheckWork& work, const TracedScene& traced, const Sce
 
 void announce(const CheckWork& work, const Scene& scene) {
     work.console.heading(scene.name);
-    for (const std::string& note : scene.notes) work.console.line("  note: " + note);
+    work.console.notes(scene.notes, work.options.output.verbose);
     std::vector<std::string> inputs = work.inputs.pictures;
     inputs.insert(inputs.end(), {work.inputs.mask, work.inputs.unlit});
     for (const std::string& file : inputs)

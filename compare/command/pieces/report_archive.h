@@ -54,9 +54,10 @@ SHADOWPROOF_SEND_ALL(ShareFigures, partly_lit, wrongness)
 
 template <class Archive>
 void serialize(Archive& archive, Comparison& comparison) {
-    auto& [CAUSE, ALSO, several, EVIDENCE_MISS, causes, differing, first, evidence_name, evidence,
-           summary, colors, shares] = comparison;
-    archive(several, causes, differing, first, evidence_name, evidence, summary, colors, shares);
+    auto& [CAUSE, ALSO, several, too_near, EVIDENCE_MISS, causes, differing, first, evidence_name,
+           evidence, summary, colors, shares] = comparison;
+    archive(several, too_near, causes, differing, first, evidence_name, evidence, summary, colors,
+            shares);
 }
 
 SHADOWPROOF_SEND_ALL(PixelChange, x, y, cause, was)

@@ -35,8 +35,13 @@ int do_work(int pipe, const WorkRecord& record, Console& console,
     } catch (const std::exception& error) {
         last.bytes = error.what();
     }
-    console.clear_progress();
-    send(pipe, last);
+    try {
+        console.clear_progress();
+        send(pipe, last);
+    } catch (const std::bad_alloc&) {
+        send(pipe,
+             {.kind = Message::Kind::failed, .bytes = out_of_memory}); // needs less than a result
+    }
     return exit_passed;
 }
 

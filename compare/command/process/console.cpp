@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <climits>
 #include <cstdlib>
 #include <string_view>
@@ -95,6 +96,14 @@ void Console::progress(const std::string& text) {
 
 void Console::line(const std::string& text) {
     if (!quiet_) always(text);
+}
+
+void Console::notes(const std::vector<std::string>& notes, bool all) {
+    constexpr std::size_t usual = 3;
+    const std::size_t shown = all ? notes.size() : std::min(notes.size(), usual);
+    for (std::size_t i = 0; i < shown; ++i) line("  note: " + notes[i]);
+    if (shown < notes.size())
+        line(fmt::format("  and {}: -v shows them", counted(notes.size() - shown, "more note")));
 }
 
 void Console::heading(const std::string& text) {

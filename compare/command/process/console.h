@@ -6,6 +6,7 @@
 #include "compare/report/report.h"
 
 #include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -28,6 +29,8 @@ public:
     void mute(bool muted) { muted_ = muted; }
     /// A line of results; not printed where quiet.
     void line(const std::string& text);
+    /// Notes on a scene: if not `all`, the first three, and how many more there are.
+    void notes(const std::vector<std::string>& notes, bool all);
     /// A heading, bold if colours are on.
     void heading(const std::string& text);
     /// A cell's line, with its verdict in colour if colours are on. If quiet, only a failed cell's.

@@ -1,6 +1,7 @@
 #include "compare/command/process/run_program.h"
 
 #include "compare/command/process/child_process.h"
+#include "compare/command/process/stopwatch.h"
 #include "scenes/error.h"
 
 #include <fcntl.h>
@@ -65,14 +66,12 @@ bool has_ended(pid_t process) {
 }
 
 ProgramEnd wait_for(pid_t process, double seconds) {
-    using Clock = std::chrono::steady_clock;
     constexpr std::chrono::milliseconds moment{5};
-    const auto start = Clock::now();
+    const Stopwatch since_start;
     ProgramEnd end;
     while (!has_ended(process) && !end.timed_out) {
         std::this_thread::sleep_for(moment);
-        const std::chrono::duration<double> taken = Clock::now() - start;
-        end.timed_out = seconds > 0 && taken.count() > seconds;
+        end.timed_out = seconds > 0 && since_start.milliseconds() > 1000 * seconds;
     }
     kill(-process, SIGKILL); // its group: what it has left running, or all of it
     int status = 0;

@@ -73,7 +73,7 @@ void end_child() {
     _exit(exit_could_not);
 }
 
-[[noreturn]] void wait_for(sigset_t signals) {
+[[noreturn]] void end_by_first_of(sigset_t signals) {
     int signal = 0;
     while (sigwait(&signals, &signal) != 0) {
     }
@@ -92,7 +92,7 @@ void handle_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (is_default(signal)) sigaddset(&signals, signal);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-    std::thread(wait_for, signals).detach();
+    std::thread(end_by_first_of, signals).detach();
 }
 
 void set_running_child(pid_t process, int pipe) {

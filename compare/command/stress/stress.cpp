@@ -212,7 +212,7 @@ void add_stress_flags(CLI::App& command, StressOptions& options) {
             "Parameters, separated by commas (all that suit the scene)")
         ->delimiter(',')
         ->allow_extra_args(false) // a scene may follow
-        ->type_name("A,B");
+        ->type_name("PARAMETER");
     command
         .add_option("--witness", options.witness,
                     "Pixels of each point that a second exact tracer decides again (64)")
@@ -228,8 +228,9 @@ void add_stress_flags(CLI::App& command, StressOptions& options) {
         command, options.timeout,
         "Seconds for a technique at a point, and for reading or tracing a scene, above "
         "which it is given up (600; 0: any number)");
-    command.add_flag("!--no-pictures", options.pictures,
-                     "Keep no pictures of the points beside the page");
+    command.add_flag_callback(
+        "--no-pictures", [&options] { options.pictures = false; },
+        "Keep no pictures of the points beside the page");
     command.add_flag("-q,--quiet", options.quiet, "Only what failed, and the end");
 }
 

@@ -65,7 +65,7 @@ SceneResult traced_result(const Tracer& tracer) {
 }
 
 /// A point's scene, traced.
-struct Trial {
+struct StressTrial {
     const Scene& scene;
     Tracer tracer;
     SceneResult result; ///< with the truth
@@ -73,7 +73,7 @@ struct Trial {
     Plan plan;
     std::optional<Stress> stress; ///< none: the scene as it is
 
-    Trial(const Scene& at, const Sweep& sweep, std::optional<Stress> by)
+    StressTrial(const Scene& at, const Sweep& sweep, std::optional<Stress> by)
         : scene(at), tracer(at, sweep.work.options.scene.threads), result(traced_result(tracer)),
           traced(tracer, result.truth), plan(make_plan(at)), stress(std::move(by)) {
         plan.asked = sweep.settings.asked;
@@ -95,7 +95,7 @@ void complain_of(const Sweep& sweep, const std::string& place, const LostPiece& 
         complain(fmt::format("{}, {}: {}", sweep.name, place, lost.what()));
 }
 
-StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
+StressCell draw(const Sweep& sweep, StressTrial& trial, const Technique& technique) {
     StressCell tried{.technique = std::string(technique.name)};
     const std::vector<std::string> words = verify_words(sweep, tried.technique, trial.stress);
     tried.command = command_of(words);
@@ -103,7 +103,9 @@ StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
     const Stopwatch stopwatch;
     try {
         JudgedCell judged = judged_cell(technique, trial.traced, trial.plan, sweep.work.gpu,
-                                        {.evidence = pictures != nullptr, .strain = true});
+                                        {.evidence = pictures != nullptr,
+                                         .memory = sweep.work.options.scene.memory,
+                                         .strain = true});
         Cell& cell = judged.cell;
         tried.judging = stopwatch.milliseconds();
         tried.strain = judged.strain;
@@ -127,7 +129,7 @@ StressCell draw(const Sweep& sweep, Trial& trial, const Technique& technique) {
     return tried;
 }
 
-StressCell try_technique(const Sweep& sweep, Trial& trial, const Technique& technique) {
+StressCell try_technique(const Sweep& sweep, StressTrial& trial, const Technique& technique) {
     const std::string name(technique.name);
     try {
         return sweep.work.pieces.piece(name, [&] { return draw(sweep, trial, technique); });
@@ -151,9 +153,9 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     };
     progress("tracing");
     require_scene(work.options.scene.memory, scene, Workload::comparison);
-    std::optional<Trial> traced;
+    std::optional<StressTrial> traced;
     work.pieces.step("tracing", [&] { traced.emplace(scene, sweep, std::move(stress)); });
-    Trial& trial = *traced;
+    StressTrial& trial = *traced;
     SceneResult& result = trial.result;
     const TraceStatistics& statistics = result.truth.statistics;
     point.triangles = scene.triangles.size();

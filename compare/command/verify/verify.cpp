@@ -48,7 +48,7 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     Report report = begin_report(options);
     VerifiedScenes verified =
         supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
-            return try_scenes({options, report, baseline, console, folder, pieces});
+            return try_scenes({options, report, baseline, console, stopwatch, folder, pieces});
         });
     report.gl = verified.gl;
     report.embree = verified.embree;

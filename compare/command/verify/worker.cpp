@@ -4,11 +4,12 @@
 #include "compare/command/judged_cell.h"
 #include "compare/command/outcome.h"
 #include "compare/command/pieces/report_archive.h"
+#include "compare/command/process/place_in_run.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/start_gpu.h"
-#include "compare/maps/map_memory.h"
+#include "compare/families.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"
@@ -38,6 +39,10 @@ struct Run {
     const WorkerSetup& setup;
     Gpu& gpu;
     std::vector<SceneResult>& scenes; ///< so far
+    std::string place{};              ///< of the scene among all, for the line of progress
+
+    /// Says what is done with a scene.
+    void progress(const std::string& what) const { setup.console.progress(place + what); }
 };
 
 /// A cell, judged and written.
@@ -80,7 +85,8 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     cell.summary = technique.summary;
     try {
         JudgedCell judged =
-            judged_cell(technique, trial.traced, trial.plan, run.gpu, {.evidence = true});
+            judged_cell(technique, trial.traced, trial.plan, run.gpu,
+                        {.evidence = true, .memory = run.setup.options.scene.memory});
         report_milliseconds += judged.evidence_milliseconds;
         cell = std::move(judged.cell);
     } catch (const std::bad_alloc&) {
@@ -91,13 +97,14 @@ Cell try_technique(const Run& run, const Trial& trial, const Technique& techniqu
     return cell;
 }
 
-void announce(Console& console, const SceneResult& result) {
+void announce(Console& console, const SceneResult& result, bool verbose) {
     // Beside a name that is not the file's own: which of several files this is.
     const bool renamed = std::filesystem::path(result.file).stem() != result.name;
     console.heading(renamed ? fmt::format("{} ({})", result.name, result.file) : result.name);
     console.line(fmt::format("  {} triangles, {}x{}, light {}", grouped(result.triangles),
                              result.width, result.height, result.light.name));
-    for (const std::string& note : result.notes) console.line("  note: " + note);
+    console.notes(result.notes, verbose);
+    if (!verbose) return;
     for (const std::string& clause : result.left_out) console.line("  left out: " + clause);
 }
 
@@ -125,7 +132,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
                  std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     require_scene(options.scene.memory, scene, Workload::comparison);
-    require_map(options.scene.memory, options.technique.asked.map);
+    require_memory(options.scene.memory, options.technique.asked);
     result.light = chosen_light(scene);
     result.name = scene.name;
     if (result.one_of_many) result.name += "-" + result.light.choice;
@@ -135,9 +142,9 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     plan.asked = options.technique.asked;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
-    announce(run.setup.console, result);
+    announce(run.setup.console, result, options.output.verbose);
 
-    run.setup.console.progress(fmt::format("{}: tracing", result.name));
+    run.progress(result.name + ": tracing");
     Tracer tracer = run.setup.pieces.step(result.name + ": tracing", [&] {
         Tracer made(scene, options.scene.threads);
         result.truth = trace(made);
@@ -153,7 +160,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
         run.setup.console.heading("  note: " + *note);
     }
     if (options.witness > 0) {
-        run.setup.console.progress(fmt::format("{}: asking the witness", result.name));
+        run.progress(result.name + ": asking the witness");
         const Agreement agreement =
             run.setup.pieces.step(result.name + ": asking the witness", [&] {
                 return ask_witness(scene, result.truth, options.witness, options.scene.threads);
@@ -200,14 +207,14 @@ DoneCell done_cell(const Run& run, const Trial& trial, const SceneResult& result
 /// Judges the chosen techniques in turn. Returns the milliseconds spent on the report.
 double judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
     const WorkerSetup& setup = run.setup;
-    setup.console.progress(result.name + ": writing");
+    run.progress(result.name + ": writing");
     double report_milliseconds = setup.pieces.piece(result.name + ": writing", [&] {
         const Stopwatch writing;
         setup.folder.add_scene(result);
         return writing.milliseconds();
     });
     for (const Technique* technique : techniques_for(setup.options, trial.scene)) {
-        setup.console.progress(fmt::format("{}: {}", result.name, technique->name));
+        run.progress(fmt::format("{}: {}", result.name, technique->name));
         DoneCell done = done_cell(run, trial, result, *technique);
         announce(setup, result, done.cell);
         report_milliseconds += done.report_milliseconds;
@@ -255,7 +262,7 @@ double try_scene(const Run& run, const std::string& argument) {
         bool none_suits = false;
         const bool traced = attempt(run, result, [&] {
             if (!scene) {
-                setup.console.progress(fmt::format("{}: reading", result.name));
+                run.progress(result.name + ": reading");
                 SceneRequest request = setup.options.scene.request();
                 // A position that is given is of one light.
                 request.every_light = !request.light && !request.view.light_position;
@@ -323,9 +330,12 @@ std::vector<std::string> scenes_to_verify(const VerifyOptions& options) {
 VerifiedScenes try_scenes(const WorkerSetup& setup) {
     const std::unique_ptr<Gpu> gpu = start_gpu(setup.pieces, setup.options.technique.platform);
     VerifiedScenes verified{.gl = gpu->driver(), .embree = embree_version(), .scenes = {}};
-    const Run run{setup, *gpu, verified.scenes};
-    for (const std::string& argument : scenes_to_verify(setup.options))
-        verified.report_milliseconds += done_scene(run, argument);
+    Run run{setup, *gpu, verified.scenes};
+    const std::vector<std::string> scenes = scenes_to_verify(setup.options);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        run.place = place_in_run(i, scenes.size(), setup.stopwatch.milliseconds() / 1000);
+        verified.report_milliseconds += done_scene(run, scenes[i]);
+    }
     return verified;
 }
 

@@ -7,6 +7,7 @@
 #include "compare/command/pieces/report_archive.h"
 #include "compare/command/pieces/supervisor.h"
 #include "compare/command/process/console.h"
+#include "compare/command/process/stopwatch.h"
 #include "compare/report/report.h"
 #include "compare/results/baseline.h"
 
@@ -37,6 +38,7 @@ struct WorkerSetup {
     const Report& begun; ///< the report before its first scene
     const std::optional<ResultsFile>& baseline;
     Console& console;
+    const Stopwatch& stopwatch; ///< since the first scene began, over all workers
     const ReportFolder& folder;
     Pieces& pieces;
 };

@@ -79,7 +79,7 @@ Work add_export_view(CLI::App& app) {
             "Engines, separated by commas: " + engine_names() + " (all)")
         ->delimiter(',')
         ->allow_extra_args(false) // a scene may follow
-        ->type_name("A,B");
+        ->type_name("ENGINE");
     command->add_option("-o,--output", options->output, "Write it here, not to the console")
         ->type_name("FILE")
         ->check(not_empty());

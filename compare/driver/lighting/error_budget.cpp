@@ -171,7 +171,7 @@ LightingInputs budgeted_inputs(const LightingTables& tables, const InputPoint& p
     inputs.light = into(frame, light);
     inputs.half = into(frame, normalised(tables, half, axes));
     inputs.bump = bump_budget(tables, material, at.bump_at);
-    inputs.bump.distance += 12 * v;
+    inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, scene, point, frame, tables.model.reflects);
     return inputs;
 }

@@ -191,7 +191,7 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     between.box = widened(between.box, v);
     inputs.half = into(frame, normalised(tables, between));
     inputs.bump = bump_range(tables, material, at.bump_at);
-    inputs.bump.distance += 12 * v;
+    inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, scene, point, world, tables.model.reflects);
     return inputs;
 }

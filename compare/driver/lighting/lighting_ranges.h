@@ -12,6 +12,14 @@
 
 namespace shadowproof {
 
+/// Float roundings of a perturbed normal that is made of what a texture gave, relative to its
+/// length. By slopes, N + h_u A + h_v B: A and B are cross products of unit vectors (3), times a
+/// slope (1); their sum (1), together 5 of |h_u| + |h_v|, which is at most sqrt(2) of the length,
+/// as N, A and B are at right angles; the sum with N (1). By a normal times the frame: three
+/// products and two sums, 3 of at most sqrt(3). Normalised: a square's products and sums (3), of
+/// which the root takes half, the root (1), the quotient (1). So 8.1 and 3.5, or 5.2 and 3.5.
+inline constexpr double perturbed_normal_roundings = 12;
+
 const Material& material_of(const Scene& scene, std::uint32_t triangle);
 
 /// T, B and N of the seen side, orthonormal, with an error bound for each.

@@ -36,8 +36,8 @@ PicturedFaces::PicturedFaces(const DrawnPicture& picture)
     : picture_(picture), making_(making_of(picture)),
       light_(homogeneous(chosen_light(picture.casters))),
       light_in_near_plane_(is_in_near_plane(picture.casters)),
-      casters_touch_light_(!picture.faces.near_layers.empty() &&
-                           !triangles_touching_light(picture.casters).empty()) {}
+      casters_near_light_(!picture.faces.near_layers.empty() &&
+                          casters_near_light(picture.casters)) {}
 
 glm::dvec4 PicturedFaces::place(std::uint32_t corner) const {
     const std::vector<glm::vec3>& positions = picture_.casters.positions;
@@ -79,7 +79,7 @@ PicturedFace PicturedFaces::volume_face(const DrawnFace& drawn) const {
 // touches the light: there the counter, which is judged at every pixel, begins with what was
 // drawn.
 PicturedFace PicturedFaces::layer(const NearLayer& layer) const {
-    const NearDrawing drawn{picture_.frame.counted->volume_faces.near_plane, casters_touch_light_};
+    const NearDrawing drawn{picture_.frame.counted->volume_faces.near_plane, casters_near_light_};
     const bool is_capped = drawn.near_plane == NearPlane::capped;
     if (light_in_near_plane_ || layer.touches_light ||
         (is_capped && is_flat_from_light(picture_.casters, layer.triangle)))

@@ -49,7 +49,7 @@ private:
     PictureMaking making_;
     glm::dvec4 light_;
     bool light_in_near_plane_;
-    bool casters_touch_light_;
+    bool casters_near_light_;
 
     glm::dvec4 place(std::uint32_t corner) const;
     glm::dvec4 at_infinity(const glm::dvec3& point) const;

@@ -52,7 +52,7 @@ Projected projected(const Scene& scene, const glm::dvec3& point, const NearDrawi
     const auto across = [&](const glm::dvec3& axis, double of_light) {
         return glm::dot(axis, relative) * std::abs(to_plane) + beyond * sign * of_light;
     };
-    const bool from_light = drawn.casters_touch_light;
+    const bool from_light = drawn.casters_near_light;
     const glm::dvec3 from_origin = from_light ? point - chosen_light(scene).position : relative;
     const auto across_terms = [&](const glm::dvec3& axis, double of_light) {
         const double slope = sign * of_light;

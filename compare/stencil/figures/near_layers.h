@@ -13,7 +13,7 @@ namespace shadowproof {
 
 struct NearDrawing {
     NearPlane near_plane = NearPlane::lost;
-    bool casters_touch_light = false; ///< then occluders are drawn relative to the light
+    bool casters_near_light = false; ///< then occluders are drawn relative to the light
 };
 
 /// The part of the triangle between the light and the near plane, projected from the light onto

@@ -110,12 +110,12 @@ SharedBytes::~SharedBytes() {
     ::munmap(first_, std::max<std::size_t>(size_, 1));
 }
 
-IsolatedEnd run_isolated(const IsolationLimits& limits, const std::function<void()>& work) {
+IsolatedEnd run_isolated(const IsolationLimits& allowed, const std::function<void()>& work) {
     const std::uint64_t mapped = mapped_bytes();
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child < 0) return IsolatedEnd::no_process;
-    if (child == 0) run_child(limits, parent, mapped, work);
+    if (child == 0) run_child(allowed, parent, mapped, work);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0)
         if (errno != EINTR) return IsolatedEnd::crashed;

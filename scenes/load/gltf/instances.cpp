@@ -10,7 +10,7 @@ namespace shadowproof::gltf {
 
 namespace {
 
-constexpr const char* extension = "EXT_mesh_gpu_instancing";
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
 /// The attributes that place instances. Others are an application's own.
 struct Placements {
@@ -63,10 +63,10 @@ Node instance_of(const Placements& placements, const Place& place, std::size_t i
 
 std::vector<glm::dmat4> read_instances(AccessorReader& reader, std::size_t node) {
     const tinygltf::Node& source = reader.document().model.nodes[node];
-    const auto found = source.extensions.find(extension);
+    const auto found = source.extensions.find(instancing);
     if (found == source.extensions.end()) return {glm::dmat4(1)};
     const Place place =
-        reader.document().root() / "nodes" / node / "extensions" / extension / "attributes";
+        reader.document().root() / "nodes" / node / "extensions" / instancing / "attributes";
     if (source.skin >= 0)
         place.refuse("places instances of a mesh with a skin", "take away one of the two");
     const Placements placements = read_placements(reader, place, found->second.Get("attributes"));

@@ -53,8 +53,8 @@ bool is_unread(const json& look, const json& index) {
         return false; // check_lighting tells of it
     const json& texture = textures[index.get<std::size_t>()];
     if (!texture.is_object() || texture.contains("source")) return false;
-    const auto has = [&](const char* extension) {
-        return !find(texture, {"extensions", extension}).is_null();
+    const auto has = [&](const char* name) {
+        return !find(texture, {"extensions", name}).is_null();
     };
     return has("EXT_texture_webp") || has("KHR_texture_basisu") || has("EXT_texture_avif") ||
            has("MSFT_texture_dds");
@@ -90,7 +90,7 @@ glm::dvec3 read_color(const Place& place, const json& value) {
 }
 
 /// One material being read.
-struct Source {
+struct MaterialSource {
     const json& value;
     Place place;
     TextureReader& textures;
@@ -115,7 +115,7 @@ Coordinates read_coordinates(const json& texture) {
     return coordinates;
 }
 
-void read_look(const Source& source) {
+void read_look(const MaterialSource& source) {
     const json& base = find(source.value, {"pbrMetallicRoughness", "baseColorFactor"});
     const Place place = source.place / "pbrMetallicRoughness";
     if (!base.is_null()) source.material.color = read_color(place / "baseColorFactor", base);
@@ -141,7 +141,7 @@ void read_look(const Source& source) {
         (extras / "glossInAlpha").refuse("asks for the alpha of no texture", "add a decal");
 }
 
-void read_bump_map(const Source& source) {
+void read_bump_map(const MaterialSource& source) {
     const json& height = height_of(source.value);
     const bool is_height = !height.is_null();
     const json& map = is_height ? height : find(source.value, {"normalTexture"});
@@ -158,7 +158,7 @@ void read_bump_map(const Source& source) {
 }
 
 /// What lighting does not evaluate although glTF has it.
-void note_unevaluated(const Source& source, std::vector<std::string>& notes) {
+void note_unevaluated(const MaterialSource& source, std::vector<std::string>& notes) {
     const char* const lighting = "is not evaluated: lighting is diffuse and specular, without "
                                  "roughness or metal";
     for (const char* key : {"emissiveTexture", "occlusionTexture"})
@@ -235,7 +235,7 @@ Materials read_materials(const Document& document, const NodeGraph& graph, Scene
     read_environment(document, look, textures, scene);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
-        const Source source{
+        const MaterialSource source{
             look["materials"][i], document.root() / "materials" / i, textures, scene.materials[i],
             materials.sets[i],    scene.environment.has_value()};
         read_look(source);

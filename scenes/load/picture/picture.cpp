@@ -15,15 +15,13 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-const char* const remedy = "export the picture again";
-
 /// Decodes with the OpenImageIO reader of files called `name`.
 Picture decode_by(const char* name, Bytes bytes, const std::string& where, const PictureHead& head,
                   const PictureRoom& room) {
     require_room(head.width, head.height, head.channels, head.decoder_bytes, where, room);
     Picture picture;
     const std::string wrong = openimageio().decode(name, bytes, head, picture);
-    if (!wrong.empty()) throw Error(where, wrong, remedy);
+    if (!wrong.empty()) throw Error(where, wrong, picture_remedy);
     if (!std::all_of(picture.values.begin(), picture.values.end(),
                      [](float value) { return std::isfinite(value); }))
         throw Error(where, "holds a value that is not finite", "replace it by a number");
@@ -37,7 +35,7 @@ Picture decode_picture(Bytes bytes, const std::string& where, const PictureRoom&
     if (format == PictureFormat::png) return decode_png(bytes, where, room);
     if (format == PictureFormat::jpeg)
         return decode_by("memory.jpg", bytes, where, jpeg_head(bytes, where), room);
-    throw Error(where, "is neither a PNG nor a JPEG picture", remedy);
+    throw Error(where, "is neither a PNG nor a JPEG picture", picture_remedy);
 }
 
 Picture read_picture(const std::filesystem::path& file, const PictureRoom& room) {

@@ -17,8 +17,6 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-const char* const remedy = "export the picture again";
-
 template <std::size_t n>
 bool begins_with(Bytes bytes, const std::array<unsigned char, n>& magic) {
     return bytes.size() > n && std::equal(magic.begin(), magic.end(), bytes.begin());
@@ -93,13 +91,14 @@ PictureHead jpeg_head(Bytes bytes, const std::string& where) {
         }
         if (is_frame(marker)) {
             if (is_progressive(marker) && scans_in(bytes) > most_scans)
-                throw Error(where, fmt::format("has more than {} scans", most_scans), remedy);
+                throw Error(where, fmt::format("has more than {} scans", most_scans),
+                            picture_remedy);
             return frame_head(bytes, at + 2, is_progressive(marker));
         }
         if (marker == start_of_scan) break;
         at += 2 + (static_cast<std::size_t>(bytes[at + 2]) << 8U | bytes[at + 3]);
     }
-    throw Error(where, "is a damaged JPEG: it has no frame", remedy);
+    throw Error(where, "is a damaged JPEG: it has no frame", picture_remedy);
 }
 
 namespace {
@@ -129,7 +128,7 @@ public:
         return result;
     }
     [[noreturn]] void refuse() const {
-        throw Error(where_, "is a damaged OpenEXR file: its header is cut", remedy);
+        throw Error(where_, "is a damaged OpenEXR file: its header is cut", picture_remedy);
     }
 
 private:
@@ -255,7 +254,7 @@ PictureHead radiance_head(Bytes bytes, const std::string& where) {
         line = next_line(bytes, at);
     }
     line = line ? next_line(bytes, at) : line;
-    if (!line) throw Error(where, "ends within the header of a Radiance picture", remedy);
+    if (!line) throw Error(where, "ends within the header of a Radiance picture", picture_remedy);
     if (!is_rgb)
         throw Error(where, "is a Radiance picture of XYZ, which is not decoded",
                     "export it as RGB (32-bit_rle_rgbe)");

@@ -23,6 +23,9 @@ struct PictureHead {
     std::uint64_t decoder_bytes = 0;
 };
 
+/// Of every Error of a picture.
+inline const char* const picture_remedy = "export the picture again";
+
 /// Throws Error naming `where`: no such header, or a kind that is not decoded.
 /// JPEG (ITU T.81, B.2): progressive ones of up to 100 scans, as each scan covers the whole
 /// picture. OpenEXR ("OpenEXR File Layout"): flat, one part, and tiles of up to 4096 per side.

@@ -5,11 +5,13 @@
 #include "scenes/load/catalog.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/faulty_lighting.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,14 +22,6 @@ namespace shadowproof {
 namespace {
 
 using tests::TracedScene;
-
-std::vector<std::string> bump_lit_scenes() {
-    std::vector<std::string> names;
-    for (const BundledScene& bundled : bundled_scenes())
-        if (is_bump_lit(load_scene(std::string(bundled.name), {})))
-            names.emplace_back(bundled.name);
-    return names;
-}
 
 /// Kept for all tests that ask for it.
 const TracedScene& traced(const std::string& name, int side) {
@@ -102,7 +96,7 @@ TEST_P(ColorsOfScene, every_pixel_is_predicted_under_every_setting) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(BumpLit, ColorsOfScene, testing::ValuesIn(bump_lit_scenes()),
+INSTANTIATE_TEST_SUITE_P(BumpLit, ColorsOfScene, testing::ValuesIn(tests::bump_lit_scenes()),
                          [](const auto& instance) { return instance.param; });
 
 /// Of a technique at its own settings on a bundled scene.
@@ -139,7 +133,7 @@ Scene half_smooth(Scene scene) {
 /// of the vectors to light and eye.
 TEST(Colors, of_smooth_surfaces_beside_bumps_are_predicted) {
     Gpu gpu(GlPlatform::osmesa);
-    for (const std::string& name : bump_lit_scenes()) {
+    for (const std::string& name : tests::bump_lit_scenes()) {
         SceneRequest request;
         request.width = request.height = 96;
         const TracedScene scene(half_smooth(load_scene(name, request)));
@@ -309,6 +303,95 @@ TEST(Colors, of_floats_that_are_off_by_two_steps_are_never_right) {
                       0);
             EXPECT_GT(colors.unpredicted, colors.judged / 2);
         }
+    }
+}
+
+TEST(Colors, of_the_background_are_black_and_the_least_number_else_is_unexplained) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("bumpy_sphere", 64);
+    for (const char* name : {"bump_tangent_space", "bump_eye_space", "bump_three_pass"}) {
+        SCOPED_TRACE(name);
+        const Frame frame = render(*find_technique(name), scene.scene, scene.plan, gpu);
+        std::uint64_t background = 0;
+        for (std::size_t i = 0; i < frame.color.pixels.size(); ++i)
+            if (frame.triangle.pixels[i] == no_triangle) ++background;
+        EXPECT_GT(background, 100U);
+        EXPECT_EQ(check_colors(scene.tracer, scene.truth, frame).unpredicted, 0U);
+        for (const float red :
+             {1.0F, 1 / 255.0F, std::numeric_limits<float>::denorm_min(),
+              -std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::quiet_NaN()}) {
+            Frame cleared = frame;
+            for (std::size_t i = 0; i < cleared.color.pixels.size(); ++i)
+                if (frame.triangle.pixels[i] == no_triangle) cleared.color.pixels[i].r = red;
+            const Comparison comparison = tests::compared(scene, cleared);
+            EXPECT_EQ(comparison.colors->unpredicted, background) << red;
+            EXPECT_EQ(judge(scene.scene, {}, {}, comparison), Verdict::unexplained) << red;
+        }
+    }
+}
+
+/// The frame is right, and the truth it is judged by is not.
+TEST(Colors, of_a_wrong_visibility_or_surface_are_those_of_what_is_shown) {
+    Gpu gpu(GlPlatform::osmesa);
+    SceneRequest request;
+    request.width = request.height = 96;
+    for (const char* name : {"bumpy_sphere", "coarse_curve", "height_field"}) {
+        const TracedScene scene(load_scene(name, request));
+        for (const Technique* technique : techniques_for(scene.scene)) {
+            SCOPED_TRACE(name + (", " + std::string(technique->name)));
+            const Frame right = render(*technique, scene.scene, scene.plan, gpu);
+            GroundTruth other = scene.truth;
+            std::uint64_t wrong = 0;
+            for (std::size_t i = 0; i < other.visibility.pixels.size(); ++i) {
+                Visibility& visibility = other.visibility.pixels[i];
+                if (visibility == Visibility::background) continue;
+                // In turns: a triangle that is not seen there, visibility, neither.
+                if (i % 3 == 0) other.triangle.pixels[i] = other.triangle.pixels[i] == 0 ? 1 : 0;
+                if (i % 3 == 1)
+                    visibility =
+                        visibility == Visibility::lit ? Visibility::shadowed : Visibility::lit;
+                if (i % 3 != 2) ++wrong;
+            }
+            EXPECT_GT(wrong, 100U);
+            const ColorCheck colors = check_colors(scene.tracer, other, right);
+            EXPECT_EQ(colors.unpredicted, 0U);
+            const auto as_shown = [&](const ColorCheck& check, std::size_t i) {
+                return check.verdict.pixels[i] == ColorVerdict::as_shown;
+            };
+            Frame brighter = right;
+            for (glm::vec3& color : brighter.color.pixels) color += 0.5F;
+            const ColorCheck bright = check_colors(scene.tracer, other, brighter);
+            for (std::size_t i = 0; i < other.visibility.pixels.size(); ++i) {
+                if (other.visibility.pixels[i] == Visibility::background) continue;
+                EXPECT_EQ(as_shown(colors, i), i % 3 != 2) << i;
+                EXPECT_FALSE(as_shown(bright, i)) << i;
+            }
+        }
+    }
+}
+
+/// A pixel that claims light must be lit, and one that claims shadow must not.
+TEST(Colors, of_the_other_visibility_than_is_claimed_are_unexplained) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("bumpy_sphere", 64);
+    for (const char* name : {"bump_tangent_space", "bump_three_pass"}) {
+        SCOPED_TRACE(name);
+        Frame frame = render(*find_technique(name), scene.scene, scene.plan, gpu);
+        for (Visibility& claim : frame.claim.pixels)
+            if (claim == Visibility::lit) claim = Visibility::shadowed;
+        const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+        int bright = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                if (scene.truth.visibility.at(x, y) != Visibility::lit) continue;
+                const ColorAccount account =
+                    account_for_color(scene.tracer, scene.truth, frame, x, y);
+                EXPECT_EQ(account.verdict, colors.verdict.at(x, y));
+                if (account.truth.diffuse < 0.1) continue;
+                ++bright;
+                EXPECT_EQ(account.verdict, ColorVerdict::unexplained) << x << ' ' << y;
+            }
+        EXPECT_GT(bright, 100);
     }
 }
 

@@ -4,8 +4,8 @@
 
 #include "compare/maps/light_view.h"
 #include "raster/maps/map_shadows.h"
-#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <cstdint>
 #include <string>

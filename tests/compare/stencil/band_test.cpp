@@ -5,6 +5,7 @@
 #include "raster/render.h"
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
@@ -88,12 +89,7 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, BandOfScene, testing::ValuesIn([] {
-                             std::vector<std::string> names;
-                             for (const BundledScene& scene : bundled_scenes())
-                                 names.emplace_back(scene.name);
-                             return names;
-                         }()),
+INSTANTIATE_TEST_SUITE_P(Bundled, BandOfScene, testing::ValuesIn(tests::bundled_scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 } // namespace

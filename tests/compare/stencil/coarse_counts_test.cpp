@@ -1,9 +1,9 @@
 // What a counter may hold by the errors of all that is drawn: every counter is among it, and nearly
 // everywhere nothing else is.
 #include "compare/stencil/coarse_counts.h"
-#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Counts {
 
 Counts counts_of(const TracedScene& traced, const Frame& frame, double reach = any_reach) {
     const Prediction prediction = prediction_of(traced, frame);
-    const CountedClaim claim{{traced.traced, frame}, prediction, {}};
+    const CountedClaim claim{{traced.traced, frame}, prediction, {}, {}};
     Counts all;
     for (int y = 0; y < frame.claim.height; ++y)
         for (int x = 0; x < frame.claim.width; ++x) all.places.push_back({x, y});

@@ -1,8 +1,8 @@
 // A cause is what mends the pixel once it is lifted.
 #include "compare/stencil/counterfactual.h"
-#include "tests/compare/bundled_names.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include "raster/technique.h"
 #include "reference/predict/pixel_ledger.h"
 #include "reference/predict/tally.h"
+#include "scenes/error.h"
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
 #include "tests/compare/traced_scene.h"
@@ -29,7 +30,8 @@ struct TabledCell {
         frame = render(*find_technique(technique), traced.scene, traced.plan, gpu);
         prediction.emplace(prediction_of(traced, frame));
         comparison = compared(traced, frame);
-        table = list_ledgers(traced.tracer, traced.truth, frame, *prediction, comparison.cause);
+        table = list_ledgers(traced.tracer, traced.truth, frame, *prediction, comparison.cause,
+                             MemoryBudget{});
     }
 
     /// Calls visit(i, x, y) for every differing pixel, in rows from the top.
@@ -109,6 +111,26 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair("far_plane", "zfail"), std::pair("ordinary", "zfail_infinite")),
     [](const auto& cell) { return std::string(cell.param.first) + "_" + cell.param.second; });
 
+TEST(LedgerTable, what_does_not_fit_is_refused_with_the_pixels_that_it_is_for) {
+    const TabledCell cell("near_plane", "zpass");
+    const auto within = [&](std::uint64_t bytes) {
+        return list_ledgers(cell.traced.tracer, cell.traced.truth, cell.frame, *cell.prediction,
+                            cell.comparison.cause, {program_bytes + bytes, "--memory"});
+    };
+    // What the lists hold, without what they hold in reserve.
+    const std::uint64_t pixels = 13 * cell.table.seen.size();
+    const std::uint64_t crossings = 6 * cell.table.crossing_face.size();
+    EXPECT_EQ(within(8 * (pixels + crossings) + 1'000'000).ledger, cell.table.ledger);
+    try {
+        within(pixels + crossings);
+        FAIL() << "it fits into less than its lists";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("what rays cross at"), std::string::npos)
+            << error.what();
+        EXPECT_NE(std::string(error.what()).find("--memory"), std::string::npos);
+    }
+}
+
 TEST(LedgerTable, a_cell_without_a_difference_has_an_empty_table) {
     const Scene scene =
         load_scene("ordinary", {.camera = {}, .light = {}, .time = 0, .width = 32, .height = 32});
@@ -121,7 +143,7 @@ TEST(LedgerTable, a_cell_without_a_difference_has_an_empty_table) {
     Frame counted;
     counted.counted.emplace();
     const LedgerTable table = list_ledgers(tracer, truth, counted, prediction,
-                                           Image<std::uint8_t>(32, 32, no_difference));
+                                           Image<std::uint8_t>(32, 32, no_difference), {});
     EXPECT_TRUE(table.ledger.empty());
     EXPECT_TRUE(table.vertex.empty());
     EXPECT_EQ(table.start, std::vector<std::uint32_t>{0});

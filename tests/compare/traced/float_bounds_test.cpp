@@ -156,5 +156,18 @@ TEST(FloatBounds, a_ray_through_the_middle_is_met_and_one_beside_it_is_not) {
     EXPECT_EQ(float_meeting({{0.25, 0.25, 2}, {0, 0, -1}, 2}, t, room).meeting, Meeting::perhaps);
 }
 
+/// Embree compares all triangles of a leaf, whose box may be met where the triangle's own is not.
+TEST(FloatBounds, a_triangle_in_the_rays_plane_may_be_met_beside_its_box_and_no_other_may) {
+    const Corners t{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const auto towards = [&](double tilt) {
+        return float_meeting({{-2, 0.25, tilt}, {1, 0, 0}, 0, 1}, t, glm::dvec3(1e-6)).meeting;
+    };
+    EXPECT_EQ(towards(0), Meeting::perhaps);
+    EXPECT_EQ(float_meeting({{-2, 0.25, 0}, {1, 0, 0x1p-10}, 0, 1}, t, glm::dvec3(1e-6)).meeting,
+              Meeting::never);
+    // Beside the plane, by whatever the numbers tell from their own errors, it is not met.
+    EXPECT_EQ(towards(0x1p-10), Meeting::never);
+}
+
 } // namespace
 } // namespace shadowproof

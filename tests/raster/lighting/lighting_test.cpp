@@ -6,6 +6,7 @@
 #include "scenes/load/catalog.h"
 #include "tests/raster/faulty_lighting.h"
 #include "tests/raster/small_scenes.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
@@ -61,14 +62,6 @@ Lit move(const Lit& lit, const glm::dvec3& by) {
     for (Light& light : scene.lights) light.position += by;
     scene.camera.eye += by;
     return with_truth(std::move(scene));
-}
-
-std::vector<std::string> bump_lit_scenes() {
-    std::vector<std::string> names;
-    for (const BundledScene& bundled : bundled_scenes())
-        if (is_bump_lit(load_scene(std::string(bundled.name), {})))
-            names.emplace_back(bundled.name);
-    return names;
 }
 
 /// How far the claimed colours are from the truth, where surface and visibility agree.

@@ -4,6 +4,7 @@
 #include "scenes/mesh/topology.h"
 #include "scenes/plan/plan.h"
 #include "tests/raster/small_scenes.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 
@@ -72,13 +73,7 @@ TEST(TurnedCasters, have_light_caps_at_the_depths_of_their_surfaces_also_where_t
     }
 }
 
-std::vector<std::string> scene_names() {
-    std::vector<std::string> names;
-    for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Bundled, Ways, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Bundled, Ways, testing::ValuesIn(bundled_scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 } // namespace

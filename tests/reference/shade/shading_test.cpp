@@ -2,6 +2,7 @@
 #include "scenes/load/catalog.h"
 #include "tests/reference/hard_scenes.h"
 #include "tests/reference/shading_witness.h"
+#include "tests/scenes/bundled_names.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
@@ -219,12 +220,10 @@ TEST(shading, lights_what_receives_no_shadows_wherever_it_faces_the_light) {
 
 /// The bundled scenes that are lit by bump maps, and the square of their pictures.
 constexpr int side = 192;
-std::vector<Scene> bump_lit_scenes() {
+std::vector<Scene> pictures_lit_by_bumps() {
     std::vector<Scene> scenes;
-    for (const BundledScene& bundled : bundled_scenes()) {
-        Scene scene = picture_of(std::string(bundled.name), side, side);
-        if (is_bump_lit(scene)) scenes.push_back(std::move(scene));
-    }
+    for (const std::string& name : tests::bump_lit_scenes())
+        scenes.push_back(picture_of(name, side, side));
     return scenes;
 }
 
@@ -249,7 +248,7 @@ double difference_by(const Scene& scene, witness::Fault fault) {
 }
 
 TEST(shading, of_the_bundled_scenes_equals_the_witness_at_every_pixel) {
-    const std::vector<Scene> scenes = bump_lit_scenes();
+    const std::vector<Scene> scenes = pictures_lit_by_bumps();
     ASSERT_GE(scenes.size(), 4U);
     for (const Scene& scene : scenes)
         EXPECT_LT(difference_by(scene, witness::Fault::none), rounding) << scene.name;
@@ -259,7 +258,7 @@ class FaultyLighting : public testing::TestWithParam<witness::Fault> {};
 
 TEST_P(FaultyLighting, shows_on_a_bundled_scene) {
     double largest = 0;
-    for (const Scene& scene : bump_lit_scenes())
+    for (const Scene& scene : pictures_lit_by_bumps())
         largest = std::max(largest, difference_by(scene, GetParam()));
     EXPECT_GT(largest, 4 / 255.0); // far beyond one step of 8 bits
 }

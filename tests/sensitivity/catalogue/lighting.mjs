@@ -8,6 +8,7 @@ const compressed = 'static_cast<std::uint8_t>(std::lround(255 * (0.5 + 0.5 * n[c
 const cubeMade = 'upload_cube(gl, make_normalisation_cube(model.cube_size))';
 const selfShadow = 'return clamp(8 * cosine, 0, 1);';
 const frame = 'vec3 tangent = unit(surface.tangent - normal * dot(normal, surface.tangent));';
+const clearing = 'gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, black.data());';
 const tapsX = 'float x = float(texels) * at - 0.5;';
 export const faults = [
   { name: 'self_shadow_7', file: glsl, right: selfShadow, wrong: 'return clamp(7 * cosine, 0, 1);' },
@@ -69,6 +70,8 @@ export const faults = [
   { name: 'combiners_self_shadow_4', file: 'raster/glsl/lighting/combiners.glsl', right: 'r.spare1.a = q(8 * from.tex2.z);', wrong: 'r.spare1.a = q(4 * from.tex2.z);' },
   { name: 'lit_added_twice', file: cpp, right: 'if (blend == LightingStep::Blend::multiply) gl.BlendFunc(GL_DST_COLOR, GL_ZERO);', wrong: 'if (blend == LightingStep::Blend::multiply) gl.BlendFunc(GL_DST_COLOR, GL_ONE);' },
   { name: 'lit_in_shadow_too', file: cpp, right: 'gl.StencilFunc(run.receives ? GL_EQUAL : GL_ALWAYS, 0, ~0U);', wrong: 'gl.StencilFunc(GL_ALWAYS, 0, ~0U);' },
+  { name: 'colors_cleared_to_red', file: cpp, right: clearing, wrong: 'constexpr std::array<GLfloat, 4> red{1, 0, 0, 0}; gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, red.data());' },
+  { name: 'colors_cleared_a_step_off', file: cpp, right: clearing, wrong: 'constexpr std::array<GLfloat, 4> step{0, 0, 1 / 255.F, 0}; gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, step.data());' },
   { name: 'cube_of_8_texels', file: cpp, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(8))' },
   { name: 'cube_of_16_texels', file: cpp, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(16))' },
   { name: 'cube_of_4_bits', file: cubes, right: compressed, wrong: 'static_cast<std::uint8_t>(17 * std::lround(15 * (0.5 + 0.5 * n[c])))' },

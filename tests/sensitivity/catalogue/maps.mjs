@@ -30,7 +30,7 @@ export const faults = [
   { name: 'map_half_a_texel_aside', ...camera('c.forward += c.right * (c.tan_half_height / model.size)') },
   { name: 'map_turned_1e-3', ...camera('c.forward = glm::normalize(c.forward + 1e-3 * c.up); c.up = glm::cross(c.right, c.forward)') },
   { name: 'map_casters_all_but_one', file: pass, right: 'if (!mesh.casts) continue;', wrong: 'if (!mesh.casts || &mesh == &scene.meshes.back()) continue;' },
-  { name: 'map_of_all_meshes', file: pass, right: 'if (!mesh.casts) continue;', wrong: '' },
+  { name: 'map_of_all_meshes', file: pass, right: 'if (!mesh.casts) continue;', wrong: '', why: 'Every bundled mesh casts.' },
   { name: 'map_a_triangle_lost', file: pass, right: 'runs.push_back({mesh.first_triangle, mesh.triangle_count, true});', wrong: 'runs.push_back({mesh.first_triangle, mesh.triangle_count - 1, true});' },
   { name: 'map_of_32_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT32F;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'cube_map_six_pass' },
   { name: 'map_of_24_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT24;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'spot_map' },
@@ -68,7 +68,7 @@ export const faults = [
   { name: 'depth_bias_a_hundredth_off', ...nearer('float nearer = depth - 1.01 * bias;'), why: 'It changes a single pixel, whose point may ask another texel that answers so.' },
   { name: 'depth_not_made_a_window_depth', file: test, right: 'planes.y / (planes.y - planes.x) * (1 - planes.x / nearer)', wrong: 'nearer / planes.y' },
   { name: 'map_not_asked', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'false && is_shadowed' },
-  { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed' },
+  { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed', why: 'Every bundled mesh receives.' },
   // The filter.
   ...[
     ['block_a_texel_aside', 'floor(texel - 0.5 * float(side - 1))', 'floor(texel - 0.5 * float(side + 1))'],

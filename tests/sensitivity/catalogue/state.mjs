@@ -74,7 +74,8 @@ export const faults = [
   { name: 'depth_read_as_half', file: 'raster/gl/target.cpp', right: 'frame.depth = read_picture<float>(gl, target, GL_DEPTH_COMPONENT, GL_FLOAT);', wrong: 'frame.depth = Image<float>(target.width, target.height, 0.5F);' },
   { name: 'counter_read_in_4_bits', file: 'raster/gl/target.cpp', right: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0);\n    check(gl, "reading back");', wrong: 'gl.BindFramebuffer(GL_FRAMEBUFFER, 0); for (auto& c : frame.counted->counter.pixels) c &= 0xf;' },
   { name: 'occluders_unclamped', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Enable(GL_DEPTH_CLAMP);', wrong: ';', why: 'The shadows lie at depth zero.' },
-  { name: 'occluders_unclipped', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Enable(GL_CLIP_DISTANCE0);', wrong: ';' },
-  { name: 'occluders_depth_tested', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Disable(GL_DEPTH_TEST);', wrong: ';' },
+  { name: 'occluders_unclipped', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Enable(GL_CLIP_DISTANCE0);', wrong: ';', why: 'The driver clips by a distance that a shader writes even where that is not enabled; occluders_never_clipped is caught.' },
+  { name: 'occluders_never_clipped', techniques: 'zp_plus', file: 'raster/glsl/volumes/from_light.vert', right: 'gl_ClipDistance[0] = projected.z;', wrong: 'gl_ClipDistance[0] = 1;' },
+  { name: 'occluders_depth_tested', techniques: 'zp_plus', file: 'raster/volumes/near_plane.cpp', right: 'gl.Disable(GL_DEPTH_TEST);', wrong: ';', why: 'Where there are occluders, all that is seen lies beyond twice the near plane, and so behind them: they are drawn in the middle of the range.' },
   { name: 'near_caps_behind_ledge', techniques: 'zpass_capped', file: 'raster/volumes/near_plane.cpp', right: 'gl.DepthRange(0, 0);', wrong: 'gl.DepthRange(1, 1);' },
 ].map((fault) => ({ kind: 'state', ...fault }));

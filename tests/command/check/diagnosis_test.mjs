@@ -5,8 +5,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { grayPng, readPng } from './png.mjs';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { grayPng, readPng } from '../png.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const side = 256;
 const size = ['--size', `${side}x${side}`];

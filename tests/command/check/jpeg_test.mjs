@@ -4,8 +4,8 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { chromium } from 'playwright-core';
-import { grayPng, readPng } from './png.mjs';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { grayPng, readPng } from '../png.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const path = (name) => join(scratch, name);
 const shade = { 0: 20, 64: 60, 255: 190 };

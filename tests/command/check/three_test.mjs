@@ -5,10 +5,10 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
-const script = fileURLToPath(new URL('../../docs/recipes/three.mjs', import.meta.url));
-const modules = fileURLToPath(new URL('..', import.meta.url));
+const script = fileURLToPath(new URL('../../../docs/recipes/three.mjs', import.meta.url));
+const modules = fileURLToPath(new URL('../..', import.meta.url));
 
 function checked(scene, env = {}) {
   const run = shadowproof(['check', scene, '--name', 'three', '--out', 'checked', '--renderer',

@@ -3,8 +3,8 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { grayPng, readPng } from './png.mjs';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { grayPng, readPng } from '../png.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const path = (name) => join(scratch, name);
 const jsonOf = (name) => JSON.parse(readFileSync(path(name), 'utf8'));

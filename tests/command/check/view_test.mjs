@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const viewOf = (...args) => {
   const run = shadowproof(['export-view', ...args]);

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { grayPng, readPng } from './png.mjs';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { grayPng, readPng } from '../png.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const size = ['--size', '200x200'];
 const path = (name) => join(scratch, name);

@@ -2,7 +2,7 @@
 // light and size from VIEW alone.
 import { spawn, spawnSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { grayPng } from './png.mjs';
+import { grayPng } from '../png.mjs';
 
 const [how, scene, viewFile, out, unlit] = process.argv.slice(2);
 const { width, height, camera, light } = JSON.parse(readFileSync(viewFile, 'utf8'));

@@ -2,11 +2,10 @@
 // does wrong is named.
 import assert from 'node:assert/strict';
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { scratch, shadowproof } from './shadowproof.mjs';
+import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const script = fileURLToPath(new URL('renderer.mjs', import.meta.url));
 const renderer = (how, words = '{scene} {view} {out}') =>
@@ -21,7 +20,11 @@ function checked(scenes, command, ...more) {
     ? JSON.parse(readFileSync(path('checked/results.json'), 'utf8')) : null;
   return { ...run, results };
 }
-const leftovers = () => readdirSync(tmpdir()).filter((name) => /^shadowproof-rendered/.test(name));
+// A folder for temporary files of its own: other tests that run meanwhile have theirs.
+const temporary = path('temporary');
+mkdirSync(temporary);
+process.env.TMPDIR = temporary;
+const leftovers = () => readdirSync(temporary);
 
 test('a right renderer agrees on several scenes, and its pictures lie in the report', () => {
   const { code, out, err, results } =
@@ -75,7 +78,7 @@ test('one that hangs is given up, with all that it has started', () => {
 test('names with quotes, blanks and shell words reach the renderer as they are', () => {
   const folder = "it's $(touch oops); `a` \"b\"";
   mkdirSync(path(folder));
-  copyFileSync(new URL('../../scenes/bundled/ordinary.gltf', import.meta.url),
+  copyFileSync(new URL('../../../scenes/bundled/ordinary.gltf', import.meta.url),
                path(`${folder}/my scene.gltf`));
   const { code, out, err } = checked([`${folder}/my scene.gltf`], renderer('right'));
   assert.equal(code, 0, out + err);

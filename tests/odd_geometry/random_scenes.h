@@ -1,0 +1,20 @@
+// Scenes made at random: closed bodies, convex and concave, and open soups; eye and light anywhere,
+// also inside, on and next to them; near and far planes that cut.
+#pragma once
+
+#include "scenes/scene.h"
+#include "tests/dice.h"
+
+namespace shadowproof::tests {
+
+/// What else than usual may come.
+struct Oddities {
+    bool eyes_on_casters = false; ///< on vertices, edges and faces, or an ulp from there
+    bool bodies_on_quarters =
+        false; ///< as soups are: the light may lie in the planes of many faces
+};
+
+/// Its name says in words what it is. 24x20 pixels; it declares nothing.
+Scene random_scene(Dice& dice, const Oddities& oddities);
+
+} // namespace shadowproof::tests

@@ -1,0 +1,167 @@
+// Random scenes go through truth, all techniques and the judge; with each scene kept that once was
+// unexplained, and beside it a fault that what explains it does not excuse.
+//   SHADOWPROOF_SEEDS="FIRST COUNT" tries other seeds than the fixed ones.
+#include "scenes/error.h"
+#include "scenes/load/admission.h"
+#include "tests/odd_geometry/random_scenes.h"
+#include "tests/odd_geometry/tried.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <iostream>
+
+namespace shadowproof::tests {
+namespace {
+
+constexpr Oddities from_casters{.eyes_on_casters = true};
+constexpr Oddities on_quarters{.eyes_on_casters = true, .bodies_on_quarters = true};
+
+void try_random_scenes(const Oddities& oddities, std::uint64_t count) {
+    Gpu gpu(GlPlatform::osmesa);
+    const Seeds seeds = seeds_to_try(count);
+    int tried = 0;
+    for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+        Dice dice(seed);
+        Scene scene = random_scene(dice, oddities);
+        SCOPED_TRACE(fmt::format("seed {}: {}", seed, scene.name));
+        if (seeds.by_hand) std::cout << "seed " << seed << ": " << scene.name << std::endl;
+        try {
+            admit(scene);
+        } catch (const Error& error) {
+            EXPECT_TRUE(names_its_thing(error.what())) << error.what();
+            continue;
+        }
+        ++tried;
+        const TracedScene traced(std::move(scene));
+        check_against_witness(traced, dice);
+        try_techniques(traced, gpu);
+    }
+    EXPECT_GT(tried, static_cast<int>(seeds.count * 9 / 10));
+}
+
+/// Closed bodies and open soups, suns at noon, floors of 8 km; lights inside, on and next to
+/// casters, and eyes inside them. Unexplained so far, of seeds beyond these: 2496, 2746, 2759 and
+/// 2868 here, and 3016 and 3087 of bodies on quarters.
+TEST(OddGeometry, random_scenes_are_refused_or_explained_to_the_last_pixel) {
+    try_random_scenes({}, 500);
+}
+
+TEST(OddGeometry, random_scenes_seen_from_casters_are_refused_or_explained_to_the_last_pixel) {
+    try_random_scenes(from_casters, 250);
+}
+
+TEST(OddGeometry, random_bodies_on_quarters_are_refused_or_explained_to_the_last_pixel) {
+    try_random_scenes(on_quarters, 250);
+}
+
+Scene scene_of_seed(std::uint64_t seed, const Oddities& oddities) {
+    Dice dice(seed);
+    return random_scene(dice, oddities);
+}
+
+void try_kept(std::initializer_list<std::uint64_t> seeds, const Oddities& oddities) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const std::uint64_t seed : seeds) {
+        SCOPED_TRACE(seed);
+        try_techniques(TracedScene(scene_of_seed(seed, oddities)), gpu);
+    }
+}
+
+/// What a technique draws of a scene; with `more` faces at the middle of the picture of volumes.
+bool faces_are_explained(const TracedScene& traced, Frame frame, int more) {
+    std::uint8_t& middle = frame.counted->volumes.at(12, 10);
+    middle = static_cast<std::uint8_t>(middle + more);
+    return compared(traced, frame).summary.unexplained.empty();
+}
+
+/// Where depths are clamped nothing is cut off before the near plane: a light cap in which the eye
+/// lies is drawn over all of the picture, or over none of it. Half a thousandth away it is not
+/// free.
+TEST(OddGeometry, a_clamped_light_cap_around_the_eye_is_drawn_or_not_and_no_other_face_is) {
+    try_kept({527}, {});
+    try_kept({35, 268, 382}, from_casters);
+    Gpu gpu(GlPlatform::osmesa);
+    const Technique& technique = *find_technique("zfail_clamp");
+    for (const std::uint64_t seed : {35U, 268U}) {
+        SCOPED_TRACE(seed);
+        const TracedScene on(scene_of_seed(seed, from_casters));
+        const Frame frame = render(technique, on.scene, on.plan, gpu);
+        EXPECT_TRUE(faces_are_explained(on, frame, 0));
+        EXPECT_TRUE(faces_are_explained(on, frame, -1));
+        EXPECT_FALSE(faces_are_explained(on, frame, 1));
+        EXPECT_FALSE(faces_are_explained(on, frame, -2));
+        Scene moved = on.scene;
+        moved.camera.eye += glm::dvec3(5e-4);
+        const TracedScene off(std::move(moved));
+        const Frame exact = render(technique, off.scene, off.plan, gpu);
+        EXPECT_TRUE(faces_are_explained(off, exact, 0));
+        EXPECT_FALSE(faces_are_explained(off, exact, -1));
+        EXPECT_FALSE(faces_are_explained(off, exact, 1));
+    }
+}
+
+/// Expects a pixel that one technique draws to have the cause, and other counters there, but not
+/// its own, to be caught.
+void expect_cause(const TracedScene& traced, const char* technique, const Pixel& at, Cause cause,
+                  std::initializer_list<std::uint32_t> others) {
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique(technique), traced.scene, traced.plan, gpu);
+    EXPECT_EQ(compared(traced, frame).cause.at(at.x, at.y), static_cast<std::uint8_t>(cause));
+    EXPECT_FALSE(is_caught(traced, frame, at, frame.counted->counter.at(at.x, at.y)));
+    for (const std::uint32_t other : others)
+        EXPECT_TRUE(is_caught(traced, frame, at, other)) << other;
+}
+
+/// Its surface is not drawn there, and hides nothing.
+TEST(OddGeometry, a_light_cap_before_the_near_plane_is_in_front_of_what_is_seen) {
+    try_kept({1167}, {});
+    try_kept({163}, from_casters);
+    try_kept({142}, on_quarters);
+    expect_cause(TracedScene(scene_of_seed(163, from_casters)), "zfail_reversed", {23, 4},
+                 Cause::precision, {1, 2, 254});
+    expect_cause(TracedScene(scene_of_seed(142, on_quarters)), "zfail_no_light_cap", {9, 6},
+                 Cause::cap, {0, 2, 255});
+    expect_cause(TracedScene(scene_of_seed(1167, {})), "zfail_no_light_cap", {17, 5}, Cause::cap,
+                 {0, 2, 255});
+}
+
+/// The near plane cuts off a light cap at 0.267408048, for certain, and by rounding not the side
+/// behind it at 0.267408055.
+TEST(OddGeometry, a_face_that_a_rounded_near_plane_leaves_is_lost_with_the_near_plane) {
+    try_kept({2133}, {});
+    expect_cause(TracedScene(scene_of_seed(2133, {})), "zpass", {10, 18}, Cause::near_plane,
+                 {1, 2, 254});
+}
+
+/// A triangle that fills a hole lies in the plane of the surface shown: it may be drawn in front of
+/// it or behind it.
+TEST(OddGeometry, a_light_cap_in_the_plane_of_the_surface_comes_before_it_or_after_it) {
+    try_kept({1433}, from_casters);
+    expect_cause(TracedScene(scene_of_seed(1433, from_casters)), "zfail_half_edge", {14, 5},
+                 Cause::precision, {2, 3, 255});
+}
+
+/// Without a dark cap, a volume's far end is an outline. Two sides end at infinity there, one
+/// entered and one left, each of which may be counted.
+TEST(OddGeometry, the_vanishing_line_of_a_side_is_an_outline_of_a_volume_without_a_dark_cap) {
+    try_kept({3389}, on_quarters);
+    const TracedScene traced(scene_of_seed(3389, on_quarters));
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame =
+        render(*find_technique("zfail_no_dark_cap"), traced.scene, traced.plan, gpu);
+    for (const std::uint32_t counter : {0U, 1U, 2U})
+        EXPECT_FALSE(is_caught(traced, frame, {23, 1}, counter)) << counter;
+    for (const std::uint32_t counter : {3U, 254U, 255U})
+        EXPECT_TRUE(is_caught(traced, frame, {23, 1}, counter)) << counter;
+    EXPECT_TRUE(is_caught(traced, frame, {22, 1}, 0)) << "a pixel from the line";
+}
+
+/// Seen from the ray's plane, a triangle is met or not, even beyond the ray's end.
+TEST(OddGeometry, a_shadow_ray_in_a_triangles_plane_may_stop_at_it) {
+    try_kept({422, 650}, from_casters);
+}
+
+} // namespace
+} // namespace shadowproof::tests
