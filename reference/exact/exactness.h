@@ -12,4 +12,8 @@ enum class Exactness : std::uint8_t {
     degenerate, ///< at least one sign was exactly zero
 };
 
+/// Whether doubles with bounds of their errors are asked first. Without them all signs are exact
+/// arithmetic's, which are the same: for tests, and to measure what filters save.
+enum class Filters : std::uint8_t { on, off };
+
 } // namespace shadowproof

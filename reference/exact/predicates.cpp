@@ -107,9 +107,10 @@ int sign_of(const Dyadic& number) {
 /// it is written once and evaluated with as much precision as it needs. Limbs are for formulas of
 /// degree 6 with inputs within their range (exact.h).
 template <class Formula>
-Decision decide(const Formula& formula, bool by_limbs = true) {
-    if (const std::optional<int> sign = formula(BoundedArithmetic{}))
-        return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
+Decision decide(Filters filters, const Formula& formula, bool by_limbs = true) {
+    if (filters == Filters::on)
+        if (const std::optional<int> sign = formula(BoundedArithmetic{}))
+            return {*sign, *sign == 0 ? Exactness::degenerate : Exactness::filtered};
     int sign = 0;
     bool left_range = !by_limbs;
     if (by_limbs) sign = *formula(LimbsArithmetic{&left_range});
@@ -141,10 +142,10 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
 /// The side of a plane to which the move (e, e^2, e^3), e -> 0, takes a point on it: that of the
 /// first component of the plane's normal that is not zero.
 template <class NormalOf>
-Decision moved_against(const NormalOf& normal_of) {
+Decision moved_against(Filters filters, const NormalOf& normal_of) {
     Decision moved;
     for (int axis = 0; axis < 3 && moved.sign == 0; ++axis)
-        moved = decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+        moved = decide(filters, [&]<class A>(const A& arithmetic) -> std::optional<int> {
             const Vector<A> n = normal_of(arithmetic);
             return sign_of(axis == 0 ? n.x : (axis == 1 ? n.y : n.z));
         });
@@ -154,20 +155,20 @@ Decision moved_against(const NormalOf& normal_of) {
 } // namespace
 
 Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         return sign_of(dot<A>(away_from(arithmetic, o, t.a), normal(arithmetic, t)));
     });
 }
 
 Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         return sign_of(dot<A>(direction_of(arithmetic, ray),
                               edge_plane(arithmetic, glm::dvec4(ray.eye, 1), a, b)));
     });
 }
 
 Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corners& u) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
         const Quotient<A> q = plane_depth(arithmetic, ray, u);
         const std::optional<int> order =
@@ -179,7 +180,7 @@ Decision Predicates::depth_order(const EyeRay& ray, const Corners& t, const Corn
 }
 
 Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double depth) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Quotient<A> p = plane_depth(arithmetic, ray, t);
         return with_sign_of(p.numerator - arithmetic.number(depth) * p.denominator, p.denominator);
     });
@@ -187,7 +188,7 @@ Decision Predicates::depth_against(const EyeRay& ray, const Corners& t, double d
 
 Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                                  const glm::dvec3& b) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
         if (ray.light.w != 0)
             return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
@@ -204,12 +205,13 @@ Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, co
     if (tied.sign != 0) return tied;
     // Not all three are zero: otherwise light, a and b would be collinear, and the light would lie
     // in the plane of the triangle, which then takes no part.
-    return moved_against(
-        [&]<class A>(const A& arithmetic) { return edge_plane(arithmetic, ray.light, a, b); });
+    return moved_against(filters_, [&]<class A>(const A& arithmetic) {
+        return edge_plane(arithmetic, ray.light, a, b);
+    });
 }
 
 Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
-    return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
+    return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         return point_against<A>(arithmetic, ray, q, u.a, normal(arithmetic, u));
     });
 }
@@ -218,15 +220,17 @@ Decision Predicates::side_of_point_untied(const EyeRay& ray, const RayPoint& q,
                                           const Corners& u) const {
     const Decision tied = side_of_point(ray, q, u);
     if (tied.sign != 0) return tied;
-    return moved_against([&]<class A>(const A& arithmetic) { return normal(arithmetic, u); });
+    return moved_against(filters_,
+                         [&]<class A>(const A& arithmetic) { return normal(arithmetic, u); });
 }
 
 bool Predicates::runs_from_light(const EyeRay& ray) const {
     const auto sign = [&](const auto& component) {
-        return decide([&]<class A>(const A& arithmetic) -> std::optional<int> {
-                   const Vector<A> d = direction_of(arithmetic, ray);
-                   return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
-               })
+        return decide(filters_,
+                      [&]<class A>(const A& arithmetic) -> std::optional<int> {
+                          const Vector<A> d = direction_of(arithmetic, ray);
+                          return sign_of(component(d, vector(arithmetic, glm::dvec3(ray.light))));
+                      })
             .sign;
     };
     return sign([](const auto& d, const auto& l) { return d.y * l.z - d.z * l.y; }) == 0 &&
@@ -240,6 +244,7 @@ bool Predicates::runs_from_light(const EyeRay& ray) const {
 // . v, negated where both are negative.
 Decision Predicates::within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const {
     return decide(
+        filters_,
         [&]<class A>(const A& arithmetic) -> std::optional<int> {
             const Quotient<A> t = position(arithmetic, ray, q);
             const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);

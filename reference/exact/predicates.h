@@ -49,6 +49,9 @@ struct Cone {
 
 class Predicates {
 public:
+    Predicates() = default;
+    explicit Predicates(Filters filters) : filters_(filters) {}
+
     /// Sign of det(w a - o, b - a, c - a), O = (o, w) a point or a direction: negative where O sees
     /// the triangle counter-clockwise, its front. Degree 3.
     Decision side(const glm::dvec4& o, const Corners& t) const;
@@ -89,6 +92,9 @@ public:
     /// Sign of (Q - apex) . axis - cosine |Q - apex| for a surface point: not negative within the
     /// cone. Degree 12, squared.
     Decision within_cone(const EyeRay& ray, const RayPoint& q, const Cone& cone) const;
+
+private:
+    Filters filters_ = Filters::on;
 };
 
 } // namespace shadowproof

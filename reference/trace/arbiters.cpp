@@ -88,7 +88,7 @@ bool NearestArbiter::is_nearer(const RayPacket& packet, int lane, std::uint32_t 
     met_ = within_planes(ray, t, signs);
     if (!met_) return false;
     if (best == no_triangle) return true;
-    const Decision order = rays_.state->predicates.depth_order(ray, t, rays_.triangle(best));
+    const Decision order = rays_.predicates.depth_order(ray, t, rays_.triangle(best));
     signs.at_least_zero(order, 1);
     return order.sign < 0 || (order.sign == 0 && triangle < best);
 }
@@ -97,7 +97,7 @@ Decision NearestArbiter::edge(const EyeRay& ray, int lane, const glm::dvec3& a,
                               const glm::dvec3& b) const {
     const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(lane)];
     if (vertex && (*vertex == a || *vertex == b)) return {0, Exactness::degenerate};
-    return rays_.state->predicates.edge(ray, a, b);
+    return rays_.predicates.edge(ray, a, b);
 }
 
 bool NearestArbiter::meet_there(int lane, const std::array<glm::dvec3, 3>& corners,
@@ -115,7 +115,7 @@ bool NearestArbiter::meet_there(int lane, const std::array<glm::dvec3, 3>& corne
 
 bool NearestArbiter::within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const {
     const Camera& camera = rays_.state->scene->camera;
-    const Predicates& predicates = rays_.state->predicates;
+    const Predicates& predicates = rays_.predicates;
     return signs.at_least_zero(predicates.depth_against(ray, t, camera.near), 1) &&
            (std::isinf(camera.far) ||
             signs.at_least_zero(predicates.depth_against(ray, t, camera.far), -1));
@@ -164,7 +164,7 @@ void AnyArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
 
 bool AnyArbiter::is_between(const EyeRay& ray, const RayPoint& q, std::uint32_t triangle,
                             Signs& signs) {
-    const Predicates& predicates = rays_.state->predicates;
+    const Predicates& predicates = rays_.predicates;
     const Corners t = rays_.triangle(triangle);
     const int orientation = rays_.state->from_light.side[triangle];
     const Decision beyond = predicates.side_of_point(ray, q, t);
@@ -179,7 +179,7 @@ void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
     const auto l = static_cast<std::size_t>(lane);
     const EyeRay ray = rays_.ray(lane);
     const RayPoint q = exact_point(points_[l]);
-    const Predicates& predicates = rays_.state->predicates;
+    const Predicates& predicates = rays_.predicates;
     const Corners t = rays_.triangle(triangle);
     const int orientation = rays_.state->from_light.side[triangle];
     Signs signs;
@@ -193,7 +193,7 @@ void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
 }
 
 Decision CountArbiter::behind(const EyeRay& ray, const RayPoint& q, const Corners& t) const {
-    const Predicates& predicates = rays_.state->predicates;
+    const Predicates& predicates = rays_.predicates;
     const bool at_eye = q.kind == RayPoint::Kind::depth && q.depth == 0;
     return at_eye ? predicates.side_of_point_untied(ray, q, t)
                   : predicates.side_of_point(ray, q, t);

@@ -21,6 +21,7 @@ class Signs;
 struct PacketRays {
     const Tracer::State* state = nullptr;
     const Lanes<glm::dvec3>* directions = nullptr;
+    Predicates predicates;
     std::uint64_t exact_decisions = 0;
 
     EyeRay ray(int lane) const {

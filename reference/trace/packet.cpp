@@ -71,8 +71,9 @@ void prepare(RayPacket& packet) {
         set_axis(z, packet.z, packet.rz);
         const Vector error = load(packet.error, i);
         pad = hn::Max(pad, hn::MulAdd(error, hn::Set(floats, 2), hn::Set(floats, 0x1p-30F)));
-        hn::Store(hn::IfThenElse(hn::Gt(error, hn::Set(floats, 0x1p-25F)), infinite, size), floats,
-                  packet.magnitude.data() + i);
+        hn::Store(
+            hn::IfThenElse(hn::Gt(error, hn::Set(floats, packet.trusted_error)), infinite, size),
+            floats, packet.magnitude.data() + i);
         const Vector unit = load(packet.unit, i);
         for (Lanes<float>* limit :
              {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
@@ -106,8 +107,9 @@ void prepare_parallel(RayPacket& packet) {
         hn::Store(hn::Div(y, z), floats, packet.ry.data() + i);
         hn::Store(load(packet.lower_lo, i), floats, packet.rz.data() + i);
         const Vector size = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-        hn::Store(hn::IfThenElse(hn::Gt(error, hn::Set(floats, 0x1p-25F)), infinite, size), floats,
-                  packet.magnitude.data() + i);
+        hn::Store(
+            hn::IfThenElse(hn::Gt(error, hn::Set(floats, packet.trusted_error)), infinite, size),
+            floats, packet.magnitude.data() + i);
         for (Lanes<float>* limit :
              {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
             hn::Store(hn::Mul(load(*limit, i), unit), floats, limit->data() + i);
@@ -313,8 +315,9 @@ void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     HWY_DYNAMIC_DISPATCH(count_all)(packet, records, arbiter);
 }
 
-RayPacket empty_packet() {
+RayPacket empty_packet(Filters filters) {
     RayPacket packet;
+    if (filters == Filters::off) packet.trusted_error = -1;
     packet.farthest.fill(-1);
     packet.hit.fill(no_triangle);
     packet.skip.fill(no_plane);

@@ -3,6 +3,7 @@
 // processor has; the result is the same with any.
 #pragma once
 
+#include "reference/exact/exactness.h"
 #include "reference/trace/records.h"
 
 #include <array>
@@ -43,10 +44,12 @@ struct RayPacket {
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
     float pad = 0;                              ///< by how much boxes are enlarged
     std::uint32_t active = 0;                   ///< one bit per lane that is not done
+    /// The largest error with which floats may decide: below 0, nothing is left to them.
+    float trusted_error = 0x1p-25F;
 };
 
 /// A packet without rays.
-RayPacket empty_packet();
+RayPacket empty_packet(Filters filters = Filters::on);
 
 /// Sets a lane's ray and activates it. `limits`: 1/s in units of the direction as given. `skip`: a
 /// plane whose triangles are ignored, or no_plane.

@@ -58,14 +58,15 @@ private:
 /// Calls work(prober, tile) for every tile of the picture. Returns the probers, one per thread that
 /// worked, for their counts.
 template <class Work>
-std::vector<std::unique_ptr<Prober>> for_tiles(const Tracer::State& state, const Work& work) {
+std::vector<std::unique_ptr<Prober>> for_tiles(const Tracer::State& state, const Work& work,
+                                               Filters filters = Filters::on) {
     const Camera& camera = state.scene->camera;
     const PixelRays rays(camera);
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
     const int rows = (camera.height + tile_side - 1) / tile_side;
     parallel_for(rows, state.threads, [&](int row, int thread) {
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
-        if (!prober) prober = std::make_unique<Prober>(state);
+        if (!prober) prober = std::make_unique<Prober>(state, filters);
         for (int left = 0; left < camera.width; left += tile_side)
             work(*prober, rays.tile(left, row * tile_side));
     });

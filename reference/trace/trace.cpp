@@ -94,7 +94,7 @@ void count_classes(const GroundTruth& truth, TraceStatistics& statistics) {
 
 } // namespace
 
-GroundTruth trace(const Tracer& tracer) {
+GroundTruth trace(const Tracer& tracer, Filters filters) {
     const Tracer::State& state = tracer.state();
     const Camera& camera = state.scene->camera;
     const Clock::time_point start = Clock::now();
@@ -105,23 +105,26 @@ GroundTruth trace(const Tracer& tracer) {
     truth.exactness = Image<Exactness>(camera.width, camera.height);
     if (state.cone) truth.in_cone = Image<std::uint8_t>(camera.width, camera.height);
 
-    const auto probers = for_tiles(state, [&](Prober& prober, const Tile& tile) {
-        Lanes<Seen> seen;
-        Lanes<Lighting> lighting;
-        prober.see(tile.directions, tile.lanes, seen);
-        prober.light(tile.directions, tile.lanes, seen, lighting);
-        for (std::size_t lane = 0; lane < packet_size; ++lane) {
-            if ((tile.lanes >> lane & 1U) == 0) continue;
-            const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
-            truth.visibility.pixels[pixel] = visibility_of(seen[lane], lighting[lane]);
-            truth.triangle.pixels[pixel] = seen[lane].triangle;
-            truth.depth.pixels[pixel] = seen[lane].depth;
-            truth.exactness.pixels[pixel] =
-                std::max(seen[lane].exactness, lighting[lane].exactness);
-            if (state.cone && seen[lane].triangle != no_triangle)
-                truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
-        }
-    });
+    const auto probers = for_tiles(
+        state,
+        [&](Prober& prober, const Tile& tile) {
+            Lanes<Seen> seen;
+            Lanes<Lighting> lighting;
+            prober.see(tile.directions, tile.lanes, seen);
+            prober.light(tile.directions, tile.lanes, seen, lighting);
+            for (std::size_t lane = 0; lane < packet_size; ++lane) {
+                if ((tile.lanes >> lane & 1U) == 0) continue;
+                const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
+                truth.visibility.pixels[pixel] = visibility_of(seen[lane], lighting[lane]);
+                truth.triangle.pixels[pixel] = seen[lane].triangle;
+                truth.depth.pixels[pixel] = seen[lane].depth;
+                truth.exactness.pixels[pixel] =
+                    std::max(seen[lane].exactness, lighting[lane].exactness);
+                if (state.cone && seen[lane].triangle != no_triangle)
+                    truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
+            }
+        },
+        filters);
 
     TraceStatistics& statistics = truth.statistics;
     for (const auto& prober : probers) {

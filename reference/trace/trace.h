@@ -60,8 +60,8 @@ private:
 };
 
 /// The ground truth of the picture; the same, bit for bit, for any number of threads and any
-/// instruction set.
-GroundTruth trace(const Tracer& tracer);
+/// instruction set, and but for `exactness` and its counts without filters.
+GroundTruth trace(const Tracer& tracer, Filters filters = Filters::on);
 
 /// The truth along one ray of direction D from the eye (as Camera's ray_direction gives it).
 struct RayTruth {

@@ -100,8 +100,8 @@ void for_lanes(std::uint32_t lanes, const Work& work) {
 
 } // namespace
 
-Prober::Prober(const Tracer::State& state)
-    : state_(&state), seen_(state.from_eye, Part::seen, state.double_sided),
+Prober::Prober(const Tracer::State& state, Filters filters)
+    : state_(&state), filters_(filters), seen_(state.from_eye, Part::seen, state.double_sided),
       occluding_(state.from_light, Part::occluding, state.double_sided),
       light_facing_(state.from_light, Part::light_facing, state.double_sided) {}
 
@@ -139,14 +139,14 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
     limits.lower_hi = std::isinf(camera.far) ? 0 : float_above(1 / (camera.far * scale));
     limits.upper_lo = float_below(1 / (camera.near * scale));
     limits.upper_hi = float_above(1 / (camera.near * scale));
-    RayPacket packet = empty_packet();
+    RayPacket packet = empty_packet(filters_);
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         seen[l] = {};
         set_lane(packet, lane, {directions[l], 0}, limits, no_plane);
         ++rays_;
     });
-    PacketRays rays{state_, &directions, 0};
+    PacketRays rays{state_, &directions, Predicates(filters_)};
     NearestArbiter arbiter(rays, seen);
     find_nearest(packet, seen_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -165,7 +165,7 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
 void Prober::ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& lighting) {
     const RayPoint point{.kind = RayPoint::Kind::surface,
                          .surface = corners(*state_->scene, seen.triangle)};
-    const Decision decision = state_->predicates.within_cone(
+    const Decision decision = Predicates(filters_).within_cone(
         {state_->eye, direction, state_->light}, point, *state_->cone);
     exact_decisions_ += decision.exactness != Exactness::filtered ? 1 : 0;
     lighting.exactness = std::max(lighting.exactness, decision.exactness);
@@ -174,7 +174,7 @@ void Prober::ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& l
 
 void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Seen>& seen, Lanes<Lighting>& lighting) {
-    RayPacket packet = empty_packet();
+    RayPacket packet = empty_packet(filters_);
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         const std::uint32_t triangle = seen[l].triangle;
@@ -192,7 +192,7 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         ++rays_;
     });
     const std::uint32_t asked = packet.active;
-    PacketRays rays{state_, &directions, 0};
+    PacketRays rays{state_, &directions, Predicates(filters_)};
     AnyArbiter arbiter(rays, seen, lighting);
     find_any(packet, occluding_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -205,7 +205,7 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
 
 void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Point>& points, Lanes<std::int32_t>& counts) {
-    RayPacket packet = empty_packet();
+    RayPacket packet = empty_packet(filters_);
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         const Point& point = points[l];
@@ -219,7 +219,7 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
             point.skip == no_triangle ? no_plane : state_->places.plane[point.skip];
         if (ray) set_lane(packet, lane, ray->w, ray->limits, plane);
     });
-    PacketRays rays{state_, &directions, 0};
+    PacketRays rays{state_, &directions, Predicates(filters_)};
     CountArbiter arbiter(rays, points, light_facing_);
     count_all(packet, light_facing_, arbiter);
     exact_decisions_ += rays.exact_decisions;

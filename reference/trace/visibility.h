@@ -39,7 +39,7 @@ struct SeenPlane {
 /// Runs the queries of one thread. Lanes whose bit in `lanes` is not set are left unchanged.
 class Prober {
 public:
-    explicit Prober(const Tracer::State& state);
+    explicit Prober(const Tracer::State& state, Filters filters = Filters::on);
 
     /// The nearest triangle within [near, far] along each direction D (view depth 1).
     void see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes<Seen>& seen);
@@ -63,6 +63,7 @@ public:
 
 private:
     const Tracer::State* state_;
+    Filters filters_;
     RecordCache seen_;
     RecordCache occluding_;
     RecordCache light_facing_;

@@ -159,11 +159,30 @@ void add_truth(BenchTrial& trial) {
     trial.warm.push_back(true); // it was traced, or is measured as it was before
 }
 
+BenchSettings unfiltered_setting() {
+    return {{"filters", "off"}};
+}
+
+/// The same by exact arithmetic alone: what the filters save. It takes long, and tells nothing of
+/// techniques.
+void add_unfiltered_truth(BenchTrial& trial) {
+    const BenchWork& work = trial.work;
+    if (work.options.quick || !work.options.technique.techniques.empty()) return;
+    BenchPoint point = work.run.points[trial.first];
+    point.settings = unfiltered_setting();
+    point.samples.clear();
+    if (work.kept != nullptr)
+        if (const BenchPoint* known = find_point(*work.kept, point)) point = *known;
+    work.run.points.push_back(std::move(point));
+    trial.techniques.push_back(nullptr);
+    trial.warm.push_back(true);
+}
+
 /// Where bumps are lit and no technique is named, which the truth's means would outlast.
 void add_sampled_truth(BenchTrial& trial) {
     const BenchWork& work = trial.work;
     if (!is_bump_lit(trial.scene) || !work.options.technique.techniques.empty()) return;
-    BenchPoint mean = work.run.points.back(); // the truth itself
+    BenchPoint mean = work.run.points[trial.first]; // the truth itself
     const std::vector<int> sides = sampled_sides(work.options.quick);
     std::vector<BenchPoint> points;
     for (const int side : sides) {
@@ -230,6 +249,7 @@ void add_points_of(BenchTrial& trial, const Technique& technique) {
 void add_points(BenchTrial& trial) {
     const BenchOptions& options = trial.work.options;
     add_truth(trial);
+    add_unfiltered_truth(trial);
     add_sampled_truth(trial);
     for (const Technique* technique : options.technique.chosen())
         // What is named is drawn, or says why it is not for such a scene.
@@ -260,7 +280,10 @@ BenchSample take_sample(BenchTrial& trial, std::size_t i) {
             shade_supersampled(trial.tracer, side);
             return {stopwatch.milliseconds(), {}};
         }
-        if (technique == nullptr) return {trace(trial.tracer).statistics.milliseconds, {}};
+        if (technique == nullptr) {
+            const Filters filters = settings == unfiltered_setting() ? Filters::off : Filters::on;
+            return {trace(trial.tracer, filters).statistics.milliseconds, {}};
+        }
         const auto draw = [&] {
             return render(*technique, trial.scene, plan_with(trial, settings), work.gpu);
         };

@@ -43,6 +43,22 @@ TEST_P(DeterminismTest, every_instruction_set_finds_the_same_bits) {
     unsetenv("SHADOWPROOF_INSTRUCTION_SET");
 }
 
+TEST_P(DeterminismTest, exact_arithmetic_alone_finds_what_filters_find) {
+    const Scene scene = GetParam().make();
+    const Tracer tracer(scene);
+    const GroundTruth filtered = trace(tracer);
+    const GroundTruth exact = trace(tracer, Filters::off);
+    EXPECT_EQ(exact.visibility.pixels, filtered.visibility.pixels);
+    EXPECT_EQ(exact.triangle.pixels, filtered.triangle.pixels);
+    EXPECT_EQ(exact.depth.pixels, filtered.depth.pixels);
+    // Ties with what floats know to be hidden are found as well.
+    EXPECT_GE(exact.statistics.degenerate, filtered.statistics.degenerate);
+    // Where a surface is seen its three edges and its plane are asked for, at the least.
+    const auto seen = exact.statistics.lit + exact.statistics.shadowed;
+    EXPECT_GE(exact.statistics.exact_decisions, 4 * seen);
+    EXPECT_GT(exact.statistics.exact_decisions, filtered.statistics.exact_decisions);
+}
+
 /// The exact signs must really be asked for, or the tests of hard scenes test floats.
 TEST(Exactness, degenerate_scenes_are_decided_by_exact_arithmetic_and_say_so) {
     for (const HardScene& hard : hard_scenes()) {
