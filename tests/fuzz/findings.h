@@ -23,7 +23,8 @@ void check_message(const std::string& message, const std::string& where, const c
 /// Of this process and all its threads, so that a machine that does other work is no finding.
 double processor_seconds();
 
-/// Reports "TARGET-slow" where an input has taken more than `most_seconds` of them.
+/// While fuzzing, reports "TARGET-slow" where an input has taken more than `most_seconds` of them.
+/// Replays of kept inputs are tests, which time nothing.
 class TimePromise {
 public:
     TimePromise(const char* target, Input input, double most_seconds);
