@@ -23,6 +23,7 @@ enum class Cause : std::uint8_t {
     acne,         ///< the receiver shadows itself: the bias or epsilon is too small
     leak,         ///< an occluder lies within the bias or epsilon, which is too large
     range,        ///< outside the range of depths that the light's camera draws
+    seam,         ///< what lies beyond a face of a cube map was taken from its border
     filter,       ///< the texels around the point's own were averaged with it
     missed,    ///< a float ray slipped between two triangles, or hit one that the exact ray misses
     precision, ///< disappears when the surface moves by one quantum of the depth format, or
@@ -38,7 +39,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 19> all_causes{{
+inline constexpr std::array<CauseWords, 20> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -53,6 +54,7 @@ inline constexpr std::array<CauseWords, 19> all_causes{{
     {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
     {Cause::range, "range", "outside the light's near and far plane"},
+    {Cause::seam, "seam", "averaged at a cube face's border, without the adjacent face"},
     {Cause::filter, "filter", "averaged with its neighbours: its own texel is right"},
     {Cause::missed, "missed", "a float ray slipped between triangles, or hit one beside it"},
     {Cause::precision, "precision", "within the rounding of depths or rays"},

@@ -86,18 +86,21 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
         return double{static_cast<float>(value / scene.unit)};
     };
     model.bias = in_float(settings.bias.value_or(documents_bias));
-    if (!is_sun) model.value = settings.value.value_or(model.value);
-    model.slope_bias = double{static_cast<float>(settings.slope_bias.value_or(0))};
+    if (!is_sun && !model.is_ramp()) model.value = settings.value.value_or(model.value);
+    // A ramp's texels are colours, which no polygon offset moves.
+    if (!model.is_ramp())
+        model.slope_bias = double{static_cast<float>(settings.slope_bias.value_or(0))};
     if (model.slope_bias != 0 && model.value == MapValue::distance)
         refuse(scene,
                "has a light whose map would hold distances, which --map-slope-bias does not move: "
                "it is a polygon offset, of window depths",
                "give --map-value depth, or leave the slope bias out");
-    model.format = settings.format.value_or(model.format);
+    if (!model.is_ramp()) model.format = settings.format.value_or(model.format);
     model.culling = settings.culling.value_or(model.culling);
     if (model.filter > 0) {
         model.filter = settings.filter.value_or(model.filter);
         model.average = settings.average.value_or(model.average);
+        model.edges = settings.edges.value_or(model.edges);
     }
     if (is_sun) {
         fit_sun(model, scene);
@@ -164,10 +167,22 @@ double map_window_depth(const MapModel& model, double depth) {
     return model.far / (model.far - model.near) * (1 - model.near / depth);
 }
 
+double place_on_ramp(const MapModel& model, double depth) {
+    return (depth - model.near) / (model.far - model.near);
+}
+
+int ramp_step(double place) {
+    return static_cast<int>(std::clamp(std::floor(ramp_steps * place), 0.0, ramp_steps - 1.0));
+}
+
 double value_of_stored(const MapModel& model, double stored) {
     if (model.value == MapValue::distance) return stored * model.far;
     const double n = model.near;
     const double f = model.far;
+    if (model.is_ramp()) {
+        const double step = std::round(stored * (ramp_steps - 1));
+        return n + (step + 0.5) / ramp_steps * (f - n);
+    }
     if (model.shape == MapModel::Shape::sun) return n + stored * (f - n);
     return n * f / (f - stored * (f - n));
 }

@@ -25,7 +25,14 @@ enum class MapValue : std::uint8_t {
 };
 
 /// In which format they are stored.
-enum class MapFormat : std::uint8_t { d16, d24, d32f };
+enum class MapFormat : std::uint8_t {
+    d16,
+    d24,
+    d32f,
+    /// A byte of a colour: which of 256 equal steps from the near to the far plane the depth lies
+    /// in. The depth that is compared is taken from the same steps.
+    ramp8,
+};
 
 /// Which sides of the casters are not drawn into the map.
 enum class MapCulling : std::uint8_t {
@@ -40,10 +47,18 @@ enum class MapAverage : std::uint8_t {
     values,      ///< what the texels hold, which is compared once
 };
 
+/// What a block of texels holds that reaches beyond a face of a cube.
+enum class MapEdges : std::uint8_t {
+    clamped,  ///< the face's outermost texels, repeated
+    seamless, ///< those of the adjacent face
+};
+
 inline constexpr std::array all_map_values{MapValue::distance, MapValue::depth};
+/// Those that the user may choose: `ramp8` is a technique of its own.
 inline constexpr std::array all_map_formats{MapFormat::d16, MapFormat::d24, MapFormat::d32f};
 inline constexpr std::array all_map_cullings{MapCulling::none, MapCulling::front, MapCulling::back};
 inline constexpr std::array all_map_averages{MapAverage::comparisons, MapAverage::values};
+inline constexpr std::array all_map_edges{MapEdges::clamped, MapEdges::seamless};
 
 /// Texels along a side of the largest block that is averaged. The shader adds the number of texels
 /// that say `lit` to a byte that holds `shadowed`, and more would not fit.
@@ -62,6 +77,8 @@ constexpr std::string_view name_of(MapFormat format) {
         return "d16";
     case MapFormat::d24:
         return "d24";
+    case MapFormat::ramp8:
+        return "ramp8";
     case MapFormat::d32f:
         break;
     }
@@ -84,9 +101,22 @@ constexpr std::string_view name_of(MapAverage average) {
     return average == MapAverage::comparisons ? "comparisons" : "values";
 }
 
+constexpr std::string_view name_of(MapEdges edges) {
+    return edges == MapEdges::clamped ? "clamped" : "seamless";
+}
+
 constexpr DepthFormat depth_format_of(MapFormat format) {
-    if (format == MapFormat::d32f) return {32, true};
-    return {format == MapFormat::d24 ? 24 : 16, false};
+    switch (format) {
+    case MapFormat::d16:
+        return {16, false};
+    case MapFormat::d24:
+        return {24, false};
+    case MapFormat::ramp8:
+        return {8, false};
+    case MapFormat::d32f:
+        break;
+    }
+    return {32, true};
 }
 
 /// What the user asked for; where nothing is set, each technique uses its own.
@@ -101,6 +131,7 @@ struct MapSettings {
     std::optional<double> far{};  ///< in the file's units of length
     std::optional<int> filter{};  ///< texels a side of the block
     std::optional<MapAverage> average{};
+    std::optional<MapEdges> edges{};
 };
 
 /// How a map is made and asked. The claim is `shadowed` where value + bias < what the receiver's
@@ -125,12 +156,14 @@ struct MapModel {
     double far = 1;
     glm::dvec3 eye{0, 0, 0}; ///< of a sun: the middle of its square, where depths begin
     double half_side = 1;    ///< of a sun's square, world units
-    /// Texels a side of the block that is averaged, around the point's place in the map; beside the
-    /// map its border is repeated. 0: the texel at that place alone.
+    /// Texels a side of the block that is averaged, around the point's place in the map; beside a
+    /// map that is no cube its border is repeated. 0: the texel at that place alone.
     int filter = 0;
     MapAverage average = MapAverage::comparisons;
+    MapEdges edges = MapEdges::clamped;
 
     std::size_t faces() const { return shape == Shape::cube ? 6 : 1; }
+    bool is_ramp() const { return format == MapFormat::ramp8; }
     /// How many texels are read for one point.
     int asked() const { return filter > 0 ? filter * filter : 1; }
 };
@@ -171,7 +204,17 @@ DepthModel map_depth_model(const MapModel& model);
 /// The window depth of a depth of the light's camera: 0 at the near plane, 1 at the far.
 double map_window_depth(const MapModel& model, double depth);
 
-/// What a stored value stands for: a distance or a depth, world units.
+/// How many steps a ramp has; its texels hold step / (steps - 1).
+inline constexpr int ramp_steps = 256;
+
+/// Where a depth lies on a ramp, from 0 at the near plane to 1 at the far, and beyond.
+double place_on_ramp(const MapModel& model, double depth);
+
+/// The step of a place on the ramp, from 0; beyond the planes the first and the last.
+int ramp_step(double place);
+
+/// What a stored value stands for: a distance or a depth, world units; of a ramp the middle of its
+/// step.
 double value_of_stored(const MapModel& model, double stored);
 
 /// Half the side of a spot's map at depth 1; the outer cone must be narrower than a half space.

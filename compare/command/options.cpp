@@ -180,11 +180,13 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                     "Far plane of the light's camera (just beyond the farthest caster)");
     command
         .add_option("--map-filter", settings.filter,
-                    "spot_map_pcf: texels a side of the block that is averaged (4)")
+                    "Filtered maps: texels a side of the block that is averaged (4)")
         ->type_name("N")
         ->check(CLI::Range(1, largest_map_filter));
     add_choice("--map-average", all_map_averages, settings.average,
-               "spot_map_pcf: what is averaged");
+               "Filtered maps: what is averaged");
+    add_choice("--map-edges", all_map_edges, settings.edges,
+               "cube_map_pcf: what a block holds beyond a face");
 }
 
 void add_ray_flags(CLI::App& command, RaySettings& settings) {
@@ -394,6 +396,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (map.far) add("--map-far", fmt::format("{}", *map.far));
     if (map.filter) add("--map-filter", fmt::format("{}", *map.filter));
     if (map.average) add("--map-average", std::string(name_of(*map.average)));
+    if (map.edges) add("--map-edges", std::string(name_of(*map.edges)));
     const RaySettings& rays = technique.asked.rays;
     if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
     if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));

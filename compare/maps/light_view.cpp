@@ -2,6 +2,7 @@
 
 #include "compare/maps/parallel_view.h"
 #include "compare/maps/perspective_view.h"
+#include "scenes/roundoff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@ namespace {
 
 /// How many steps a format of whole numbers has.
 double steps_of(MapFormat format) {
+    if (format == MapFormat::ramp8) return ramp_steps - 1;
     return format == MapFormat::d24 ? 0xffffff : 0xffff;
 }
 
@@ -23,16 +25,15 @@ LightView::LightView(const Scene& scene, const MapEvidence& map) : map_(map) {
         cameras_.push_back(map_camera(chosen_light(scene), map.model, face));
 }
 
-// A whole number of steps, which comes back as a float: off by a place where it is multiplied by a
-// rounded reciprocal, as llvmpipe does of 16 bits.
+// A whole number of steps, which comes back as a float: rounded twice where it is multiplied by a
+// rounded reciprocal, as llvmpipe does of 8 and 16 bits.
 bool LightView::is_in_format(float stored) const {
     if (map_.format != depth_format_of(map_.model.format)) return false;
     if (!(stored >= 0 && stored <= 1)) return false;
     if (map_.model.format == MapFormat::d32f) return true;
     const double most = steps_of(map_.model.format);
     const double steps = double{stored} * most;
-    const double place = (std::nextafter(stored, 2.0F) - double{stored}) * most;
-    return std::abs(steps - std::round(steps)) <= place;
+    return std::abs(steps - std::round(steps)) <= 2 * float_roundoff * steps;
 }
 
 double LightView::half_step() const {

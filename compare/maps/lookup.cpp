@@ -21,6 +21,10 @@ double value_of(const MapModel& model, const glm::dvec3& from_light, double dept
     return model.value == MapValue::depth ? depth : glm::length(from_light);
 }
 
+int step_of_stored(double stored) {
+    return static_cast<int>(std::lround(stored * (ramp_steps - 1)));
+}
+
 int clamped(const MapModel& model, double place) {
     return static_cast<int>(std::clamp(std::floor(place), 0.0, model.size - 1.0));
 }
@@ -34,6 +38,31 @@ glm::ivec2 first_of(const MapModel& model, const glm::dvec2& place) {
                                            -1.0 * model.filter, 1.0 * model.size));
     };
     return {first(place.x), first(place.y)};
+}
+
+/// Beside a cube's face: the texel of the adjacent face that lies as far beyond the edge which they
+/// share. Beyond two edges there is none; there the row is moved to the face's outermost.
+///
+/// In units of half a texel, the face's plane is `size` away from the light along `major`, and
+/// texels' centres lie at odd or at even numbers between -size and size. What lies beyond an edge
+/// is folded towards the light, around the edge.
+Texel across_edges(int size, Texel texel) {
+    const FaceAxes& axes = face_axes[texel.face];
+    int along_s = 2 * texel.x + 1 - size;
+    int along_t = size - 1 - 2 * texel.y; // pictures begin at the top
+    const auto is_beyond = [&](int along) { return std::abs(along) > size; };
+    if (is_beyond(along_s)) along_t = std::clamp(along_t, 1 - size, size - 1);
+    if (!is_beyond(along_s) && !is_beyond(along_t)) return texel;
+    const int beyond = std::max(std::abs(along_s), std::abs(along_t)) - size;
+    const double away = std::max(size - beyond, 1 - size);
+    const double s = std::clamp(along_s, -size, size);
+    const double t = std::clamp(along_t, -size, size);
+    const glm::dvec3 place = away * axes.major + s * axes.s + t * axes.t;
+    texel.face = static_cast<std::uint32_t>(face_of(place));
+    const FaceAxes& adjacent = face_axes[texel.face];
+    texel.x = (static_cast<int>(glm::dot(place, adjacent.s)) + size - 1) / 2;
+    texel.y = (size - 1 - static_cast<int>(glm::dot(place, adjacent.t))) / 2;
+    return texel;
 }
 
 /// A vector's error: of the matrix that rotates it into a square's axes, an entry, a product and
@@ -95,12 +124,29 @@ Lookup lookup(const LightView& light, const glm::dvec3& from_light) {
     return found;
 }
 
-Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place) {
-    if (model.filter == 0 || place.face != asked.texel.face) return asked.texel;
-    const auto nearest = [&](int at, int first) {
-        return std::clamp(std::clamp(at, first, first + model.filter - 1), 0, model.size - 1);
+Texel texel_of_block(const MapModel& model, const Texel& texel) {
+    if (model.shape == MapModel::Shape::cube && model.edges == MapEdges::seamless)
+        return across_edges(model.size, texel);
+    return {texel.face, std::clamp(texel.x, 0, model.size - 1),
+            std::clamp(texel.y, 0, model.size - 1)};
+}
+
+bool crosses_edge(const MapModel& model, const Lookup& lookup) {
+    const auto lies_beside = [&](int first) {
+        return first < 0 || first + model.filter > model.size;
     };
-    return {place.face, nearest(place.x, asked.first.x), nearest(place.y, asked.first.y)};
+    return model.shape == MapModel::Shape::cube && model.filter > 0 &&
+           (lies_beside(lookup.first.x) || lies_beside(lookup.first.y));
+}
+
+Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place) {
+    if (model.filter == 0) return asked.texel;
+    const bool is_elsewhere = place.face != asked.texel.face;
+    const auto nearest = [&](int at, int first) {
+        const int wanted = is_elsewhere ? first : at;
+        return std::clamp(std::clamp(wanted, first, first + model.filter - 1), 0, model.size - 1);
+    };
+    return {asked.texel.face, nearest(place.x, asked.first.x), nearest(place.y, asked.first.y)};
 }
 
 // Seen from a face, or in parallel, a box's picture is within the rectangle of its corners' as long
@@ -150,8 +196,8 @@ find_possible_lookup(const LightView& light, const UncertainPoint& point,
 
 // Distances: a product, a sum, and a length of three products, two sums and a root. Depths: the
 // difference, and the projection's quotient, difference, product and constant, the last of which
-// rounds twice; in parallel two differences and a quotient, each by v of a number that may be above
-// 1.
+// rounds twice; in parallel, and on a ramp, two differences and a quotient, each by v of a number
+// that may be above 1; on a ramp also the sampler's product with the number of its texels.
 Answers compare(const MapModel& model, double stored, double low, double high) {
     const double b = model.bias;
     if (model.value == MapValue::distance) {
@@ -162,6 +208,14 @@ Answers compare(const MapModel& model, double stored, double low, double high) {
     const double shift = v * (std::max(std::abs(low), std::abs(high)) + std::abs(b));
     const double least = low - b - shift;
     const double most = high - b + shift;
+    if (model.is_ramp()) {
+        const auto step = [&](double depth, double sign) {
+            const double place = place_on_ramp(model, depth);
+            return ramp_step(place + sign * 4 * v * std::abs(place));
+        };
+        const int read = step_of_stored(stored);
+        return {read < step(most, +1), read >= step(least, -1)};
+    }
     if (model.shape == MapModel::Shape::sun) {
         const auto error = [](double window) { return 3 * v * std::abs(window); };
         const double from = map_window_depth(model, least);
@@ -177,6 +231,7 @@ Answers compare(const MapModel& model, double stored, double low, double high) {
 bool is_shadowed(const MapModel& model, double stored, double value) {
     if (model.value == MapValue::distance) return stored * model.far + model.bias < value;
     const double nearer = value - model.bias;
+    if (model.is_ramp()) return step_of_stored(stored) < ramp_step(place_on_ramp(model, nearer));
     if (model.shape != MapModel::Shape::sun && nearer <= model.near) return false;
     return stored < map_window_depth(model, nearer);
 }
@@ -184,18 +239,18 @@ bool is_shadowed(const MapModel& model, double stored, double value) {
 namespace {
 
 /// The mean of what the texels hold, as they were read back.
-double mean_stored(const LightView& light, const Lookup& lookup) {
+double mean_stored(const LightView& light, const MapModel& model, const Lookup& lookup) {
     double sum = 0;
-    visit_asked(light.model(), lookup, [&](const Texel& texel) { sum += light.stored(texel); });
-    return sum / light.model().asked();
+    visit_asked(model, lookup, [&](const Texel& texel) { sum += light.stored(texel); });
+    return sum / model.asked();
 }
 
 } // namespace
 
-int lit_comparisons(const LightView& light, const Lookup& lookup) {
-    const MapModel& model = light.model();
+int lit_comparisons(const LightView& light, const MapModel& model, const Lookup& lookup) {
     if (model.average == MapAverage::values)
-        return is_shadowed(model, mean_stored(light, lookup), lookup.value) ? 0 : model.asked();
+        return is_shadowed(model, mean_stored(light, model, lookup), lookup.value) ? 0
+                                                                                   : model.asked();
     int lit = 0;
     visit_asked(model, lookup, [&](const Texel& texel) {
         lit += is_shadowed(model, light.stored(texel), lookup.value) ? 0 : 1;
@@ -207,7 +262,7 @@ int lit_comparisons(const LightView& light, const Lookup& lookup) {
 LitRange lit_range(const LightView& light, const PossibleLookup& possible) {
     const MapModel& model = light.model();
     if (model.average == MapAverage::values) {
-        const double mean = mean_stored(light, possible.lookup);
+        const double mean = mean_stored(light, model, possible.lookup);
         const double error = model.asked() * v * mean;
         const Answers less = compare(model, mean - error, possible.low, possible.high);
         const Answers more = compare(model, mean + error, possible.low, possible.high);

@@ -4,7 +4,6 @@
 
 #include "compare/maps/light_view.h"
 
-#include <algorithm>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -22,17 +21,24 @@ struct Lookup {
 };
 Lookup lookup(const LightView& light, const glm::dvec3& from_light);
 
+/// The texel that is read for one of a block, which may lie beside the map.
+Texel texel_of_block(const MapModel& model, const Texel& texel);
+
 /// Calls visit(texel) for each texel that is read.
 template <class Visit>
 void visit_asked(const MapModel& model, const Lookup& lookup, const Visit& visit) {
     if (model.filter == 0) return visit(lookup.texel);
     for (int y = 0; y < model.filter; ++y)
         for (int x = 0; x < model.filter; ++x)
-            visit(Texel{lookup.texel.face, std::clamp(lookup.first.x + x, 0, model.size - 1),
-                        std::clamp(lookup.first.y + y, 0, model.size - 1)});
+            visit(
+                texel_of_block(model, {lookup.texel.face, lookup.first.x + x, lookup.first.y + y}));
 }
 
-/// Of the texels that the lookup `asked` reads, the nearest to `place`.
+/// Whether the block that is averaged reaches beyond its face of a cube.
+bool crosses_edge(const MapModel& model, const Lookup& lookup);
+
+/// Of the texels that the lookup `asked` reads, the nearest to `place`; its first one where that is
+/// on another face.
 Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place);
 
 /// A point relative to the light, with bounds of its components' errors.
@@ -63,8 +69,8 @@ Answers compare(const MapModel& model, double stored, double low, double high);
 bool is_shadowed(const MapModel& model, double stored, double value);
 
 /// How many of the comparisons, MapModel::asked in number, say `lit`; without any rounding. Where
-/// values are averaged, all or none.
-int lit_comparisons(const LightView& light, const Lookup& lookup);
+/// values are averaged, all or none. `model`: the view's, or as it might be asked otherwise.
+int lit_comparisons(const LightView& light, const MapModel& model, const Lookup& lookup);
 
 /// How many of them may say `lit`: at least, and at most.
 struct LitRange {

@@ -2,16 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace shadowproof {
 
 Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapModel& model,
                           double unit) {
+    // JSON has no infinity.
+    const auto length = [&](double world) -> nlohmann::ordered_json {
+        if (!std::isfinite(world)) return nullptr;
+        return world * unit;
+    };
     Account account;
     nlohmann::ordered_json members;
     if (!pixel) {
-        account.columns = {{"face", "-"}, {"texel", "-"}, {"map", "-"}, {"own", "-"}};
+        account.columns = {
+            {"face", "-"}, {"texel", "-"}, {"footprint", "-"}, {"map", "-"}, {"own", "-"}};
         if (model.filter > 0) account.columns.push_back({"lit", "-"});
         account.remark = {"shows", "not asked"};
         members["map"] = nullptr;
@@ -19,6 +26,8 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
         const Texel& texel = pixel->lookup.texel;
         account.columns = {{"face", fmt::format("{}", texel.face)},
                            {"texel", fmt::format("({},{})", texel.x, texel.y)},
+                           {"footprint", fmt::format("{:.3g}x{:.3g}", pixel->footprint.x * unit,
+                                                     pixel->footprint.y * unit)},
                            {"map", fmt::format("{:.6g}", pixel->stored * unit)},
                            {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
         account.remark = {"shows", pixel->shown == no_triangle
@@ -31,6 +40,7 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
                           {"stored", pixel->stored * unit},
                           {"bias", model.bias * unit},
                           {"own", pixel->lookup.value * unit},
+                          {"footprint", {length(pixel->footprint.x), length(pixel->footprint.y)}},
                           {"shows", pixel->shown == no_triangle
                                         ? nlohmann::ordered_json(nullptr)
                                         : nlohmann::ordered_json(pixel->shown)}};

@@ -45,11 +45,20 @@ PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
     return cause;
 }
 
+/// Whether a block that continues on the adjacent face of a cube would answer rightly.
+bool seamless_is_right(const LightView& light, const WrongAnswer& wrong) {
+    MapModel model = light.model();
+    if (model.edges == MapEdges::seamless || !crosses_edge(model, wrong.lookup)) return false;
+    model.edges = MapEdges::seamless;
+    return lit_comparisons(light, model, wrong.lookup) == (wrong.claims_light ? 0 : model.asked());
+}
+
 } // namespace
 
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
     if (model.filter > 0) {
+        if (seamless_is_right(light, wrong)) return {Cause::seam, {}};
         const bool own_says_lit =
             !wrong.lookup.in_map ||
             !is_shadowed(model, light.stored(wrong.lookup.texel), wrong.lookup.value);

@@ -18,20 +18,24 @@ struct WrongAnswer {
 /// The cause of a wrong answer: the first of these changes that makes the answer right.
 ///
 /// Where a block of texels is averaged:
+///   seam        beyond its cube's face, the block continues on the adjacent one
 ///   filter      only the texel at the point's own place is asked. Where that texel's answer is
 ///               wrong as well, the changes below are applied to it
+///
 /// Falsely shadowed:
 ///   range       the map reaches the point
-///   precision   the texel holds its exact value
+///   precision   the texel holds its exact value, and nothing is rounded in the comparison
 ///   acne        the ray goes through the point itself, instead of the texel's centre; no caster
 ///               lies on that ray. The texel shows the receiver, or a triangle that shares a corner
 ///               with it
 ///   resolution  the same, and the texel shows another triangle
+///
 /// Falsely lit:
-///   precision   the texel holds its exact value
+///   precision   the texel holds its exact value, and nothing is rounded in the comparison
 ///   resolution  the ray goes through the point itself
-///   leak        there is no bias, nor a slope bias; perhaps this needs the ray through the point,
-///   too open_mesh   both sides of casters are drawn range       the map reaches the occluder
+///   leak        there is no bias, nor a slope bias; perhaps this needs that ray, too
+///   open_mesh   both sides of casters are drawn
+///   range       the map reaches the occluder
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
 
 } // namespace shadowproof

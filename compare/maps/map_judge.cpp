@@ -4,6 +4,7 @@
 #include "compare/driver/setup_error.h"
 #include "compare/driver/shown_pixel.h"
 #include "compare/judge/judge.h"
+#include "compare/maps/footprint.h"
 #include "compare/maps/map_account.h"
 #include "compare/maps/map_cause.h"
 #include "compare/maps/map_claim.h"
@@ -173,15 +174,21 @@ private:
 
     /// How many comparisons find light at the pixel's centre, by the map as it was read back.
     int answer(const Asked& asked) const {
-        return asked.lookup.in_map ? lit_comparisons(light_, asked.lookup) : light_.model().asked();
+        return asked.lookup.in_map ? lit_comparisons(light_, light_.model(), asked.lookup)
+                                   : light_.model().asked();
     }
 
     std::optional<PixelLookup> lookup_at(PixelPlace p) const {
         const Asked asked = asked_at(p);
         if (!asked.asks || !asked.lookup.in_map) return std::nullopt;
         const Texel& texel = asked.lookup.texel;
-        return PixelLookup{asked.lookup, value_of_stored(light_.model(), light_.stored(texel)),
-                           shown_by(texel).triangle, std::max(claimed_lit(claim_, p), 0)};
+        return PixelLookup{.lookup = asked.lookup,
+                           .stored = value_of_stored(light_.model(), light_.stored(texel)),
+                           .shown = shown_by(texel).triangle,
+                           .lit = std::max(claimed_lit(claim_, p), 0),
+                           .width = width_at(light_, texel, asked.lookup.depth),
+                           .footprint = footprint(light_, claim_.traced.scene(), texel,
+                                                  claim_.traced.truth().triangle.at(p.x, p.y))};
     }
 
     void trace_texels() {
@@ -374,6 +381,7 @@ private:
         const std::optional<PossibleLookup> found = find_possible_lookup(light_, point, answers_so);
         if (!found) return false;
         Lookup asked = exact;
+        asked.first = found->lookup.first;
         asked.texel = own_texel(light_.model(), found->lookup, exact.texel);
         cause = cause_of(
             light_, claim_.traced.scene(),

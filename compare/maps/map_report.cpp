@@ -29,6 +29,7 @@ Json settings_of(const MapModel& model, double unit) {
     if (model.filter > 0) {
         json["filter"] = model.filter;
         json["average"] = name_of(model.average);
+        if (model.shape == MapModel::Shape::cube) json["edges"] = name_of(model.edges);
     }
     return json;
 }
@@ -50,11 +51,38 @@ Image<Rgb> texel_picture(const Frame& frame, const std::vector<std::optional<Pix
     return picture;
 }
 
+/// How many pixels a side of a face has in the report.
+int pictured_size(const MapModel& model) {
+    return std::min(model.size, 128);
+}
+
+/// The faces one after the other, in fewer pixels: of the texels of each the one nearest to the
+/// light, as its share of the far plane, 255.
+std::vector<std::uint8_t> pictured_faces(const MapEvidence& map) {
+    const int side = pictured_size(map.model);
+    std::vector<std::uint8_t> pictured;
+    for (const Image<float>& face : map.faces) {
+        Image<float> nearest(side, side, 1.0F);
+        for (int y = 0; y < map.model.size; ++y)
+            for (int x = 0; x < map.model.size; ++x) {
+                float& pixel = nearest.at(x * side / map.model.size, y * side / map.model.size);
+                pixel = std::min(pixel, face.at(x, y));
+            }
+        for (const float stored : nearest.pixels) {
+            const double share = value_of_stored(map.model, stored) / map.model.far;
+            pictured.push_back(
+                static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))));
+        }
+    }
+    return pictured;
+}
+
 class MapReport final : public EvidenceReport {
 public:
-    MapReport(const MapModel& model, std::vector<std::optional<PixelLookup>> at,
+    MapReport(const MapEvidence& map, std::vector<std::optional<PixelLookup>> at,
               const Image<std::uint8_t>& cause, double unit)
-        : header_(Json{{"map", settings_of(model, unit)}}.dump()), at_(std::move(at)) {
+        : header_(Json{{"map", header_of(map.model, unit)}}.dump()), at_(std::move(at)),
+          faces_(pictured_faces(map)) {
         for (std::size_t i = 0; i < at_.size(); ++i) {
             if (cause.pixels[i] == no_difference) continue;
             const PixelLookup pixel = at_[i].value_or(PixelLookup{});
@@ -66,6 +94,9 @@ public:
             own_.push_back(static_cast<float>(pixel.lookup.value * unit));
             shown_.push_back(pixel.shown);
             lit_.push_back(static_cast<std::uint8_t>(pixel.lit));
+            width_.push_back(static_cast<float>(pixel.width * unit));
+            foot_.push_back(static_cast<float>(pixel.footprint.x * unit));
+            foot_.push_back(static_cast<float>(pixel.footprint.y * unit));
         }
     }
 
@@ -78,12 +109,15 @@ public:
         return {{"map_asked", block(asked_)},   {"map_face", block(face_)},
                 {"map_x", block(x_)},           {"map_y", block(y_)},
                 {"map_stored", block(stored_)}, {"map_own", block(own_)},
-                {"map_shown", block(shown_)},   {"map_lit", block(lit_)}};
+                {"map_shown", block(shown_)},   {"map_lit", block(lit_)},
+                {"map_width", block(width_)},   {"map_foot", block(foot_)},
+                {"map_faces", block(faces_)}};
     }
 
 private:
     std::string header_;
     std::vector<std::optional<PixelLookup>> at_;
+    std::vector<std::uint8_t> faces_;
     // One per pixel that differs.
     std::vector<std::uint8_t> asked_;
     std::vector<std::uint8_t> face_;
@@ -93,6 +127,15 @@ private:
     std::vector<float> own_;
     std::vector<std::uint32_t> shown_;
     std::vector<std::uint8_t> lit_; ///< comparisons
+    std::vector<float> width_;
+    std::vector<float> foot_; ///< two each
+
+    static Json header_of(const MapModel& model, double unit) {
+        Json header = settings_of(model, unit);
+        header["faces"] = model.faces();
+        header["pictured"] = pictured_size(model);
+        return header;
+    }
 };
 
 } // namespace
@@ -115,7 +158,7 @@ EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures
 std::shared_ptr<const EvidenceReport> report_map(const MapEvidence& map,
                                                  std::vector<std::optional<PixelLookup>> at,
                                                  const Image<std::uint8_t>& cause, double unit) {
-    return std::make_shared<MapReport>(map.model, std::move(at), cause, unit);
+    return std::make_shared<MapReport>(map, std::move(at), cause, unit);
 }
 
 } // namespace shadowproof

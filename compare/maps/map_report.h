@@ -17,7 +17,9 @@ struct PixelLookup {
     Lookup lookup;
     double stored = 0; ///< in the terms of Lookup::value
     std::uint32_t shown = no_triangle;
-    int lit = 0; ///< comparisons that find light, of MapModel::asked
+    int lit = 0;                ///< comparisons that find light, of MapModel::asked
+    double width = 0;           ///< of the texel's side, where its rays are as deep as the point
+    glm::dvec2 footprint{0, 0}; ///< of the texel on the receiver (footprint.h)
 };
 
 struct MapFigures {

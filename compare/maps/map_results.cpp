@@ -22,6 +22,7 @@ void map(const JsonPlace& place) {
                    {"slope_bias", number, Need::optional},
                    {"filter", size, Need::optional},
                    {"average", text, Need::optional},
+                   {"edges", text, Need::optional},
                    {"ms", milliseconds}});
 }
 

@@ -43,17 +43,18 @@ ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpi
     casters_.meshes = {{.name = "casters",
                         .triangle_count = static_cast<std::uint32_t>(casters_.triangles.size())}};
     reach_ = half_step_;
+    std::vector<CasterBox> boxes;
     for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster) {
         drawn_.push_back(is_drawn(casters_, caster, map.model.culling) ? 1 : 0);
-        Box box{glm::dvec2(map.model.size), glm::dvec2(0)};
+        CasterBox box{caster, glm::dvec2(infinity), glm::dvec2(-infinity)};
         for (const PicturePoint& point : pictured_in_parallel(casters_, camera(0), caster)) {
-            const double reach = point.place_error + 2 * half_step_;
-            box.low = glm::min(box.low, point.place - reach);
-            box.high = glm::max(box.high, point.place + reach);
+            box.low = glm::min(box.low, point.place - point.place_error);
+            box.high = glm::max(box.high, point.place + point.place_error);
             reach_ = std::max(reach_, half_step_ + point.place_error);
         }
-        boxes_.push_back(box);
+        if (box.low.x <= box.high.x) boxes.push_back(box);
     }
+    grid_ = CasterGrid(std::move(boxes), map.model.size);
     if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(casters_, threads);
 }
 
@@ -145,9 +146,6 @@ bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
 
 bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
     const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
-    const Box& box = boxes_[caster];
-    if (place.x < box.low.x || place.y < box.low.y || place.x > box.high.x || place.y > box.high.y)
-        return false;
     const std::vector<PicturePoint> polygon = pictured_in_parallel(casters_, camera(0), caster);
     return may_hold(polygon, place, std::numbers::sqrt2 * half_step_) &&
            (drawn_[caster] != 0 || may_be_flipped(polygon, half_step_));
@@ -191,7 +189,8 @@ LightView::Shown ParallelView::shown_around(const Texel& texel) const {
         farthest = std::max(farthest, hidden_behind);
     }
     if (stored(texel) > farthest) return {};
-    for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster)
+    const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
+    for (const std::uint32_t caster : grid_.around(place, std::numbers::sqrt2 * half_step_))
         if (may_draw(texel, caster) && may_store(texel, caster)) return showing(texel, caster);
     return {};
 }

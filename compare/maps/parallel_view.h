@@ -1,6 +1,7 @@
 // The casters as a light at infinity sees them, which draws its map in parallel projection.
 #pragma once
 
+#include "compare/maps/caster_grid.h"
 #include "compare/maps/light_view.h"
 #include "compare/maps/pictured_caster.h"
 #include "compare/maps/slope_offset.h"
@@ -20,11 +21,6 @@ public:
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
-    /// Around a caster in the picture, in texels, as far as it may be drawn.
-    struct Box {
-        glm::dvec2 low{0, 0};
-        glm::dvec2 high{0, 0};
-    };
     /// A caster's plane at a texel's centre.
     struct Plane {
         double depth = 0;
@@ -35,10 +31,10 @@ private:
     Scene casters_;                       ///< alone
     std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
     std::vector<std::uint8_t> drawn_;     ///< which show a side that is not culled
-    std::vector<Box> boxes_;              ///< one per caster
-    std::unique_ptr<Tracer> tracer_;      ///< null without casters
-    double half_step_ = 0;                ///< of the snapping grid, texels
-    double reach_ = 0;                    ///< how far aside a caster may be drawn, texels
+    CasterGrid grid_;
+    std::unique_ptr<Tracer> tracer_; ///< null without casters
+    double half_step_ = 0;           ///< of the snapping grid, texels
+    double reach_ = 0;               ///< how far aside a caster may be drawn, texels
 
     std::uint32_t caster_of(std::uint32_t triangle) const;
     AnyRay ray_at(double x, double y) const;

@@ -7,7 +7,9 @@
 #include "scenes/driver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -131,6 +133,36 @@ bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel
            stored(texel) <= depth + moved.most + off;
 }
 
+// The depth on a ramp is a component of a vector that is interpolated over the triangle: off by the
+// lateral error of the place, by the interpolation's share of the largest corner's components, and
+// by the roundings of its rotation into the light's axes: an entry, a product and two sums. Its
+// place on the ramp: two differences, a quotient, and the sampler's product with the number of
+// texels.
+bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
+                                     std::uint32_t caster) const {
+    const auto read = static_cast<int>(std::lround(stored(texel) * (ramp_steps - 1)));
+    const auto within = [&](double error_of_inverse, double interpolated) {
+        const double inverse = at.inverse_depth();
+        const double high =
+            inverse > error_of_inverse ? 1 / (inverse - error_of_inverse) : infinity;
+        const double low = 1 / (inverse + error_of_inverse);
+        const glm::dvec3 size = glm::abs(at.direction());
+        const double rotated = 4 * v * (size.x + size.y + size.z) / inverse;
+        const auto step = [&](double depth, double sign) {
+            const double place = place_on_ramp(model(), depth + sign * (rotated + interpolated));
+            return ramp_step(place + sign * 4 * v * std::abs(place));
+        };
+        return read >= step(low, -1) && read <= step(high, +1);
+    };
+    if (within(0, 0)) return true;
+    const Scene& scene = faces_[texel.face];
+    const CoveredPixel pixel{at.direction(), at.lateral(),
+                             drawing_of(scene, depth_model_, model().far)};
+    return within(at.error_of_place(),
+                  std::sqrt(3.0) *
+                      interpolated_place_error(scene, caster, pixel, scene.camera.eye));
+}
+
 // A distance is the length of a vector that is interpolated over the triangle: off by the lateral
 // error of the place, as the plane's depth is, by the interpolation's share of the largest corner's
 // components, and by the roundings of a length, a quotient and the format: 8 v.
@@ -138,6 +170,7 @@ bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const 
     const PlaneAtPixel at = plane(texel, caster);
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
     const double read = stored(texel);
+    if (model().is_ramp()) return may_store_step(at, texel, caster);
     if (model().slope_bias != 0) return may_store_moved(at, texel, caster);
     if (model().value == MapValue::depth) {
         if (at.is_depth(read)) return true;
@@ -187,20 +220,67 @@ bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen
     return !at.has_depth() || std::min(to_near, to_far) <= at.error();
 }
 
+/// What may be left of a caster in a face's picture.
+std::vector<PicturePoint> PerspectiveView::pictured(std::size_t face, std::uint32_t caster) const {
+    const Scene& scene = faces_[face];
+    const Drawing drawing = drawing_of(scene, depth_model_, model().far);
+    std::vector<ViewCorner> corners;
+    for (int k = 0; k < 3; ++k)
+        corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
+    return clipped_polygon(scene.camera, std::move(corners), drawing, PlaneCut::most);
+}
+
+/// Of the casters that a face's picture may show. What lies wholly behind the camera, or beside
+/// twice its picture, is in none.
+const CasterGrid& PerspectiveView::grid(std::size_t face) const {
+    std::call_once(is_made_[face], [&] {
+        const Scene& scene = faces_[face];
+        const double wide = 2 * scene.camera.tan_half_height;
+        std::vector<CasterBox> boxes;
+        for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
+            std::array<glm::dvec3, 3> corners{};
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec3 at = corner(scene, caster, k) - scene.camera.eye;
+                corners[static_cast<std::size_t>(k)] = {glm::dot(at, scene.camera.right),
+                                                        glm::dot(at, scene.camera.up),
+                                                        glm::dot(at, scene.camera.forward)};
+            }
+            const auto all = [&](const auto& is_out) {
+                return std::ranges::all_of(corners, is_out);
+            };
+            if (all([&](const glm::dvec3& c) { return c.z <= 0; }) ||
+                all([&](const glm::dvec3& c) { return c.x > wide * c.z; }) ||
+                all([&](const glm::dvec3& c) { return -c.x > wide * c.z; }) ||
+                all([&](const glm::dvec3& c) { return c.y > wide * c.z; }) ||
+                all([&](const glm::dvec3& c) { return -c.y > wide * c.z; }))
+                continue;
+            const std::vector<PicturePoint> polygon = pictured(face, caster);
+            if (polygon.empty()) continue;
+            CasterBox box{caster, glm::dvec2(infinity), glm::dvec2(-infinity)};
+            for (const PicturePoint& point : polygon) {
+                box.low = glm::min(box.low, point.place - point.place_error);
+                box.high = glm::max(box.high, point.place + point.place_error);
+            }
+            boxes.push_back(box);
+        }
+        grids_[face] = CasterGrid(std::move(boxes), model().size);
+    });
+    return grids_[face];
+}
+
 /// Whether the clipper, which moves the corners that it makes, may have made a triangle cover the
 /// texel's centre.
 bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster,
                                         double reach) const {
     const Scene& scene = faces_[texel.face];
-    const Drawing drawing = drawing_of(scene, depth_model_, model().far);
-    std::vector<ViewCorner> corners;
+    std::array<glm::dvec3, 3> corners{};
     for (int k = 0; k < 3; ++k)
-        corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
-    const auto is_beyond_near = [&](const ViewCorner& c) { return c.at.z > 2 * model().near; };
-    if (std::all_of(corners.begin(), corners.end(), is_beyond_near)) return false;
-    const std::vector<PicturePoint> polygon =
-        clipped_polygon(scene.camera, std::move(corners), drawing, PlaneCut::most);
-    return may_hold(polygon, {texel.x + 0.5, texel.y + 0.5}, reach);
+        corners[static_cast<std::size_t>(k)] = corner(scene, caster, k) - scene.camera.eye;
+    const auto is_beyond_near = [&](const glm::dvec3& c) {
+        return glm::dot(c, scene.camera.forward) > 2 * model().near;
+    };
+    if (std::ranges::all_of(corners, is_beyond_near)) return false;
+    return may_hold(pictured(texel.face, caster), {texel.x + 0.5, texel.y + 0.5}, reach);
 }
 
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what
@@ -236,10 +316,12 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
         return !hidden && may_store(texel, caster);
     };
     const double reach_of_ray = spread(around);
-    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+    const std::vector<std::uint32_t> casters =
+        grid(texel.face).around({texel.x + 0.5, texel.y + 0.5}, reach);
+    for (const std::uint32_t caster : casters)
         if (may_cover(scene, caster, centre, reach_of_ray) && may_show(caster))
             return showing(texel, caster);
-    for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster)
+    for (const std::uint32_t caster : casters)
         if (clipping_may_draw(texel, caster, reach) && may_show(caster))
             return showing(texel, caster);
     return {};

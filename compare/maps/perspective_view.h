@@ -2,9 +2,13 @@
 #pragma once
 
 #include "compare/driver/plane_at_pixel.h"
+#include "compare/maps/caster_grid.h"
 #include "compare/maps/light_view.h"
 #include "compare/maps/slope_offset.h"
 #include "reference/trace/trace.h"
+
+#include <array>
+#include <mutex>
 
 namespace shadowproof {
 
@@ -18,9 +22,11 @@ public:
 
 private:
     DepthModel depth_model_;
-    std::vector<Scene> faces_;            ///< one per face; casters alone
-    std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
-    std::unique_ptr<Tracer> tracer_;      ///< of the first face's scene; null without casters
+    std::vector<Scene> faces_;                ///< one per face; casters alone
+    std::vector<std::uint32_t> of_scene_;     ///< their triangles' indices in the scene
+    std::unique_ptr<Tracer> tracer_;          ///< of the first face's scene; null without casters
+    mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
+    mutable std::array<std::once_flag, 6> is_made_;
 
     PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
     double value(const PlaneAtPixel& plane) const;
@@ -28,7 +34,10 @@ private:
     SlopeOffset offset(const Texel& texel, std::uint32_t caster) const;
     double deepest(const Texel& texel, std::uint32_t caster) const;
     bool may_store_moved(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
+    bool may_store_step(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
+    std::vector<PicturePoint> pictured(std::size_t face, std::uint32_t caster) const;
+    const CasterGrid& grid(std::size_t face) const;
     bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
     bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;

@@ -30,6 +30,7 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
     {0xCC, 0x79, 0xA7}, // acne: reddish purple
     {0x00, 0x9E, 0x73}, // leak: bluish green
     {0xFF, 0xFF, 0xFF}, // range: white
+    {0x9A, 0x6A, 0xE0}, // seam: violet, as maps have no counter
     {0x00, 0x72, 0xB2}, // filter: blue, as maps have no volume that ends
     {0x00, 0x72, 0xB2}, // missed: blue, as traced rays have no volume that ends
     {0xF0, 0xE4, 0x42}, // precision: yellow

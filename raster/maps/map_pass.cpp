@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <glm/gtc/type_ptr.hpp>
 #include <string_view>
 
@@ -21,10 +23,20 @@ GLenum gl_format(MapFormat format) {
         return GL_DEPTH_COMPONENT16;
     case MapFormat::d24:
         return GL_DEPTH_COMPONENT24;
+    case MapFormat::ramp8:
+        return GL_R8;
     case MapFormat::d32f:
         break;
     }
     return GL_DEPTH_COMPONENT32F;
+}
+
+/// The nearest texel; beside the texture that of its border.
+void set_nearest(const GlFunctions& gl, const Texture& texture) {
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 Texture make_texture_of(const GlFunctions& gl, const MapModel& model) {
@@ -37,15 +49,37 @@ Texture make_texture_of(const GlFunctions& gl, const MapModel& model) {
                     "ask for a smaller map");
     Texture texture = make_texture(gl, cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D);
     gl.TextureStorage2D(texture.name(), 1, gl_format(model.format), model.size, model.size);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_nearest(gl, texture);
     return texture;
+}
+
+Texture make_depth(const GlFunctions& gl, const MapModel& model) {
+    Texture depth = make_texture(gl, GL_TEXTURE_2D);
+    gl.TextureStorage2D(depth.name(), 1, GL_DEPTH_COMPONENT24, model.size, model.size);
+    return depth;
+}
+
+/// One row, whose texels hold their own number.
+Texture make_ramp(const GlFunctions& gl) {
+    Texture ramp = make_texture(gl, GL_TEXTURE_2D);
+    std::array<std::uint8_t, ramp_steps> steps{};
+    for (std::size_t step = 0; step < steps.size(); ++step)
+        steps[step] = static_cast<std::uint8_t>(step);
+    gl.TextureStorage2D(ramp.name(), 1, GL_R8, ramp_steps, 1);
+    gl.TextureSubImage2D(ramp.name(), 0, 0, 0, ramp_steps, 1, GL_RED, GL_UNSIGNED_BYTE,
+                         steps.data());
+    set_nearest(gl, ramp);
+    return ramp;
 }
 
 Framebuffer make_face(const GlFunctions& gl, const MapPass& pass, std::size_t face) {
     Framebuffer framebuffer = make_framebuffer(gl);
+    if (pass.model.is_ramp()) {
+        gl.NamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, pass.texture.name(),
+                                   0);
+        gl.NamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, pass.depth.name(), 0);
+        return framebuffer;
+    }
     if (pass.model.shape == MapModel::Shape::cube)
         gl.NamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT,
                                         pass.texture.name(), 0, static_cast<GLint>(face));
@@ -80,6 +114,7 @@ ClipTransform transform_of(const Scene& scene, const MapModel& model, std::size_
 }
 
 std::string_view fragment_of(const MapModel& model) {
+    if (model.is_ramp()) return "map_ramp.frag";
     return model.value == MapValue::distance ? "map_distance.frag" : "map_depth.frag";
 }
 
@@ -109,6 +144,14 @@ std::vector<SurfaceRun> casting_runs(const Scene& scene) {
     return runs;
 }
 
+/// Locations as map_ramp.frag and map_ramp.glsl lay them out.
+void set_ramp(const GlFunctions& gl, const Program& program, const Camera& camera) {
+    gl.ProgramUniform2f(program.name(), 16, static_cast<float>(camera.near),
+                        static_cast<float>(camera.far));
+    const glm::mat3 matrix = map_from_world(camera);
+    gl.ProgramUniformMatrix3fv(program.name(), 18, 1, GL_FALSE, glm::value_ptr(matrix));
+}
+
 void set_culling(const GlFunctions& gl, MapCulling culling) {
     set_enabled(gl, GL_CULL_FACE, culling != MapCulling::none);
     gl.CullFace(culling == MapCulling::front ? GL_FRONT : GL_BACK);
@@ -116,12 +159,21 @@ void set_culling(const GlFunctions& gl, MapCulling culling) {
 
 } // namespace
 
+glm::mat3 map_from_world(const Camera& camera) {
+    return glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
+                                     camera.up / camera.tan_half_height, camera.forward));
+}
+
 MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,
                       const MapModel& model, MapMaking making) {
     MapPass pass{.model = model,
                  .making = making,
                  .texture = make_texture_of(gl, model),
                  .casters = casting_runs(scene)};
+    if (model.is_ramp()) {
+        pass.depth = make_depth(gl, model);
+        pass.ramp = make_ramp(gl);
+    }
     for (std::size_t face = 0; face < model.faces(); ++face)
         pass.faces.push_back(make_face(gl, pass, face));
     if (making == MapMaking::geometry_shader) {
@@ -136,6 +188,7 @@ MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry&
     for (const Program& program : pass.programs) {
         if (model.value == MapValue::distance)
             gl.ProgramUniform1f(program.name(), 6, static_cast<float>(model.far));
+        if (model.is_ramp()) set_ramp(gl, program, map_camera(chosen_light(scene), model, 0));
         // No corner is moved to infinity.
         gl.ProgramUniform1i(program.name(), 5, static_cast<GLint>(geometry.position_count));
     }
@@ -157,10 +210,15 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
     set_enabled(gl, GL_POLYGON_OFFSET_FILL, pass.model.slope_bias != 0);
     gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias), 0);
     gl.BindVertexArray(geometry.vertices.name());
+    gl.BindTextureUnit(3, pass.ramp.name());
     const bool at_once = pass.making == MapMaking::geometry_shader;
     for (std::size_t i = 0; i < pass.programs.size(); ++i) {
         const GLuint framebuffer = at_once ? pass.all.name() : pass.faces[i].name();
         gl.ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &farthest_depth);
+        if (pass.model.is_ramp()) {
+            constexpr std::array<GLfloat, 4> last_step{1, 1, 1, 1};
+            gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, last_step.data());
+        }
         gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         gl.UseProgram(pass.programs[i].name());
         for (const SurfaceRun& run : pass.casters)
@@ -171,6 +229,13 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
     check(gl, "drawing the shadow map");
 }
 
+DepthFormat format_of(const GlFunctions& gl, const MapPass& pass) {
+    if (!pass.model.is_ramp()) return depth_format(gl, pass.texture);
+    DepthFormat format;
+    gl.GetTextureLevelParameteriv(pass.texture.name(), 0, GL_TEXTURE_RED_SIZE, &format.bits);
+    return format;
+}
+
 std::vector<Image<float>> read_map(const GlFunctions& gl, const MapPass& pass) {
     const int size = pass.model.size;
     std::vector<Image<float>> faces;
@@ -178,7 +243,8 @@ std::vector<Image<float>> read_map(const GlFunctions& gl, const MapPass& pass) {
     for (const Framebuffer& face : pass.faces) {
         gl.BindFramebuffer(GL_FRAMEBUFFER, face.name());
         Image<float> bottom_up(size, size);
-        gl.ReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, bottom_up.pixels.data());
+        gl.ReadPixels(0, 0, size, size, pass.model.is_ramp() ? GL_RED : GL_DEPTH_COMPONENT,
+                      GL_FLOAT, bottom_up.pixels.data());
         // OpenGL's rows run from the bottom.
         for (int y = 0; y < size / 2; ++y) {
             const auto row = [&](int from_top) {

@@ -19,26 +19,31 @@ DepthModel eye_depth_model(const Scene& scene) {
 /// Sets how the light pass asks the map.
 void set_test(const GlFunctions& gl, const Program& light, const Scene& scene,
               const MapModel& model) {
-    // Locations as map_test.glsl and map_light_spot.frag lay them out.
+    // Locations as map_test.glsl, map_block.glsl and the shaders of the light pass lay them out.
     gl.ProgramUniform1f(light.name(), 15, static_cast<float>(model.bias));
     gl.ProgramUniform2f(light.name(), 16, static_cast<float>(model.near),
                         static_cast<float>(model.far));
-    gl.ProgramUniform1i(light.name(), 17, model.value == MapValue::distance ? 1 : 0);
-    gl.ProgramUniform1i(light.name(), 23, model.shape == MapModel::Shape::sun ? 1 : 0);
-    if (model.shape == MapModel::Shape::cube) return;
-    const Camera camera = map_camera(chosen_light(scene), model, 0);
-    const glm::mat3 map_from_world(
-        glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
-                                  camera.up / camera.tan_half_height, camera.forward)));
-    gl.ProgramUniformMatrix3fv(light.name(), 18, 1, GL_FALSE, glm::value_ptr(map_from_world));
-    if (model.filter == 0) return;
-    gl.ProgramUniform1i(light.name(), 21, model.filter);
-    gl.ProgramUniform1i(light.name(), 22, model.average == MapAverage::values ? 1 : 0);
+    if (!model.is_ramp()) {
+        gl.ProgramUniform1i(light.name(), 17, model.value == MapValue::distance ? 1 : 0);
+        gl.ProgramUniform1i(light.name(), 23, model.shape == MapModel::Shape::sun ? 1 : 0);
+    }
+    if (model.shape != MapModel::Shape::cube) {
+        const glm::mat3 matrix = map_from_world(map_camera(chosen_light(scene), model, 0));
+        gl.ProgramUniformMatrix3fv(light.name(), 18, 1, GL_FALSE, glm::value_ptr(matrix));
+    }
+    if (model.filter > 0) {
+        gl.ProgramUniform1i(light.name(), 21, model.filter);
+        gl.ProgramUniform1i(light.name(), 22, model.average == MapAverage::values ? 1 : 0);
+        if (model.shape == MapModel::Shape::cube)
+            gl.ProgramUniform1i(light.name(), 24, model.edges == MapEdges::seamless ? 1 : 0);
+    }
 }
 
 std::string_view light_shader(const MapModel& model) {
-    if (model.shape == MapModel::Shape::cube) return "map_light_cube.frag";
+    if (model.shape == MapModel::Shape::cube)
+        return model.filter > 0 ? "map_light_cube_filtered.frag" : "map_light_cube.frag";
     if (model.shape == MapModel::Shape::sun) return "map_light_sun.frag";
+    if (model.is_ramp()) return "map_light_ramp.frag";
     return model.filter > 0 ? "map_light_spot_filtered.frag" : "map_light_spot.frag";
 }
 
@@ -57,7 +62,7 @@ ClipTransform light_transform(const Scene& scene, const DepthModel& depth_model,
 static_assert(static_cast<int>(Visibility::shadowed) + largest_map_filter * largest_map_filter <=
               static_cast<int>(Visibility::lit));
 
-/// The shares of comparisons that say `lit`, whose number map_light_spot_filtered.frag adds to
+/// The shares of comparisons that say `lit`, whose number map_block.glsl adds to
 /// `shadowed`, taken out of the claim.
 Image<double> take_shares(const MapModel& model, Image<Visibility>& claim) {
     Image<double> shares(claim.width, claim.height);
@@ -72,6 +77,26 @@ Image<double> take_shares(const MapModel& model, Image<Visibility>& claim) {
     return shares;
 }
 
+/// Draws the receivers' lit sides that the map shows to be shadowed into the stencil buffer, as 1.
+void draw_into_stencil(const GlFunctions& gl, const Program& shadow, const Target& target,
+                       const Geometry& geometry) {
+    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    gl.DepthMask(GL_FALSE);
+    gl.DepthFunc(GL_EQUAL);
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilMask(~0U);
+    gl.StencilFunc(GL_ALWAYS, 1, ~0U);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    gl.Disable(GL_CULL_FACE);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.light.name());
+    gl.UseProgram(shadow.name());
+    gl.BindTextureUnit(0, target.triangle.name());
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, geometry.lit_side_indices.name());
+    gl.ProgramUniform1ui(shadow.name(), 7, 0);
+    draw_triangles(gl, geometry, geometry.lit_sides, 0, geometry.receivers);
+    check(gl, "drawing a map's shadows into the stencil");
+}
+
 /// What is drawn with, made once.
 struct Frames {
     const GlFunctions& gl;
@@ -80,18 +105,26 @@ struct Frames {
     Geometry geometry;
     MapPass map;
     Program surface;
-    Program light;
+    Program shadow{}; ///< asks the map, where the stencil keeps the answer
+    Program light;    ///< asks the map, or the stencil
+    bool in_stencil = false;
     VisibleDepths visible;
 
-    Frames(Gpu& gpu, const Scene& scene, const MapModel& model, MapMaking making)
+    Frames(Gpu& gpu, const Scene& scene, const MapModel& model, const MapRecipe& recipe)
         : gl(gpu.gl()), depth_model(eye_depth_model(scene)),
           target(make_target(gl, scene.camera, depth_model.floating)),
-          geometry(upload(gl, scene, {})), map(make_map_pass(gl, scene, geometry, model, making)),
-          visible{static_cast<float>(scene.camera.near), static_cast<float>(scene.camera.far)} {
+          geometry(upload(gl, scene, {})),
+          map(make_map_pass(gl, scene, geometry, model, recipe.making)),
+          in_stencil(recipe.in_stencil), visible{static_cast<float>(scene.camera.near),
+                                                 static_cast<float>(scene.camera.far)} {
         surface = link_projection(gl, "surface.frag", clip_transform(scene, depth_model), geometry);
-        light = link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
-                           Between::nothing, light_shader(model));
-        set_test(gl, light, scene, model);
+        const auto link_pass = [&](std::string_view shader) {
+            return link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
+                              Between::nothing, shader);
+        };
+        light = link_pass(in_stencil ? "light.frag" : light_shader(model));
+        if (in_stencil) shadow = link_pass("map_stencil_spot.frag");
+        set_test(gl, in_stencil ? shadow : light, scene, model);
         check(gl, "making the passes");
     }
 
@@ -102,8 +135,10 @@ struct Frames {
         draw_surface(gl, surface, target, geometry, depth_model, visible, 0);
         clock.end("surface");
         gl.BindTextureUnit(2, map.texture.name());
-        draw_light(gl, light, target, geometry, Counter::none);
+        if (in_stencil) draw_into_stencil(gl, shadow, target, geometry);
+        draw_light(gl, light, target, geometry, in_stencil ? Counter::stencil : Counter::none);
         gl.BindTextureUnit(2, 0);
+        gl.BindTextureUnit(3, 0);
         clock.end("classes");
     }
 };
@@ -112,7 +147,7 @@ struct Frames {
 
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
     const MapModel model = with_settings(recipe.model, plan.asked.map, scene);
-    Frames frames(gpu, scene, model, recipe.making);
+    Frames frames(gpu, scene, model, recipe);
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
     compile_all(gl, draw);
@@ -121,7 +156,7 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     frame.family = "map";
     frame.mapped = MapEvidence{.model = model,
                                .faces = read_map(gl, frames.map),
-                               .format = depth_format(gl, frames.map.texture),
+                               .format = format_of(gl, frames.map),
                                .map_milliseconds = time.stages.front().milliseconds};
     if (model.filter > 0) frame.share = take_shares(model, frame.claim);
     frame.depth_model = frames.depth_model;

@@ -8,6 +8,8 @@
 #include "scenes/plan/plan.h"
 #include "scenes/scene.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <string_view>
 #include <vector>
 
@@ -17,6 +19,9 @@ namespace shadowproof {
 struct MapRecipe {
     MapModel model; ///< where the user asked for nothing else (with_settings)
     MapMaking making = MapMaking::pass_per_face;
+    /// What the map shows to be shadowed is drawn into the stencil buffer first, from which the
+    /// light pass reads it. Spots alone.
+    bool in_stencil = false;
 };
 
 /// A spot's map as in the source documents: window depths of 24 bits.
@@ -27,6 +32,11 @@ inline MapModel spot_model() {
 /// A sun's map likewise; the format of whole numbers suits depths that are linear.
 inline MapModel sun_model() {
     return {.shape = MapModel::Shape::sun, .value = MapValue::depth, .format = MapFormat::d24};
+}
+
+/// Two textures, and nothing but bytes: the casters' depths as steps of a ramp.
+inline MapModel ramp_model() {
+    return {.shape = MapModel::Shape::spot, .value = MapValue::depth, .format = MapFormat::ramp8};
 }
 
 /// What all of them are known to fail at: Technique::fails_at and by_nature. Open casters matter
@@ -44,11 +54,26 @@ inline std::vector<std::string_view> map_settings() {
     return {"map-size",    "map-bias", "map-value", "map-format",
             "map-culling", "map-near", "map-far"};
 }
+/// Those without these names.
+inline std::vector<std::string_view> without(std::vector<std::string_view> settings,
+                                             std::initializer_list<std::string_view> names) {
+    std::erase_if(settings, [&](std::string_view each) {
+        return std::ranges::find(names, each) != names.end();
+    });
+    return settings;
+}
 /// Those of maps that hold depths unless the user asks otherwise.
 inline std::vector<std::string_view> depth_map_settings() {
     std::vector<std::string_view> settings = map_settings();
     settings.emplace_back("map-slope-bias");
     return settings;
+}
+
+/// What techniques that average over a block have besides.
+template <class T>
+std::vector<T> joined(std::vector<T> list, std::initializer_list<T> more) {
+    list.insert(list.end(), more);
+    return list;
 }
 
 /// Draws the scene's surfaces as zfail_reversed does, and looks up the map in the light pass. Draws

@@ -1,17 +1,11 @@
-// Each claim of the documents about bump mapping as a section of Markdown: what is claimed, what is
-// measured, and whether it holds.
+// What the documents claim of bump mapping.
 #pragma once
 
-#include <string>
+#include "tests/claims/section.h"
+
 #include <vector>
 
 namespace shadowproof::claims {
-
-struct Section {
-    std::string title;
-    std::string text;   ///< Markdown, the same in every run
-    std::string timing; ///< Markdown, another in every run; may be empty
-};
 
 std::vector<Section> bump_claims();
 

@@ -82,6 +82,9 @@ std::span<const SweptSetting> swept_settings() {
             "map-average", names_of(all_map_averages),
             [](const Frame& f, double) { return std::string(name_of(f.mapped->model.average)); }},
         SweptSetting{
+            "map-edges", names_of(all_map_edges),
+            [](const Frame& f, double) { return std::string(name_of(f.mapped->model.edges)); }},
+        SweptSetting{
             "ray-epsilon",
             {"0", "1e-6", "1e-5", "1e-4", "0.001", "0.01", "0.1"},
             [](const Frame& f, double unit) { return length(f.rays->model.distance, unit); }},

@@ -1,9 +1,7 @@
 #include "raster/maps/map_shadows.h"
 #include "raster/technique.h"
 
-#include <initializer_list>
 #include <string_view>
-#include <vector>
 
 namespace shadowproof {
 
@@ -15,12 +13,6 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     MapModel model = spot_model();
     model.filter = 4;
     return draw_map_shadows(gpu, scene, plan, {.model = model});
-}
-
-template <class T>
-std::vector<T> joined(std::vector<T> list, std::initializer_list<T> more) {
-    list.insert(list.end(), more);
-    return list;
 }
 
 } // namespace

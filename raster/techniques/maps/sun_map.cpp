@@ -1,8 +1,6 @@
 #include "raster/maps/map_shadows.h"
 #include "raster/technique.h"
 
-#include <algorithm>
-
 namespace shadowproof {
 
 namespace {
@@ -11,13 +9,6 @@ namespace {
 /// casts or receives.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     return draw_map_shadows(gpu, scene, plan, {.model = sun_model()});
-}
-
-/// Nothing has a distance from a light at infinity.
-std::vector<std::string_view> settings_without_value() {
-    std::vector<std::string_view> settings = depth_map_settings();
-    std::erase(settings, "map-value");
-    return settings;
 }
 
 } // namespace
@@ -31,7 +22,8 @@ Technique sun_map_technique() {
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::directional},
-            .settings = settings_without_value(),
+            .settings =
+                without(depth_map_settings(), {"map-value"}), // nothing has a distance from it
             .run = run};
 }
 

@@ -5,6 +5,11 @@ const test = 'raster/glsl/maps/map_test.glsl';
 const cube = 'raster/glsl/maps/map_light_cube.frag';
 const spot = 'raster/glsl/maps/map_light_spot.frag';
 const filtered = 'raster/glsl/maps/map_light_spot_filtered.frag';
+const filteredCube = 'raster/glsl/maps/map_light_cube_filtered.frag';
+const block = 'raster/glsl/maps/map_block.glsl';
+const ramp = 'raster/glsl/maps/map_light_ramp.frag';
+const rampDrawn = { file: 'raster/glsl/maps/map_ramp.frag', right: 'step_at((map_from_world * surface.from_light).z)' };
+const inStencil = 'raster/glsl/maps/map_stencil_spot.frag';
 const camera = (change) => ({ file: pass, right: 'seen_from_light.camera = map_camera(chosen_light(scene), model, face);', wrong: `seen_from_light.camera = map_camera(chosen_light(scene), model, face); Camera& c = seen_from_light.camera; ${change};` });
 const asked = (wrong) => ({ file: cube, right: 'texture(map, surface.from_light).r', wrong });
 const placed = (wrong) => ({ file: spot, right: 'vec3(0.5 * (place.xy + place.z), place.z)', wrong });
@@ -71,14 +76,45 @@ export const faults = [
   { name: 'map_asked_of_all', file: cube, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed', why: 'Every bundled mesh receives.' },
   // The filter.
   ...[
-    ['block_a_texel_aside', 'floor(texel - 0.5 * float(side - 1))', 'floor(texel - 0.5 * float(side + 1))'],
-    ['block_half_a_texel_aside', 'floor(texel - 0.5 * float(side - 1))', 'floor(texel - 0.5 * float(side))'],
+    ['block_a_texel_aside', 'floor(place - 0.5 * float(side - 1))', 'floor(place - 0.5 * float(side + 1))'],
+    ['block_half_a_texel_aside', 'floor(place - 0.5 * float(side - 1))', 'floor(place - 0.5 * float(side))'],
     ['block_of_a_row_less', 'int y = 0; y < side; ++y', 'int y = 1; y < side; ++y'],
-    ['block_not_clamped', 'clamp(first + ivec2(x, y), 0, size - 1)', '(first + ivec2(x, y)) % size'],
-    ['block_of_one_texel', 'clamp(first + ivec2(x, y), 0, size - 1)', 'clamp(first, 0, size - 1)'],
-    ['share_of_shadow', 'if (!is_shadowed(stored, place.z)) ++lit;', 'if (is_shadowed(stored, place.z)) ++lit;'],
-    ['share_one_too_high', 'if (lit < all) claim = float(64 + lit) / 255;', 'if (lit < all - 1) claim = float(65 + lit) / 255;'],
+    ['block_of_one_texel', 'stored_at(first + ivec2(x, y))', 'stored_at(first)'],
+    ['share_of_shadow', 'if (!is_shadowed(stored, depth)) ++lit;', 'if (is_shadowed(stored, depth)) ++lit;'],
+    ['share_one_too_high', 'float(64 + lit) / 255', '(lit < all - 1 ? float(65 + lit) / 255 : 1)'],
     ['share_rounded_to_all_or_none', 'if (lit == 0) discard;', 'if (2 * lit < all) discard; lit = all;'],
     ['values_averaged_instead', 'if (averages_values) lit', 'if (true) lit'],
-  ].map(([name, right, wrong]) => ({ name: `pcf_${name}`, file: filtered, right, wrong, techniques: 'spot_map_pcf' })),
+  ].map(([name, right, wrong]) => ({ name: `pcf_${name}`, file: block, right, wrong, techniques: 'spot_map_pcf,cube_map_pcf' })),
+  { name: 'pcf_block_not_clamped', file: filtered, right: 'clamp(texel, 0, textureSize(map, 0).x - 1)', wrong: 'texel % textureSize(map, 0).x', techniques: 'spot_map_pcf' },
+  ...[
+    ['block_seamless', 'if (!seamless) along = clamp(along, -most, most);', ''],
+    ['block_upside_down', '0.5 * (place.xy + 1)', '0.5 * (1 - place.xy)'],
+    ['block_a_16th_of_a_texel_aside', '0.5 * (place.xy + 1)', '0.5 * (place.xy + 1 + 0.125 / textureSize(map, 0).x)'],
+    ['face_mirrored', 'vec3(towards * major, -t, -towards * s)', 'vec3(towards * major, -t, towards * s)'],
+    ['face_upside_down', 'vec3(s, towards * major, towards * t)', 'vec3(s, towards * major, -towards * t)'],
+    ['opposite_face', 'face = int(place.z);', 'face = int(place.z) ^ 1;'],
+  ].map(([name, right, wrong]) => ({ name: `cube_pcf_${name}`, file: filteredCube, right, wrong, techniques: 'cube_map_pcf' })),
+  // A ramp in place of depths.
+  ...[
+    { name: 'not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, last_step.data());', wrong: '' },
+    { name: 'of_seven_bits', file: pass, right: 'steps[step] = static_cast<std::uint8_t>(step);', wrong: 'steps[step] = static_cast<std::uint8_t>(step & 0xfeU);' },
+    { name: 'a_step_aside', file: pass, right: 'steps[step] = static_cast<std::uint8_t>(step);', wrong: 'steps[step] = static_cast<std::uint8_t>(step > 0 ? step - 1 : 0);', why: 'Both the map and the point are a step lower, but for the first, in which nothing lies: it is before the near plane.' },
+    { name: 'of_window_depths', ...rampDrawn, wrong: 'gl_FragCoord.z' },
+    { name: 'of_distances', ...rampDrawn, wrong: 'step_at(length(surface.from_light))' },
+    { name: 'a_hundredth_off', ...rampDrawn, wrong: 'step_at(1.01 * (map_from_world * surface.from_light).z)' },
+    { name: 'compared_without_bias', file: ramp, right: 'step_at(place.z - bias)', wrong: 'step_at(place.z)' },
+    { name: 'compared_a_step_later', file: ramp, right: 'steps_behind > 0.5', wrong: 'steps_behind > 1.5' },
+    { name: 'compared_a_step_earlier', file: ramp, right: 'steps_behind > 0.5', wrong: 'steps_behind > -0.5' },
+    { name: 'compared_the_other_way', file: ramp, right: 'steps_behind > 0.5', wrong: 'steps_behind < -0.5' },
+    { name: 'asked_without_division', file: ramp, right: 'textureProj(map, projected).r', wrong: 'texture(map, projected.xy).r' },
+  ].map((fault) => ({ ...fault, name: `ramp_${fault.name}`, techniques: 'spot_map_dual_texture' })),
+  // The answers, kept in the stencil.
+  ...[
+    { name: 'of_what_is_lit', file: inStencil, right: 'if (!is_shadowed(', wrong: 'if (is_shadowed(' },
+    { name: 'not_written', file: shadows, right: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);', wrong: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);' },
+    { name: 'written_as_zero', file: shadows, right: 'gl.StencilFunc(GL_ALWAYS, 1, ~0U);', wrong: 'gl.StencilFunc(GL_ALWAYS, 0, ~0U);' },
+    { name: 'masked', file: shadows, right: 'gl.StencilMask(~0U);', wrong: 'gl.StencilMask(0);' },
+    { name: 'not_asked', file: shadows, right: 'in_stencil ? Counter::stencil : Counter::none', wrong: 'Counter::none' },
+    { name: 'of_all_depths', file: shadows, right: 'gl.DepthFunc(GL_EQUAL);', wrong: 'gl.DepthFunc(GL_ALWAYS);', why: 'The shader asks for the triangle that is seen.' },
+  ].map((fault) => ({ ...fault, name: `map_stencil_${fault.name}`, techniques: 'spot_map_stencil' })),
 ].map((fault) => ({ kind: 'map', ...fault }));
