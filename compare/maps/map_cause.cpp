@@ -32,9 +32,7 @@ PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
     const double own = wrong.lookup.value;
     if (wrong.lookup.in_map && wrong.shown.moved + model.bias < own) return {Cause::precision, {}};
-    const FromLight met = wrong.lookup.in_map
-                              ? light.trace_to(wrong.lookup.texel.face, wrong.from_light)
-                              : FromLight{no_triangle, 0};
+    const FromLight met = met_on_the_way(light, wrong.lookup, wrong.from_light);
     if (met.triangle == no_triangle || met.triangle == wrong.receiver)
         return {model.culling != MapCulling::none ? Cause::open_mesh : Cause::range, {}};
     const double met_value =
@@ -54,6 +52,18 @@ bool seamless_is_right(const LightView& light, const WrongAnswer& wrong) {
 }
 
 } // namespace
+
+FromLight met_on_the_way(const LightView& light, const Lookup& lookup,
+                         const glm::dvec3& from_light) {
+    return lookup.in_map ? light.trace_to(lookup.texel.face, from_light)
+                         : FromLight{no_triangle, 0};
+}
+
+bool light_reaches(const LightView& light, const Lookup& lookup, const glm::dvec3& from_light,
+                   std::uint32_t receiver) {
+    const FromLight met = met_on_the_way(light, lookup, from_light);
+    return met.triangle == no_triangle || met.triangle == receiver || met.depth >= lookup.depth;
+}
 
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
     const MapModel& model = light.model();

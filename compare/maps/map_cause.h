@@ -38,4 +38,12 @@ struct WrongAnswer {
 ///   range       the map reaches the occluder
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
 
+/// What the ray from the light through the point meets first; nothing where no map looks there.
+FromLight met_on_the_way(const LightView& light, const Lookup& lookup,
+                         const glm::dvec3& from_light);
+
+/// Whether the light reaches the point of the receiver that was looked up.
+bool light_reaches(const LightView& light, const Lookup& lookup, const glm::dvec3& from_light,
+                   std::uint32_t receiver);
+
 } // namespace shadowproof

@@ -380,12 +380,15 @@ private:
         };
         const std::optional<PossibleLookup> found = find_possible_lookup(light_, point, answers_so);
         if (!found) return false;
+        // The drawn surface may be lit where the true one is not.
+        const bool falsely_lit = !light_reaches(light_, exact, point.from_light, drawn);
+        if (claim != Visibility::partly_lit && falsely_lit != (claim == Visibility::lit))
+            return true;
         Lookup asked = exact;
         asked.first = found->lookup.first;
         asked.texel = own_texel(light_.model(), found->lookup, exact.texel);
-        cause = cause_of(
-            light_, claim_.traced.scene(),
-            {drawn, point.from_light, asked, shown_by(asked.texel), claims_light(claim_, p)});
+        cause = cause_of(light_, claim_.traced.scene(),
+                         {drawn, point.from_light, asked, shown_by(asked.texel), falsely_lit});
         return true;
     }
 };

@@ -5,7 +5,10 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -58,18 +61,39 @@ private:
         return function;
     }
 
-    /// The display is shared by all its users, so it is never terminated.
+    /// The display is shared by all its users, so it is never terminated. Mesa has one without a
+    /// surface; a driver that has none of those is asked for its devices.
     void open_display() {
-        const char* const extensions =
+        const char* const listed =
             call<PFNEGLQUERYSTRINGPROC>("eglQueryString")(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-        if (!extensions || std::string_view(extensions).find("EGL_MESA_platform_surfaceless") ==
-                               std::string_view::npos)
-            fail("EGL_MESA_platform_surfaceless is not among its extensions");
-        display = call<PFNEGLGETPLATFORMDISPLAYPROC>("eglGetPlatformDisplay")(
-            EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display == EGL_NO_DISPLAY ||
-            !call<PFNEGLINITIALIZEPROC>("eglInitialize")(display, nullptr, nullptr))
-            fail("the surfaceless display cannot be opened");
+        const std::string_view extensions = listed ? listed : "";
+        const auto has = [&](const char* name) {
+            return extensions.find(name) != std::string_view::npos;
+        };
+        if (has("EGL_MESA_platform_surfaceless") &&
+            opens(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY))
+            return;
+        if (has("EGL_EXT_platform_device") && open_device()) return;
+        fail("no display can be opened, neither without a surface nor of a device");
+    }
+
+    bool opens(EGLenum platform, void* native) {
+        display =
+            call<PFNEGLGETPLATFORMDISPLAYPROC>("eglGetPlatformDisplay")(platform, native, nullptr);
+        return display != EGL_NO_DISPLAY &&
+               call<PFNEGLINITIALIZEPROC>("eglInitialize")(display, nullptr, nullptr);
+    }
+
+    /// The first one that can be used (EGL_EXT_device_enumeration).
+    bool open_device() {
+        std::array<EGLDeviceEXT, 16> devices{};
+        EGLint count = 0;
+        if (!call<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT")(
+                static_cast<EGLint>(devices.size()), devices.data(), &count))
+            return false;
+        const std::span found = std::span(devices).first(static_cast<std::size_t>(count));
+        return std::ranges::any_of(
+            found, [&](EGLDeviceEXT device) { return opens(EGL_PLATFORM_DEVICE_EXT, device); });
     }
 
     void create_context() {

@@ -21,7 +21,7 @@ Technique cube_map_pcf_technique() {
             .source = "Percentage-closer filtering: Reeves et al. 1987; of a cube map: "
                       "omni-directional shadows with geometry shaders",
             .needs = "a light with a position",
-            .cost = 1.5,
+            .cost = 3.2,
             .fails_at = joined(map_failings(), {Cause::filter, Cause::seam}),
             .by_nature = joined(map_failings_by_nature(), {Cause::filter, Cause::seam}),
             .lights = {Light::Kind::point, Light::Kind::spot},

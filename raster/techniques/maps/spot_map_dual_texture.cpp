@@ -18,7 +18,7 @@ Technique spot_map_dual_texture_technique() {
             .summary = "a spot light's map of 8-bit depths, compared by a second texture",
             .source = "Heidrich 1999; Kilgard 2001, shadow mapping with dual-texturing hardware",
             .needs = "a spot light with a cone narrower than 86 degrees to each side",
-            .cost = 2.4,
+            .cost = 3.4,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},

@@ -18,7 +18,7 @@ Technique spot_map_stencil_technique() {
             .summary = "a spot light's map of depths, whose answers the stencil buffer keeps",
             .source = "CS448 lecture 11, shadow map algorithm, step 4: set stencil",
             .needs = "a spot light with a cone narrower than 86 degrees to each side",
-            .cost = 2.4,
+            .cost = 4.4,
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},
