@@ -92,13 +92,13 @@ export const faults = [
     ['block_a_16th_of_a_texel_aside', '0.5 * (place.xy + 1)', '0.5 * (place.xy + 1 + 0.125 / textureSize(map, 0).x)'],
     ['face_mirrored', 'vec3(towards * major, -t, -towards * s)', 'vec3(towards * major, -t, towards * s)'],
     ['face_upside_down', 'vec3(s, towards * major, towards * t)', 'vec3(s, towards * major, -towards * t)'],
-    ['opposite_face', 'face = int(place.z);', 'face = int(place.z) ^ 1;'],
+    ['opposite_face', '(face & 1) == 0 ? 1 : -1', '(face & 1) == 0 ? -1 : 1'],
   ].map(([name, right, wrong]) => ({ name: `cube_pcf_${name}`, file: filteredCube, right, wrong, techniques: 'cube_map_pcf' })),
   // A ramp in place of depths.
   ...[
     { name: 'not_cleared', file: pass, right: 'gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, last_step.data());', wrong: '' },
     { name: 'of_seven_bits', file: pass, right: 'steps[step] = static_cast<std::uint8_t>(step);', wrong: 'steps[step] = static_cast<std::uint8_t>(step & 0xfeU);' },
-    { name: 'a_step_aside', file: pass, right: 'steps[step] = static_cast<std::uint8_t>(step);', wrong: 'steps[step] = static_cast<std::uint8_t>(step > 0 ? step - 1 : 0);', why: 'Both the map and the point are a step lower, but for the first, in which nothing lies: it is before the near plane.' },
+    { name: 'a_step_aside', file: pass, right: 'steps[step] = static_cast<std::uint8_t>(step);', wrong: 'steps[step] = static_cast<std::uint8_t>(step > 0 ? step - 1 : 0);' },
     { name: 'of_window_depths', ...rampDrawn, wrong: 'gl_FragCoord.z' },
     { name: 'of_distances', ...rampDrawn, wrong: 'step_at(length(surface.from_light))' },
     { name: 'a_hundredth_off', ...rampDrawn, wrong: 'step_at(1.01 * (map_from_world * surface.from_light).z)' },
