@@ -2,6 +2,8 @@
 // the bumps are stored.
 #pragma once
 
+#include "scenes/byte_blending.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -91,6 +93,7 @@ struct ColorModel {
     bool reflects = false;                 ///< the scene's environment
     int cube_size = usual_cube_size;       ///< of Normalisation::cube_map
     int newton_steps = usual_newton_steps; ///< of Normalisation::newton_raphson
+    ByteErrors bytes = llvmpipe_bytes;     ///< taken from the driver
 };
 
 /// A technique's own model, except for what the user asked for.

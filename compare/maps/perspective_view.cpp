@@ -306,23 +306,35 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
                                                       : deepest(texel, seen.triangle));
         farthest = std::max(farthest, clipped ? infinity : seen.depth);
     }
-    const auto may_show = [&](std::uint32_t caster) {
-        const PlaneAtPixel at = plane(texel, caster);
+    const auto may_show = [&](std::uint32_t caster, double nearest) {
         if (model().slope_bias != 0)
             return stored(texel) <= deepest_seen && may_store(texel, caster);
-        // Distances are compared as they are stored, so that window depth's roundings do not count.
-        const double error = model().value == MapValue::depth ? at.error() : at.error_of_place();
-        const bool hidden = (at.inverse_depth() + error) * farthest * (1 + 0x1p-16) < 1;
+        const bool hidden = nearest * farthest * (1 + 0x1p-16) < 1;
         return !hidden && may_store(texel, caster);
+    };
+    // As an inverse depth. Distances are compared as they are stored, so that window depth's
+    // roundings do not count.
+    const auto nearest_at_texel = [&](std::uint32_t caster) {
+        const PlaneAtPixel at = plane(texel, caster);
+        return at.inverse_depth() +
+               (model().value == MapValue::depth ? at.error() : at.error_of_place());
+    };
+    // What clipping draws beside the caster's plane is no nearer than its nearest corner.
+    const auto nearest_corner = [&](std::uint32_t caster) {
+        double nearest = 0;
+        for (const PicturePoint& point : pictured(texel.face, caster))
+            nearest = std::max(nearest, point.inverse_depth);
+        return nearest;
     };
     const double reach_of_ray = spread(around);
     const std::vector<std::uint32_t> casters =
         grid(texel.face).around({texel.x + 0.5, texel.y + 0.5}, reach);
     for (const std::uint32_t caster : casters)
-        if (may_cover(scene, caster, centre, reach_of_ray) && may_show(caster))
+        if (may_cover(scene, caster, centre, reach_of_ray) &&
+            may_show(caster, nearest_at_texel(caster)))
             return showing(texel, caster);
     for (const std::uint32_t caster : casters)
-        if (clipping_may_draw(texel, caster, reach) && may_show(caster))
+        if (clipping_may_draw(texel, caster, reach) && may_show(caster, nearest_corner(caster)))
             return showing(texel, caster);
     return {};
 }

@@ -49,13 +49,15 @@ DriverInfo ask_driver(const GlFunctions& gl) {
     return info;
 }
 
+bool draws_with(const DriverInfo& driver, std::string_view name) {
+    return driver.renderer.find(name) != std::string::npos;
+}
+
 /// Softpipe snaps vertices to 1/16 of a pixel: its error band would hide real defects. OSMesa is
 /// used because its llvmpipe draws the same pixels everywhere, so there it must be llvmpipe.
 void refuse_others(const DriverInfo& driver, GlPlatform platform) {
-    const auto named = [&](const char* name) {
-        return driver.renderer.find(name) != std::string::npos;
-    };
-    if (named("softpipe") || (platform == GlPlatform::osmesa && !named("llvmpipe")))
+    if (draws_with(driver, "softpipe") ||
+        (platform == GlPlatform::osmesa && !draws_with(driver, "llvmpipe")))
         throw Error("OpenGL", "the renderer is '" + driver.renderer + "', not llvmpipe",
                     "unset GALLIUM_DRIVER and install a Mesa with LLVM");
 }
@@ -86,6 +88,10 @@ const GlFunctions& Gpu::gl() const {
 
 const DriverInfo& Gpu::driver() const {
     return context_->driver;
+}
+
+ByteErrors Gpu::byte_errors() const {
+    return draws_with(driver(), "llvmpipe") ? llvmpipe_bytes : hardware_bytes;
 }
 
 bool Gpu::has_extension(std::string_view name) const {

@@ -1,6 +1,7 @@
 // An OpenGL 4.5 core context without a window: OSMesa, or surfaceless EGL.
 #pragma once
 
+#include "scenes/byte_blending.h"
 #include "scenes/frame.h"
 
 #include <memory>
@@ -42,6 +43,9 @@ public:
     /// Whether an extension's name is listed. Function pointers prove nothing: Mesa returns some
     /// for extensions that it does not have.
     bool has_extension(std::string_view name) const;
+
+    /// How far off the bytes are that it writes into colour buffers.
+    ByteErrors byte_errors() const;
 
 private:
     struct Context;

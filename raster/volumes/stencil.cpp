@@ -313,6 +313,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     if (recipe.lighting) {
         frame.color = read_color(gl, frames.target);
         frame.color_model = recipe.lighting->model;
+        frame.color_model.bytes = gpu.byte_errors();
     }
     frame.family = "stencil";
     frame.counted->counting = recipe.counting;

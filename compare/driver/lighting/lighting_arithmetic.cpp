@@ -1,6 +1,5 @@
 #include "compare/driver/lighting/lighting_arithmetic.h"
 
-#include "scenes/byte_blending.h"
 #include "scenes/driver.h"
 
 #include <cassert>
@@ -15,9 +14,9 @@ constexpr double v = float_roundoff;
 
 /// How values kept in 8 bits are rounded.
 enum class Steps : std::uint8_t {
-    none,        ///< not at all
-    nearest,     ///< to the nearest of 255 steps
-    within_half, ///< to anything that is no further away
+    none,    ///< not at all
+    nearest, ///< to the nearest of 255 steps
+    within,  ///< to anything that is no further off than they may be
 };
 
 /// Which of the technique's differences from the truth are applied.
@@ -25,6 +24,7 @@ struct Ways {
     Steps steps = Steps::none;
     bool light_dims_highlight = false; ///< the highlight is multiplied by selfShadow(L)
     bool clamps_early = false;         ///< colours and registers before the last are clamped
+    ByteErrors bytes = llvmpipe_bytes; ///< of the colour buffer
 };
 
 /// `error`: how many steps a kept value may be off; half a step for the nearest.
@@ -35,7 +35,7 @@ Interval kept(const Interval& a, Steps steps, double error = 0.5) {
         return a;
     case Steps::nearest:
         return {std::ceil(255 * a.low - error) / 255, std::floor(255 * a.high + error) / 255};
-    case Steps::within_half:
+    case Steps::within:
         break;
     }
     return widened(a, error / 255);
@@ -90,20 +90,28 @@ Intervals in_floats(const LightingInputs& in, const Ways& ways) {
 /// Three passes over a frame buffer of 8 bits (raster/techniques/bump_three_pass.cpp).
 Intervals in_passes(const LightingInputs& in, const Ways& ways) {
     const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
-    const auto stored = [&](const Interval& a, double error = overwriting_error) {
+    const ByteErrors& bytes = ways.bytes;
+    const auto stored = [&](const Interval& a, double error) {
         return kept(cut(a, ways, 0, 1), ways.steps, error);
+    };
+    const auto about_to_blend = [&](const Interval& a) {
+        const bool any = !bytes.rounds_before_blending && ways.steps == Steps::nearest;
+        const Interval sent = cut(a, ways, 0, 1);
+        return kept(sent, any ? Steps::within : ways.steps, bytes.overwriting);
     };
     Intervals color;
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
-        const Interval light = stored(around(in.ambient[c]) + in.radiance[k] * terms.diffuse);
-        Interval sum = stored(light * stored(in.decal[k]), multiplying_error);
-        // Sums of two bytes are bytes, but for a float's rounding.
-        if (in.lit)
-            sum = cut(widened(sum + stored(rounded(in.specular[c] * in.radiance[k] *
-                                                   terms.specular * in.gloss)),
-                              adding_error / 255),
-                      ways, 0, 1);
+        const Interval light =
+            stored(around(in.ambient[c]) + in.radiance[k] * terms.diffuse, bytes.overwriting);
+        Interval sum = stored(light * about_to_blend(in.decal[k]), bytes.multiplying);
+        if (in.lit) {
+            sum = sum + about_to_blend(
+                            rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss));
+            // Sums of two bytes are bytes, but for a float's rounding.
+            sum = bytes.rounds_before_blending ? cut(widened(sum, bytes.adding / 255), ways, 0, 1)
+                                               : stored(sum, bytes.adding);
+        }
         color[k] = clamped(sum, 0, 1);
     }
     return color;
@@ -157,7 +165,8 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
         const Interval decal = byte(in.decal[k]);
         if (!in.lit) {
             color[k] = clamped(
-                kept(around(in.ambient[c]) * in.decal[k], ways.steps, overwriting_error), 0, 1);
+                kept(around(in.ambient[c]) * in.decal[k], ways.steps, ways.bytes.overwriting), 0,
+                1);
             continue;
         }
         const Interval primary = q(decal * q(in.radiance[k]));
@@ -187,11 +196,13 @@ Intervals color_of(ColorModel::Arithmetic arithmetic, const LightingInputs& in, 
     return in_floats(in, ways);
 }
 
-Ways ways_of(ColorModel::Arithmetic arithmetic) {
+Ways ways_of(const ColorModel& model) {
+    const ColorModel::Arithmetic arithmetic = model.arithmetic;
     if (arithmetic == ColorModel::Arithmetic::floating) return {};
     return {.steps = Steps::nearest,
             .light_dims_highlight = arithmetic == ColorModel::Arithmetic::combiners,
-            .clamps_early = true};
+            .clamps_early = true,
+            .bytes = model.bytes};
 }
 
 } // namespace
@@ -217,7 +228,7 @@ std::string_view name_of(ColorTerm term) {
 }
 
 Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed) {
-    Intervals color = color_of(model.arithmetic, claimed, ways_of(model.arithmetic));
+    Intervals color = color_of(model.arithmetic, claimed, ways_of(model));
     for (Interval& channel : color) channel = widened(channel, v); // a claim is read as floats
     return color;
 }
@@ -225,7 +236,7 @@ Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed
 Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
     const bool floating = model.arithmetic == ColorModel::Arithmetic::floating;
     return color_of(model.arithmetic, budgeted,
-                    {.steps = floating ? Steps::none : Steps::within_half});
+                    {.steps = floating ? Steps::none : Steps::within, .bytes = model.bytes});
 }
 
 bool is_exact(const ColorModel& model) {
@@ -236,7 +247,7 @@ bool is_exact(const ColorModel& model) {
 ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
                       const LightingInputs& claimed, const LightingInputs& freed) {
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
-    const Ways own = ways_of(arithmetic);
+    const Ways own = ways_of(model);
     const glm::dvec3 right = middle(color_of(arithmetic, truth, {}));
     ColorTerms weights{};
     const auto weigh = [&](ColorTerm term, const LightingInputs& inputs, const Ways& ways) {

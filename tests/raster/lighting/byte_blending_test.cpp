@@ -63,7 +63,7 @@ TEST_F(ByteBlending, multiplies_all_pairs_of_bytes_within_its_error) {
     const double off =
         worst(blended(GL_DST_COLOR, GL_ZERO), [](int x, int y) { return x * y / 255.0; });
     RecordProperty("steps", std::to_string(off));
-    EXPECT_LE(off, multiplying_error);
+    EXPECT_LE(off, llvmpipe_bytes.multiplying);
     EXPECT_GT(off, 0.49); // it is no exact product
 }
 
@@ -71,7 +71,7 @@ TEST_F(ByteBlending, adds_all_pairs_of_bytes_within_its_error) {
     const double off =
         worst(blended(GL_ONE, GL_ONE), [](int x, int y) { return std::min<double>(x + y, 255); });
     RecordProperty("steps", std::to_string(off));
-    EXPECT_LE(off, adding_error);
+    EXPECT_LE(off, llvmpipe_bytes.adding);
 }
 
 TEST_F(ByteBlending, rounds_floats_to_the_nearest_byte_and_clamps_them) {
@@ -95,7 +95,7 @@ TEST_F(ByteBlending, rounds_floats_to_the_nearest_byte_and_clamps_them) {
             worst = std::max(worst, std::abs(bytes[i] - exact));
         }
     RecordProperty("steps", std::to_string(worst));
-    EXPECT_LE(worst, overwriting_error);
+    EXPECT_LE(worst, llvmpipe_bytes.overwriting);
 }
 
 TEST_F(ByteBlending, rounds_a_float_to_a_byte_before_it_is_blended) {
