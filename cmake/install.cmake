@@ -32,7 +32,7 @@ install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shad
 install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/check.md docs/ci.md docs/claims.md docs/families.md
     docs/house.md docs/how-it-decides.md docs/install.md docs/lighting.md docs/reliability.md
-    docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md
+    docs/drivers.md docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md
     docs/stress-claims.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
     docs/Containerfile
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png

@@ -8,8 +8,8 @@ struct ByteErrors {
     double overwriting = 0; ///< a float overwrites
     double multiplying = 0; ///< a byte is multiplied (GL_DST_COLOR, GL_ZERO)
     double adding = 0;      ///< to a byte is added (GL_ONE, GL_ONE), clamped at 1
-    /// A float that is blended is a byte before, off by `overwriting`. Else it may be anything that
-    /// is no further off.
+    /// Whether a float is rounded to a byte before it is blended. If not, it may be rounded to
+    /// anything, by no more than `overwriting`.
     bool rounds_before_blending = true;
 };
 

@@ -306,24 +306,24 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
                                                       : deepest(texel, seen.triangle));
         farthest = std::max(farthest, clipped ? infinity : seen.depth);
     }
+    // `nearest` is an inverse depth.
     const auto may_show = [&](std::uint32_t caster, double nearest) {
         if (model().slope_bias != 0)
             return stored(texel) <= deepest_seen && may_store(texel, caster);
         const bool hidden = nearest * farthest * (1 + 0x1p-16) < 1;
         return !hidden && may_store(texel, caster);
     };
-    // As an inverse depth. Distances are compared as they are stored, so that window depth's
-    // roundings do not count.
+    // Distances are compared as they are stored, so that window depth's roundings do not count.
     const auto nearest_at_texel = [&](std::uint32_t caster) {
         const PlaneAtPixel at = plane(texel, caster);
         return at.inverse_depth() +
                (model().value == MapValue::depth ? at.error() : at.error_of_place());
     };
-    // What clipping draws beside the caster's plane is no nearer than its nearest corner.
+    // What clipping draws beside the caster's plane has some depth between its corners'.
     const auto nearest_corner = [&](std::uint32_t caster) {
-        double nearest = 0;
+        double nearest = nearest_at_texel(caster);
         for (const PicturePoint& point : pictured(texel.face, caster))
-            nearest = std::max(nearest, point.inverse_depth);
+            nearest = std::max(nearest, point.inverse_depth + point.depth_error);
         return nearest;
     };
     const double reach_of_ray = spread(around);

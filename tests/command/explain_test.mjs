@@ -67,6 +67,16 @@ test('the drawing is an SVG of the technique that differs, and says what it clai
   assert.match(svg, /<\/svg>\s*$/);
 });
 
+test('a drawing for what counts no volumes shows them all, and says what it claims', () => {
+  for (const technique of ['cube_map_six_pass', 'traced_epsilon']) {
+    const { record, svg } = explained('near_plane', '229,103', ['--technique', technique]);
+    assert.ok(record.crossings.length > 0);
+    assert.match(svg, new RegExp(`<title>[^<]*${technique}`));
+    assert.match(svg, new RegExp(`Counts no volumes; claims ${record.techniques[0].claim}\\.`));
+    assert.doesNotMatch(svg, /undefined|NaN/);
+  }
+});
+
 test('a drawing that cannot be written is an error that names the file', () => {
   const run = shadowproof(['explain', 'ordinary', '--pixel', '9,9', '--size', '32x32', '--svg',
                            'missing/x.svg']);

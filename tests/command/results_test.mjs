@@ -112,10 +112,12 @@ test('the report folder holds the same results as --json, but for nothing', () =
 });
 
 test('a claim of shares of light tells how many pixels and how wrong they are, validly', () => {
-  const results = resultsOf(['verify', 'spot', '--technique', 'spot_map,spot_map_pcf',
+  const results = resultsOf(['verify', 'spot', '--technique',
+                             'spot_map,spot_map_pcf,spot_map_stencil,spot_map_dual_texture',
                              '--map-size', '64', '--size', '96x96']);
   assertValid(results);
-  const [whole, shared] = results.scenes[0].techniques;
+  const [whole, shared, , ramp] = results.scenes[0].techniques;
+  assert.equal(ramp.map.format, 'ramp8');
   assert.ok(shared.partly_lit > 0 && shared.partly_lit <= shared.differing);
   assert.ok(shared.wrongness > 0 && shared.wrongness < shared.differing);
   assert.ok(shared.causes.filter > 0);

@@ -16,7 +16,7 @@ constexpr double v = float_roundoff;
 enum class Steps : std::uint8_t {
     none,    ///< not at all
     nearest, ///< to the nearest of 255 steps
-    within,  ///< to anything that is no further off than they may be
+    within,  ///< to anything, but no further than by the error that is given
 };
 
 /// Which of the technique's differences from the truth are applied.
@@ -267,7 +267,7 @@ ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
     inputs = truth;
     inputs.bump = {around(length * middle(truth.bump.box))};
     weigh(ColorTerm::bump_length, inputs, {});
-    weigh(ColorTerm::steps, truth, {.steps = own.steps});
+    weigh(ColorTerm::steps, truth, {.steps = own.steps, .bytes = own.bytes});
     weigh(ColorTerm::self_shadow, truth, {.light_dims_highlight = own.light_dims_highlight});
     weigh(ColorTerm::clamping, truth, {.clamps_early = own.clamps_early});
     const Intervals centre = color_of(arithmetic, claimed, {});

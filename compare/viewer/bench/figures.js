@@ -45,7 +45,7 @@ const markShapes = {
 
 /** A point's family, or a line's; older files lack it where it can be told by the name. */
 const familyOf = ({ family, technique }) => family ||
-  (/^(cube_map|spot_map)/.test(technique) ? 'map'
+  (/^(cube_map|spot_map|sun_map)/.test(technique) ? 'map'
     : technique.startsWith('traced_') ? 'traced' : 'stencil');
 
 /** Groups of points in the order of the legend; the first that has a point is its own. */

@@ -42,14 +42,18 @@ function showNote(index) {
   note.style.top = `${each.y * scale + 24}px`;
 }
 
+/** What shows the pictures of a point. Those of the truth are the same however it is traced. */
+function showsCommand(point) {
+  if (point.technique !== 'truth') return point.command.replace('shadowproof bench', 'shadowproof verify');
+  const scene = point.command.replace('shadowproof bench', 'shadowproof render').replace(/ --gl \w+/, '');
+  const samples = isMean(point) ? ` --aov color --samples ${Math.sqrt(point.settings.samples)}` : '';
+  return `${scene}${samples} -o truth.png`;
+}
+
 /** The point's whole story, below the plot. */
 function choosePoint(index) {
   const { point } = state.layout.marks[index];
   const before = pointsOf(state.older).find((other) => samePoint(point, other));
-  const verify = isMean(point)
-    ? `shadowproof render ${point.scene} --aov color --samples ${Math.sqrt(point.settings.samples)} -o truth.png`
-    : point.technique === 'truth' ? `shadowproof render ${point.scene} -o truth.png`
-    : point.command.replace('shadowproof bench', 'shadowproof verify');
   found('chosen').replaceChildren(
     element('h2', {}, pointName(point)),
     facts([['Time', timeWords(point.ms)], ['Of which', stageWords(point)], ['Error', errorWords(point)],
@@ -58,7 +62,7 @@ function choosePoint(index) {
     ...(point.pictures ? [element('p', {}, element('a', { id: 'pictures', href: point.pictures },
       'Its pictures, and why pixels are wrong'))] : []),
     commandLine('measure', 'Measures it again', point.command),
-    commandLine('verify', 'Shows its pictures, and why pixels are wrong', verify));
+    commandLine('verify', 'Shows its pictures, and why pixels are wrong', showsCommand(point)));
 }
 
 /** Moves to a point by keyboard. */

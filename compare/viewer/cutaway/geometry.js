@@ -70,7 +70,7 @@ var cutawayGeometry = (function () {
   function eventsOf(record, technique) {
     var events = record.crossings.map(function (crossing, i) {
       return { kind: 'crossing', depth: crossing.depth, rank: 2, crossing: crossing,
-               status: technique.statuses[i],
+               status: technique.statuses && technique.statuses[i],
                test: technique.tests ? technique.tests[i] : technique.test };
     });
     events.push({ kind: 'near', depth: record.near, rank: 0 });

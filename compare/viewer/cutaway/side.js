@@ -34,7 +34,7 @@ var cutawaySide = (function () {
     var many = events.length > 18, text = '';
     events.forEach(function (event, k) {
       if (event.kind !== 'crossing' || !points[k].side) return;
-      var p = points[k], faint = event.status === 'counted' ? '0.95' : '0.55';
+      var p = points[k], faint = !event.status || event.status === 'counted' ? '0.95' : '0.55';
       if (many) faint = '0.35';
       text += line(place.light, p.caster, 'light', 1,
                    { 'stroke-dasharray': '2 4', 'stroke-opacity': many ? '0.3' : '0.75' });

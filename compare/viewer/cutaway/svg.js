@@ -40,9 +40,12 @@ var cutawaySvg = (function () {
       'class': 'cut-fill-' + color, fill: colors[color], 'fill-opacity': String(opacity) });
   }
 
-  /** Lost crossings and those that do not count are struck through in different colours. */
+  /**
+   * Lost crossings and those that do not count are struck through in different colours. A technique that
+   * counts no volumes has no status of them.
+   */
   function struck(status, at, x, y) {
-    if (status === 'counted') return '';
+    if (!status || status === 'counted') return '';
     return line([at[0] - x, at[1] + y], [at[0] + x, at[1] - y],
                 status === 'beyond' ? 'quiet' : 'bad', 1.8);
   }

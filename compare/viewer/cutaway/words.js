@@ -30,6 +30,8 @@ var cutawayWords = (function () {
 
   /** "counted +1 -1 = 0; read back 0: claims lit". */
   function sentenceOf(record, technique) {
+    if (!technique.statuses)
+      return 'Counts no volumes; claims ' + technique.claim + '. The truth is ' + record.truth + '.';
     var terms = [], sum = technique.start || 0, up = 0, down = 0;
     record.crossings.forEach(function (crossing, i) {
       if (technique.statuses[i] !== 'counted') return;

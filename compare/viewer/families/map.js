@@ -96,7 +96,26 @@ function mapRecord({ blocks, cellFile }, rank) {
            value: cellFile.map.value, slopeBias: cellFile.map.slope_bias ?? 0, lit: blocks.map_lit[rank],
            width: blocks.map_width[rank], foot: blocks.map_foot.subarray(2 * rank, 2 * rank + 2),
            filter: cellFile.map.filter ?? 0, average: cellFile.map.average,
-           edges: cellFile.map.edges };
+           edges: cellFile.map.edges, format: cellFile.map.format,
+           near: cellFile.map.near, far: cellFile.map.far };
+}
+
+/** The step of a ramp of 256 in which a depth lies. */
+function stepOfRamp({ near, far }, depth) {
+  return Math.max(0, Math.min(255, Math.floor(256 * (depth - near) / (far - near))));
+}
+
+/** The comparison as the technique makes it: of steps where the map is a ramp. */
+function comparisonWords(record) {
+  const compared = record.format === 'ramp8'
+    ? { stored: stepOfRamp(record, record.stored), own: stepOfRamp(record, record.own - record.bias) }
+    : { stored: record.stored + record.bias, own: record.own };
+  const shadowed = compared.stored < compared.own;
+  const [left, right] = record.format === 'ramp8'
+    ? [`Step ${compared.stored} of the ramp`,
+       `step ${compared.own}, in which ${short(record.own)} \u2212 ${short(record.bias)} lies`]
+    : [`${short(record.stored)} + ${short(record.bias)}`, short(record.own)];
+  return `${left} is ${shadowed ? 'less than' : 'not less than'} ${right}: ${shadowed ? 'shadowed' : 'lit'}.`;
 }
 
 /** What the block of texels around the point's own one says. */
@@ -117,17 +136,19 @@ addFamily('map', {
     map_faces: null,
   }),
   pictures: { texels: 'Texels asked' },
+  facts: ({ map, pixels }) => (map ? [
+    ['Map', `${map.size} texels a side, ${map.value === 'distance' ? 'distances' : 'depths'} in ${map.format}`],
+    ['Planes of the light', `${short(map.near)} to ${short(map.far)}, in the file's units`],
+    ['Texels asked', grouped(map.texels)],
+    ['May show another surface or texel',
+     `${counted(map.straddling, 'pixel')}, ${short(100 * map.straddling / pixels)} %`]] : []),
   differing({ opened }, pixel) {
     const record = mapRecord(opened, rankOf(opened.differing, pixel));
     if (!record) return [element('p', { class: 'quiet' }, 'The map is not asked at this pixel.')];
-    const inFront = record.stored + record.bias < record.own;
     return [
       element('h3', {}, 'Comparison'),
       comparisonDrawing(record),
-      element('p', { id: 'compared' },
-        `${short(record.stored)} + ${short(record.bias)} is ` +
-        `${inFront ? 'less than' : 'not less than'} ${short(record.own)}: ` +
-        `${inFront ? 'shadowed' : 'lit'}.`),
+      element('p', { id: 'compared' }, comparisonWords(record)),
       filterWords(record),
       mapDrawing(opened, record),
       facts([

@@ -88,8 +88,9 @@ protected:
 
     std::vector<std::string> techniques() const {
         std::vector<std::string> names;
-        for (const char* name : {"cube_map_six_pass", "cube_map_geometry_shader", "cube_map_pcf",
-                                 "spot_map", "spot_map_pcf", "spot_map_dual_texture", "sun_map"})
+        for (const char* name :
+             {"cube_map_six_pass", "cube_map_geometry_shader", "cube_map_pcf", "spot_map",
+              "spot_map_pcf", "spot_map_stencil", "spot_map_dual_texture", "sun_map"})
             if (suits(*find_technique(name), traced.scene)) names.emplace_back(name);
         return names;
     }

@@ -42,7 +42,7 @@ export const faults = [
   { name: 'map_linear_filter', file: pass, right: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);', wrong: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR); gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);' },
   { name: 'map_viewport_of_half_the_size', file: pass, right: 'gl.Viewport(0, 0, pass.model.size, pass.model.size);', wrong: 'gl.Viewport(0, 0, pass.model.size / 2, pass.model.size / 2);' },
   { name: 'map_viewport_a_texel_short', file: pass, right: 'gl.Viewport(0, 0, pass.model.size, pass.model.size);', wrong: 'gl.Viewport(0, 0, pass.model.size - 1, pass.model.size - 1);' },
-  { name: 'map_depths_clamped', file: pass, right: 'gl.Disable(GL_DEPTH_CLAMP);', wrong: 'gl.Enable(GL_DEPTH_CLAMP);', why: 'Only what lies before the near or beyond the far plane is kept besides, and nothing does: the far plane is beyond all casters.' },
+  { name: 'map_depths_clamped', file: pass, right: 'gl.Disable(GL_DEPTH_CLAMP);', wrong: 'gl.Enable(GL_DEPTH_CLAMP);' },
   { name: 'map_distances_in_world_units', ...stored('length(surface.from_light)') },
   { name: 'map_distances_squared', ...stored('dot(surface.from_light, surface.from_light) / (far * far)') },
   { name: 'map_distances_along_an_axis', ...stored('max(max(abs(surface.from_light.x), abs(surface.from_light.y)), abs(surface.from_light.z)) / far') },
