@@ -22,7 +22,7 @@ enum class Cause : std::uint8_t {
     resolution,   ///< the texel's ray from the light does not go through the pixel's point
     acne,         ///< the receiver shadows itself: the bias or epsilon is too small
     leak,         ///< an occluder lies within the bias or epsilon, which is too large
-    range,        ///< outside the range of depths that the light's camera draws
+    range,        ///< outside what the light's camera draws: its near and far plane, its square
     seam,         ///< what lies beyond a face of a cube map was taken from its border
     filter,       ///< the texels around the point's own were averaged with it
     missed,    ///< a float ray slipped between two triangles, or hit one that the exact ray misses
@@ -53,7 +53,8 @@ inline constexpr std::array<CauseWords, 20> all_causes{{
     {Cause::resolution, "resolution", "the map is too coarse"},
     {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},
-    {Cause::range, "range", "outside the light's near and far plane"},
+    {Cause::range, "range",
+     "outside what the light's camera draws: its near and far plane, its square"},
     {Cause::seam, "seam", "averaged at a cube face's border, without the adjacent face"},
     {Cause::filter, "filter", "averaged with its neighbours: its own texel is right"},
     {Cause::missed, "missed", "a float ray slipped between triangles, or hit one beside it"},

@@ -41,6 +41,7 @@ void scale(Scene& scene, double factor) {
     scene.camera.far *= factor;
     for (Light& light : scene.lights) {
         light.position *= factor;
+        light.range *= factor;
         // The light received falls off with the square of the distance.
         if (scene.inverse_square) light.intensity *= factor * factor;
     }

@@ -13,6 +13,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,6 +77,9 @@ struct Light {
     double outer_cone = 0.7853981633974483; ///< spot, radians
     glm::dvec3 color{1, 1, 1};              ///< linear
     double intensity = 1;                   ///< candela, or lux where directional
+    /// Beyond it a renderer may leave the light out to save time. Nothing physical ends there, and
+    /// truth knows none; a shadow map's far plane lies there, as engines have it.
+    double range = std::numeric_limits<double>::infinity();
 };
 
 constexpr std::string_view name_of(Light::Kind kind) {

@@ -88,13 +88,16 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
     model.bias = in_float(settings.bias.value_or(documents_bias));
     if (!is_sun && !model.is_ramp()) model.value = settings.value.value_or(model.value);
     // A ramp's texels are colours, which no polygon offset moves.
-    if (!model.is_ramp())
+    if (!model.is_ramp()) {
         model.slope_bias = double{static_cast<float>(settings.slope_bias.value_or(0))};
-    if (model.slope_bias != 0 && model.value == MapValue::distance)
+        model.offset_units = double{static_cast<float>(settings.offset_units.value_or(0))};
+    }
+    if (model.has_offset() && model.value == MapValue::distance)
         refuse(scene,
-               "has a light whose map would hold distances, which --map-slope-bias does not move: "
-               "it is a polygon offset, of window depths",
-               "give --map-value depth, or leave the slope bias out");
+               fmt::format("has a light whose map would hold distances, which {} does not move: it "
+                           "is a polygon offset, of window depths",
+                           model.slope_bias != 0 ? "--map-slope-bias" : "--map-offset-units"),
+               "give --map-value depth, or leave the polygon offset out");
     if (!model.is_ramp()) model.format = settings.format.value_or(model.format);
     model.culling = settings.culling.value_or(model.culling);
     if (model.filter > 0) {
@@ -108,10 +111,11 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
         model.near = in_float(settings.near.value_or(model.near * scene.unit));
     } else {
         // A light without casters has a map all the same.
-        const double farthest = farthest_caster(scene, light.position) * scene.unit;
         // Window depths at the far plane are 2 near (far - depth) / far away from being clipped: 16
         // times what a float of that size rounds by.
-        model.far = in_float(settings.far.value_or(farthest > 0 ? farthest * (1 + 0x1p-6) : 1));
+        const double farthest = farthest_caster(scene, light.position) * scene.unit * (1 + 0x1p-6);
+        const double reach = std::isfinite(light.range) ? light.range * scene.unit : farthest;
+        model.far = in_float(settings.far.value_or(reach > 0 ? reach : 1));
         // Distances lose nothing to a near plane close to the light; depths do.
         const double share = model.value == MapValue::distance ? 0x1p-14 : 0x1p-10;
         model.near = in_float(settings.near.value_or(model.far * scene.unit * share));

@@ -64,8 +64,8 @@ inline constexpr std::array all_map_edges{MapEdges::clamped, MapEdges::seamless}
 /// that say `lit` to a byte that holds `shadowed`, and more would not fit.
 inline constexpr int largest_map_filter = 13;
 
-/// The largest slope bias: what it moves a surface by is far beyond any scene then.
-inline constexpr double largest_slope_bias = 1e6;
+/// The largest slope bias and the most units: what they move a surface by is far beyond any scene.
+inline constexpr double largest_polygon_offset = 1e6;
 
 constexpr std::string_view name_of(MapValue value) {
     return value == MapValue::distance ? "distance" : "depth";
@@ -124,6 +124,7 @@ struct MapSettings {
     std::optional<int> size{};    ///< texels a side
     std::optional<double> bias{}; ///< in the file's units of length
     std::optional<double> slope_bias{};
+    std::optional<double> offset_units{};
     std::optional<MapValue> value{};
     std::optional<MapFormat> format{};
     std::optional<MapCulling> culling{};
@@ -149,6 +150,8 @@ struct MapModel {
     /// texel's step a surface is moved away as it is drawn. 0 where distances are stored, which are
     /// no window depths.
     double slope_bias = 0;
+    /// The same, its units: by how many times what the depth format resolves.
+    double offset_units = 0;
     MapValue value = MapValue::distance;
     MapFormat format = MapFormat::d32f;
     MapCulling culling = MapCulling::none;
@@ -163,9 +166,17 @@ struct MapModel {
     MapEdges edges = MapEdges::clamped;
 
     std::size_t faces() const { return shape == Shape::cube ? 6 : 1; }
+    bool has_offset() const { return slope_bias != 0 || offset_units != 0; }
     bool is_ramp() const { return format == MapFormat::ramp8; }
     /// How many texels are read for one point.
     int asked() const { return filter > 0 ? filter * filter : 1; }
+};
+
+/// How much of window depth one unit of a polygon offset is: from `least` to `most`. Of floats it
+/// is what they resolve next to a triangle's largest depth, and both are 0.
+struct OffsetUnit {
+    double least = 0;
+    double most = 0;
 };
 
 /// The evidence of a claim made by a shadow map.
@@ -175,16 +186,17 @@ struct MapEvidence {
     /// that the face's camera takes.
     std::vector<Image<float>> faces;
     DepthFormat format{};        ///< of the texture, as the driver names it
+    OffsetUnit offset_unit{};    ///< of the driver, where the model asks for units
     double map_milliseconds = 0; ///< drawing the map, in a frame that waited for it
 };
 
 /// The values of the source documents where the user asked for nothing: the bias is 0.15 world
-/// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is a little beyond
-/// the farthest caster's corner, and `near` 2^-10 of that, 2^-14 where distances are stored. A
-/// sun's depths begin a little before all that casts or receives, and end a little behind; it
-/// stores depths whatever the user asked, as nothing has a distance from it. The light must have a
-/// position, but for a sun's map. Throws Error where the user's planes are no range, a spot is too
-/// wide, or distances shall have a slope bias.
+/// units (omni-directional shadows, 2nd pass). They leave the planes open: `far` is the light's
+/// range, or where it has none a little beyond the farthest caster's corner, and `near` 2^-10 of
+/// that, 2^-14 where distances are stored. A sun's depths begin a little before all that casts or
+/// receives, and end a little behind; it stores depths whatever the user asked, as nothing has a
+/// distance from it. The light must have a position, but for a sun's map. Throws Error where the
+/// user's planes are no range, a spot is too wide, or distances shall have a polygon offset.
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene);
 
 /// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its

@@ -158,7 +158,13 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                     "How many times its depth's change over a texel's step a surface is moved away "
                     "in maps of depths (0)")
         ->type_name("FACTOR")
-        ->check(CLI::Range(0.0, largest_slope_bias));
+        ->check(CLI::Range(0.0, largest_polygon_offset));
+    command
+        .add_option("--map-offset-units", settings.offset_units,
+                    "How many times what its format resolves a surface is moved away in maps of "
+                    "depths (0)")
+        ->type_name("UNITS")
+        ->check(CLI::Range(0.0, largest_polygon_offset));
     const auto add_choice = [&](const char* flag, const auto& all, auto& value,
                                 const std::string& words) {
         command
@@ -176,8 +182,10 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                "Which sides of casters they leave out");
     add_length_flag(command, "--map-near", settings.near, 0,
                     "Near plane of the light's camera (close to the light)");
-    add_length_flag(command, "--map-far", settings.far, 0,
-                    "Far plane of the light's camera (just beyond the farthest caster)");
+    add_length_flag(
+        command, "--map-far", settings.far, 0,
+        "Far plane of the light's camera (the light's range, or just beyond the farthest "
+        "caster)");
     command
         .add_option("--map-filter", settings.filter,
                     "Filtered maps: texels a side of the block that is averaged (4)")
@@ -389,6 +397,7 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     if (map.size) add("--map-size", fmt::format("{}", *map.size));
     if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
     if (map.slope_bias) add("--map-slope-bias", fmt::format("{}", *map.slope_bias));
+    if (map.offset_units) add("--map-offset-units", fmt::format("{}", *map.offset_units));
     if (map.value) add("--map-value", std::string(name_of(*map.value)));
     if (map.format) add("--map-format", std::string(name_of(*map.format)));
     if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));

@@ -29,8 +29,8 @@ Corner between(const Corner& from, const Corner& to, double t, double standard_n
     made.at = from.at + t * (to.at - from.at);
     const glm::dvec3 larger = glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
     made.error = (1 - t) * from.error + t * to.error + 3 * v * larger;
-    made.clip_error = (1 - t) * from.clip_error + t * to.clip_error +
-                      3 * v * (larger.z + std::max(numerator(from), numerator(to)));
+    made.numerator_error = (1 - t) * from.numerator_error + t * to.numerator_error +
+                           3 * v * std::max(numerator(from), numerator(to));
     made.made_by_clipping = true;
     return made;
 }
@@ -50,9 +50,12 @@ double far_error(const Corner& corner, const Drawing& drawing) {
     return corner.error.z + 6 * v * drawing.far * corner.at.w;
 }
 
-// Window depth is half the quotient of numerator and depth; the inverse depth is what is left of it
-// to 1, over the near plane. Where floats may put the corner into the eye or behind it, as only
-// those of faces that pass the eye that closely, it may be anywhere in the picture.
+// Reversed window depth is the near plane over the depth, and as far off as that. Standard depth is
+// half the quotient of numerator and depth, and the inverse depth is what is left of it to 1, over
+// the near plane: both are rounded, each by itself, so that what moves a point along its ray in
+// reversed depth moves it by depth / near as much here. Where floats may put the corner into the
+// eye or behind it, as only those of faces that pass the eye that closely, it may be anywhere in
+// the picture.
 PicturePoint pictured(const Camera& camera, const Corner& corner, double standard_near) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec4& at = corner.at;
@@ -66,8 +69,10 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
     const double depth_error = corner.error.z / at.z;
     point.place_error = std::max(corner.error.x, corner.error.y) / at.z * scale +
                         depth_error * pixels + 3 * v * pixels;
-    point.depth_error = (depth_error + window_depth_roundings * v) * point.inverse_depth;
-    if (standard_near > 0) point.depth_error += 0.5 * corner.clip_error / at.z / standard_near;
+    const double transform =
+        standard_near > 0 ? 0.5 * (corner.numerator_error + corner.error.z) / at.z / standard_near
+                          : depth_error * point.inverse_depth;
+    point.depth_error = transform + window_depth_roundings * v * point.inverse_depth;
     if (!(at.z > corner.error.z)) point.place_error = std::numeric_limits<double>::infinity();
     return point;
 }
@@ -91,6 +96,9 @@ ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& 
                                          : 2 * glm::dot(glm::abs(axis), glm::abs(relative));
         corner.error[k] = transform_roundings * v * terms;
     }
+    if (drawing.standard_near > 0)
+        corner.numerator_error =
+            corner.error.z + transform_roundings * v * 2 * drawing.standard_near * point.w;
     return corner;
 }
 
@@ -122,15 +130,14 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
     clip([&](const Corner& c) {
         return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
     });
-    // Beyond the near plane the guard band lies outside of the picture: by how much its cuts are
-    // off shows nowhere. Where no near plane cuts, all its planes meet in the eye, and a face that
-    // passes the eye within the corners' errors may or may not be left.
-    const double next_to_eye = drawing.near > 0 ? 0 : sign;
+    // The guard band lies outside of the picture, and by how much its cuts are off shows nowhere
+    // but in a face that passes the eye within its corners' errors: where no near plane cuts; or at
+    // infinity, where the light lies nearly in the face's plane.
     for (const int axis : {0, 1})
         for (const double side : {1.0, -1.0})
             clip([&](const Corner& c) {
                 return side * c.at[axis] + guard[axis] * c.at.z +
-                       next_to_eye * (c.error[axis] + guard[axis] * c.error.z);
+                       sign * (c.error[axis] + guard[axis] * c.error.z);
             });
     if (std::isfinite(drawing.far))
         clip([&](const Corner& c) {

@@ -42,8 +42,8 @@ struct PicturePoint {
 /// error in floats.
 struct ViewCorner {
     glm::dvec4 at{0, 0, 0, 0};
-    glm::dvec3 error{0, 0, 0}; ///< of right, up and forward
-    double clip_error = 0; ///< that clipping added to forward and to the window depth's numerator
+    glm::dvec3 error{0, 0, 0};  ///< of right, up and forward
+    double numerator_error = 0; ///< of standard window depth's numerator, forward - 2 near w
     bool made_by_clipping = false;
 };
 

@@ -13,23 +13,18 @@ namespace {
 
 constexpr double v = float_roundoff;
 
-/// Sum of the sizes of the terms that the float transform adds up for one view coordinate of a
-/// point, the largest over the three. World coordinates carry the eye's distance from the origin
-/// with them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A
-/// point of a volume's side was extruded from the light, and that direction is rounded too.
-double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
-    const Camera& camera = scene.camera;
+/// Sum of the sizes of the terms that the float transform adds up for a point's view coordinate
+/// along an axis of the camera. World coordinates carry the eye's distance from the origin with
+/// them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A point
+/// of a volume's side was extruded from the light, and that direction is rounded too.
+double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& axis,
+                       const glm::dvec3& point) {
+    const glm::dvec3& eye = scene.camera.eye;
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    double largest = 0;
-    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward}) {
-        const auto terms = [&](const glm::dvec3& p) {
-            return glm::dot(glm::abs(axis), glm::abs(p));
-        };
-        const double position = depth_model.eye_relative ? 2 * terms(point - camera.eye)
-                                                         : terms(point) + terms(camera.eye);
-        largest = std::max(largest, position + terms(light.w * point - glm::dvec3(light)));
-    }
-    return largest;
+    const auto terms = [&](const glm::dvec3& p) { return glm::dot(glm::abs(axis), glm::abs(p)); };
+    const double position =
+        depth_model.eye_relative ? 2 * terms(point - eye) : terms(point) + terms(eye);
+    return position + terms(light.w * point - glm::dvec3(light));
 }
 
 /// View depth of `point`, at least the near plane's.
@@ -48,7 +43,9 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
     const double half_step = half_snapping_step(depth_model.subpixel_bits);
     const double pixels = std::max(camera.width, camera.height);
     const double scale = 0.5 * camera.height / camera.tan_half_height;
-    const double terms = transform_terms(scene, depth_model, point);
+    double terms = 0;
+    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
+        terms = std::max(terms, transform_terms(scene, depth_model, axis, point));
     const double transform =
         transform_roundings * v * (scale + 0.5 * pixels) * terms / depth_of(camera, point);
     return half_step + transform + 3 * v * pixels;
@@ -59,17 +56,25 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
 // the largest standard depth and z = n/t the reversed one (where that is finite, a difference of
 // terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
 // more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
-// are compared, carried back to view depth by dt/dz. The transform's sums round 5 times a face (see
-// lateral_error), which 8 covers too. How far off the plane itself is set up, setup_error
-// tells.
-double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
-    const double t = depth_of(scene.camera, point);
+// are compared, carried back to view depth by dt/dz.
+double stored_depth_error(const DepthModel& depth_model, double depth) {
     const double near = depth_model.near;
     const double far = depth_model.far;
-    double window_depth_error = t * t / near; // dt/dz times z, projection infinite
-    if (depth_model.finite()) window_depth_error = t * t * (far - near) / (far * near);
-    if (depth_model.reversed()) window_depth_error = t;
-    return depth_roundings * (window_depth_error + transform_terms(scene, depth_model, point));
+    double window_depth_error = depth * depth / near; // dt/dz times z, projection infinite
+    if (depth_model.finite()) window_depth_error = depth * depth * (far - near) / (far * near);
+    if (depth_model.reversed()) window_depth_error = depth;
+    return depth_roundings * window_depth_error;
+}
+
+// The transform's sums round 5 times a face (see lateral_error). Reversed depth is n/w, and as far
+// off as w. In standard depth z/w the numerator is rounded by itself, and dt/dz = t^2 / n over w =
+// t leaves t / n of the terms' error.
+double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    const double t = depth_of(scene.camera, point);
+    const double growth = depth_model.reversed() ? 1 : std::max(t / depth_model.near, 1.0);
+    return stored_depth_error(depth_model, t) +
+           2 * transform_roundings * v * growth *
+               transform_terms(scene, depth_model, scene.camera.forward, point);
 }
 
 } // namespace shadowproof

@@ -11,15 +11,18 @@
 
 namespace shadowproof {
 
-/// Roundings of window depth between two faces that are compared: see depth_error.
+/// Roundings of window depth between two faces that are compared: see stored_depth_error.
 inline constexpr double depth_roundings = 2 * window_depth_roundings * float_roundoff;
 
 /// How far, in pixels, the rasterizer may move what it draws at a world point sideways: half a
 /// step of the snapping grid, and the float transform's error.
 double lateral_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
 
-/// How far, in view depth, two faces at a world point may be apart and yet be stored in either
-/// order: the quantum of the depth format and the float transform's error.
+/// How far apart, in view depth, two faces at a depth may be and yet be stored in either order by
+/// the roundings of window depth alone. What their corners are off by is setup_error's.
+double stored_depth_error(const DepthModel& depth_model, double depth);
+
+/// The same, and the float transform's error at a world point near which their corners lie.
 double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
 
 } // namespace shadowproof

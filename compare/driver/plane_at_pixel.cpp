@@ -69,7 +69,7 @@ double PlaneAtPixel::error() const {
     const double depth = inverse_ > 0 ? std::min(1 / inverse_, far_) : far_;
     const CoveredPixel pixel{centre_, lateral(), drawing_};
     return error_of_place() + setup_error(scene_, triangle_, pixel) +
-           0.5 * depth_error(scene_, model_, scene_.camera.eye + depth * centre_) / (depth * depth);
+           0.5 * stored_depth_error(model_, depth) / (depth * depth);
 }
 
 double PlaneAtPixel::spread() const {

@@ -197,6 +197,15 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
                          });
 }
 
+std::array<glm::dvec4, 3> far_corners(const Scene& casters, const std::vector<glm::vec3>& far_ends,
+                                      std::uint32_t triangle) {
+    const auto at = [&](std::size_t k) {
+        const auto index = static_cast<int>(k);
+        return glm::dvec4(glm::dvec3(far_ends[casters.triangles[triangle][index]]), 1);
+    };
+    return {at(0), at(1), at(2)};
+}
+
 std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
                                     const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
@@ -283,12 +292,19 @@ double interpolated_place_error(const Scene& scene, std::uint32_t triangle,
 }
 
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
-                   const Crossing& side, const CoveredPixel& pixel) {
+                   const Crossing& face, const CoveredPixel& pixel) {
+    if (face.part == Crossing::Part::light_cap) return setup_error(casters, face.triangle, pixel);
     std::vector<PictureTriangle> triangles;
-    for (const std::array<glm::dvec4, 3>& half :
-         triangles_of_side(casters, far_ends, side.triangle, static_cast<int>(side.part)))
-        for (const PictureTriangle& triangle : set_up(casters.camera, half, pixel))
+    const auto add = [&](const std::array<glm::dvec4, 3>& corners) {
+        for (const PictureTriangle& triangle : set_up(casters.camera, corners, pixel))
             triangles.push_back(triangle);
+    };
+    if (face.is_side())
+        for (const std::array<glm::dvec4, 3>& half :
+             triangles_of_side(casters, far_ends, face.triangle, static_cast<int>(face.part)))
+            add(half);
+    else if (far_ends != nullptr)
+        add(far_corners(casters, *far_ends, face.triangle));
     return largest_error(casters.camera, triangles, pixel);
 }
 

@@ -25,10 +25,10 @@ struct CoveredPixel {
 /// edge-on, as then any slope may come out.
 double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
-/// The same for a side of a volume. `far_ends`: where the casters' positions lie once extruded,
-/// null where that is at infinity.
+/// The same for a face of a volume. `far_ends`: where the casters' positions lie once extruded,
+/// null where that is at infinity; a cap there has no depth, so none that may be off.
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
-                   const Crossing& side, const CoveredPixel& pixel);
+                   const Crossing& face, const CoveredPixel& pixel);
 
 /// The same for a triangle of the picture, whose `inverse_depth` may be any value that is linear
 /// over it, at a place that it may cover when it is drawn `reach` pixels aside.

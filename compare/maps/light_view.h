@@ -38,6 +38,7 @@ public:
     const Camera& camera(std::size_t face) const { return cameras_[face]; }
     /// What points are relative to that are said to be from the light: the eye of all cameras.
     const glm::dvec3& origin() const { return cameras_.front().eye; }
+    const OffsetUnit& offset_unit() const { return map_.offset_unit; }
     float stored(const Texel& texel) const { return map_.faces[texel.face].at(texel.x, texel.y); }
 
     /// Of the texels' centres.
@@ -52,12 +53,12 @@ public:
         std::uint32_t triangle = no_triangle;
         double value = 0; ///< exact at the texel's centre, on the triangle's plane: as the model's
                           ///< value, in world units; infinity where nothing is shown
-        double moved = 0; ///< the same as the slope bias moves it
+        double moved = 0; ///< the same as the polygon offset moves it
     };
     Shown shown(const Texel& texel, const FromLight& at_centre) const;
 
-    /// A depth of a triangle of the scene as the slope bias moves it there, in world units, and at
-    /// most to the far plane; the depth itself without one.
+    /// A depth of a triangle of the scene as the polygon offset moves it there, in world units, and
+    /// at most to the far plane; the depth itself without one.
     virtual double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const = 0;
 
 protected:

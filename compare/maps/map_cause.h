@@ -33,7 +33,7 @@ struct WrongAnswer {
 /// Falsely lit:
 ///   precision   the texel holds its exact value, and nothing is rounded in the comparison
 ///   resolution  the ray goes through the point itself
-///   leak        there is no bias, nor a slope bias; perhaps this needs that ray, too
+///   leak        there is no bias, nor a polygon offset; perhaps this needs that ray, too
 ///   open_mesh   both sides of casters are drawn
 ///   range       the map reaches the occluder
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);

@@ -26,6 +26,7 @@ Json settings_of(const MapModel& model, double unit) {
               {"near", model.near * unit},
               {"far", model.far * unit}};
     if (model.slope_bias != 0) json["slope_bias"] = model.slope_bias;
+    if (model.offset_units != 0) json["offset_units"] = model.offset_units;
     if (model.filter > 0) {
         json["filter"] = model.filter;
         json["average"] = name_of(model.average);

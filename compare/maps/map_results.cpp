@@ -20,6 +20,7 @@ void map(const JsonPlace& place) {
                    {"texels_unexplained", count},
                    {"straddling", count},
                    {"slope_bias", number, Need::optional},
+                   {"offset_units", number, Need::optional},
                    {"filter", size, Need::optional},
                    {"average", text, Need::optional},
                    {"edges", text, Need::optional},

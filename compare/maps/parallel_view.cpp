@@ -107,10 +107,10 @@ ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster
                 std::abs(along)};
 }
 
-SlopeOffset ParallelView::offset(std::uint32_t caster) const {
-    if (model().slope_bias == 0) return {};
-    return slope_offset(pictured_in_parallel(casters_, camera(0), caster), model().slope_bias, 1,
-                        half_step_);
+PolygonOffset ParallelView::offset(std::uint32_t caster) const {
+    if (!model().has_offset()) return {};
+    return polygon_offset(pictured_in_parallel(casters_, camera(0), caster), model(), offset_unit(),
+                          {}, half_step_);
 }
 
 double ParallelView::moved_away(const Texel& /*texel*/, std::uint32_t triangle,
@@ -119,7 +119,7 @@ double ParallelView::moved_away(const Texel& /*texel*/, std::uint32_t triangle,
 }
 
 // A corner snapped aside moves the plane by its slope; set-up comes with the corners' own errors;
-// the window's roundings are those of a depth, and of its sum with a slope's offset; and the format
+// the window's roundings are those of a depth, and of its sum with a polygon offset; and the format
 // rounds.
 double ParallelView::error(const Texel& texel, std::uint32_t caster, const Plane& plane) const {
     const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
@@ -135,7 +135,7 @@ double ParallelView::least_error(const Plane& plane) const {
 bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
     const Plane at = plane(texel, caster);
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
-    const SlopeOffset moved = offset(caster);
+    const PolygonOffset moved = offset(caster);
     const double depth = window(at.depth);
     // A part of the error that is nearly always enough, without what set-up adds.
     if (moved.most == 0 && std::abs(stored(texel) - depth) <= least_error(at)) return true;

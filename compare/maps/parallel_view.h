@@ -4,7 +4,7 @@
 #include "compare/maps/caster_grid.h"
 #include "compare/maps/light_view.h"
 #include "compare/maps/pictured_caster.h"
-#include "compare/maps/slope_offset.h"
+#include "compare/maps/polygon_offset.h"
 #include "reference/trace/first_met.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ private:
     std::vector<FromLight> met(std::span<const AnyRay> rays) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
-    SlopeOffset offset(std::uint32_t caster) const;
+    PolygonOffset offset(std::uint32_t caster) const;
     double error(const Texel& texel, std::uint32_t caster, const Plane& plane) const;
     double least_error(const Plane& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;

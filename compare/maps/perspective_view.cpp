@@ -97,16 +97,17 @@ std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
 }
 
 // The window depths of corners are rounded as they are, and not as little as their inverse depths.
-SlopeOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
-    if (model().slope_bias == 0) return {};
+PolygonOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
+    if (!model().has_offset()) return {};
     const Scene& scene = faces_[texel.face];
-    const double scale = std::abs(window_depth_of(depth_model_).slope);
+    const WindowDepth window = window_depth_of(depth_model_);
     const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
     std::vector<PicturePoint> polygon = clipped_polygon(
         scene.camera, {at(0), at(1), at(2)}, drawing_of(scene, depth_model_, model().far));
-    for (PicturePoint& point : polygon) point.depth_error += window_depth_roundings * v / scale;
-    return slope_offset(polygon, model().slope_bias, scale,
-                        half_snapping_step(depth_model_.subpixel_bits));
+    for (PicturePoint& point : polygon)
+        point.depth_error += window_depth_roundings * v / std::abs(window.slope);
+    return polygon_offset(polygon, model(), offset_unit(), {window.at(0), window.slope},
+                          half_snapping_step(depth_model_.subpixel_bits));
 }
 
 double PerspectiveView::moved_away(const Texel& texel, std::uint32_t triangle, double depth) const {
@@ -128,7 +129,7 @@ bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel
     const WindowDepth window = window_depth_of(depth_model_);
     const double depth = window.at(at.inverse_depth());
     const double off = std::abs(window.slope) * at.error() + half_step() + v;
-    const SlopeOffset moved = offset(texel, caster);
+    const PolygonOffset moved = offset(texel, caster);
     return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
            stored(texel) <= depth + moved.most + off;
 }
@@ -171,7 +172,7 @@ bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const 
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
     const double read = stored(texel);
     if (model().is_ramp()) return may_store_step(at, texel, caster);
-    if (model().slope_bias != 0) return may_store_moved(at, texel, caster);
+    if (model().has_offset()) return may_store_moved(at, texel, caster);
     if (model().value == MapValue::depth) {
         if (at.is_depth(read)) return true;
         if (model().format != MapFormat::d16) return false; // is_depth knows the others
@@ -295,12 +296,12 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     const Neighbourhood around =
         neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
     double farthest = 0;
-    double deepest_seen = 0; // as a window depth; with a slope bias
+    double deepest_seen = 0; // as a window depth; with a polygon offset
     for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
         const bool clipped = may_be_clipped(texel, seen);
         if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1)
             return {true, no_triangle, infinity, infinity};
-        if (model().slope_bias != 0)
+        if (model().has_offset())
             deepest_seen = std::max(deepest_seen, clipped || seen.triangle == no_triangle
                                                       ? infinity
                                                       : deepest(texel, seen.triangle));
@@ -308,8 +309,7 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     }
     // `nearest` is an inverse depth.
     const auto may_show = [&](std::uint32_t caster, double nearest) {
-        if (model().slope_bias != 0)
-            return stored(texel) <= deepest_seen && may_store(texel, caster);
+        if (model().has_offset()) return stored(texel) <= deepest_seen && may_store(texel, caster);
         const bool hidden = nearest * farthest * (1 + 0x1p-16) < 1;
         return !hidden && may_store(texel, caster);
     };

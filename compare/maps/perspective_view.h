@@ -4,7 +4,7 @@
 #include "compare/driver/plane_at_pixel.h"
 #include "compare/maps/caster_grid.h"
 #include "compare/maps/light_view.h"
-#include "compare/maps/slope_offset.h"
+#include "compare/maps/polygon_offset.h"
 #include "reference/trace/trace.h"
 
 #include <array>
@@ -31,7 +31,7 @@ private:
     PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
     double value(const PlaneAtPixel& plane) const;
     std::uint32_t caster_of(std::uint32_t triangle) const;
-    SlopeOffset offset(const Texel& texel, std::uint32_t caster) const;
+    PolygonOffset offset(const Texel& texel, std::uint32_t caster) const;
     double deepest(const Texel& texel, std::uint32_t caster) const;
     bool may_store_moved(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     bool may_store_step(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;

@@ -42,9 +42,8 @@ DepthRange FaceDepths::surface(std::uint32_t triangle) const {
         return {0, -infinity, infinity};
     for (const glm::dvec3& direction : around_.corners) {
         const double t = plane_depth(scene_, triangle, direction);
-        const glm::dvec3 point = scene_.camera.eye + std::min(t, far_) * direction;
         const double slope_error = std::isfinite(t) ? setup * t * t : 0;
-        range.include(t, depth_error(scene_, frame_.depth_model, point) + slope_error);
+        range.include(t, stored_depth_error(frame_.depth_model, std::min(t, far_)) + slope_error);
     }
     return range;
 }
@@ -62,12 +61,8 @@ DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& directio
     return range;
 }
 
-// Light caps that may be in front belong to culled surfaces, or fill holes.
 double FaceDepths::setup_error_at(const Crossing& crossing) const {
-    if (crossing.is_side()) return plane_error(crossing) * crossing.depth * crossing.depth;
-    return crossing.triangle < scene_.triangles.size()
-               ? setup_error_at(crossing.triangle, crossing.depth)
-               : 0;
+    return plane_error(crossing) * crossing.depth * crossing.depth;
 }
 
 double FaceDepths::clip_far() const {
@@ -85,10 +80,15 @@ CoveredPixel FaceDepths::covered_pixel() const {
             drawing_of(scene_, frame_.depth_model, clip_far())};
 }
 
-double FaceDepths::plane_error(const Crossing& side) const {
-    const auto [known, is_new] = setup_of_side_.try_emplace(side.edge, 0.0);
+// The light cap of a surface is that surface's own triangle.
+double FaceDepths::plane_error(const Crossing& face) const {
+    const bool is_surface =
+        face.part == Crossing::Part::light_cap && face.triangle < scene_.triangles.size();
+    if (is_surface) return plane_error(face.triangle);
+    const auto [known, is_new] =
+        setup_of_face_.try_emplace({face.part, face.is_side() ? face.edge : face.triangle}, 0.0);
     if (is_new)
-        known->second = setup_error(volumes_.casters, volumes_.far_ends, side, covered_pixel());
+        known->second = setup_error(volumes_.casters, volumes_.far_ends, face, covered_pixel());
     return known->second;
 }
 

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -71,11 +73,12 @@ private:
     const Frame& frame_;
     double far_;
     const Neighbourhood& around_;
-    // Computed once at this pixel for each edge (as Crossing has it) and each triangle.
-    mutable std::unordered_map<std::uint32_t, double> setup_of_side_;
+    // Computed once at this pixel for each face, by its part and its edge (as Crossing has it) or
+    // triangle, and for each triangle of the scene.
+    mutable std::map<std::pair<Crossing::Part, std::uint32_t>, double> setup_of_face_;
     mutable std::unordered_map<std::uint32_t, double> setup_of_triangle_;
 
-    double plane_error(const Crossing& side) const;
+    double plane_error(const Crossing& face) const;
     double plane_error(std::uint32_t triangle) const;
 };
 

@@ -143,9 +143,8 @@ private:
             most = std::max(most, gap(corner));
         }
         if (least <= 0 && most >= 0) return true;
-        const glm::dvec3 point = scene().camera.eye + face.depth * ray;
         const double error = error_of_other + depths_.setup_error_at(face) +
-                             depth_error(scene(), judged_.frame.depth_model, point);
+                             stored_depth_error(judged_.frame.depth_model, face.depth);
         return most - least <= error && std::min(std::abs(least), std::abs(most)) <= error;
     }
 };

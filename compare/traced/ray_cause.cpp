@@ -1,5 +1,7 @@
 #include "compare/traced/ray_cause.h"
 
+#include "scenes/roundoff.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -94,15 +96,39 @@ std::optional<double> leaving_place(const TracedClaim& claim, PixelPlace p, cons
     return t;
 }
 
+/// Whether a triangle lies in the receiver's plane as nearly as floats have coplanar corners.
+/// Rounded are the corner, by v of its coordinates, and the plane at it: there a corner of the
+/// receiver counts as much as it weighs.
+bool is_coplanar(const Corners& receiver, const Corners& t) {
+    const glm::dvec3 ab = receiver.b - receiver.a;
+    const glm::dvec3 ac = receiver.c - receiver.a;
+    const glm::dvec3 normal = glm::cross(ab, ac);
+    const double squared = glm::dot(normal, normal);
+    const auto rounded = [&](const glm::dvec3& corner) {
+        return float_roundoff * glm::dot(glm::abs(normal), glm::abs(corner));
+    };
+    const auto lies_within = [&](const glm::dvec3& corner) {
+        const glm::dvec3 way = corner - receiver.a;
+        const double of_b = glm::dot(glm::cross(way, ac), normal) / squared;
+        const double of_c = glm::dot(glm::cross(ab, way), normal) / squared;
+        const double error = rounded(corner) + std::abs(1 - of_b - of_c) * rounded(receiver.a) +
+                             std::abs(of_b) * rounded(receiver.b) +
+                             std::abs(of_c) * rounded(receiver.c);
+        return std::abs(glm::dot(way, normal)) <= error;
+    };
+    return lies_within(t.a) && lies_within(t.b) && lies_within(t.c);
+}
+
 /// A ray that starts below a surface meets it from within: at its plane, or before, where the
-/// surface is bent away from the light. Two coplanar triangles have planes that are rounded
-/// differently: a thousandth is for those.
+/// surface is bent away from the light.
 void mark_own_surface(const TracedClaim& claim, PixelPlace p, const std::optional<double>& leaves,
                       std::vector<ExactHit>& hits) {
     const Corners receiver = corners(claim.scene(), claim.pixel(p).seen);
-    for (ExactHit& hit : hits)
-        hit.is_own = hit.triangle == claim.pixel(p).seen || (leaves && hit.t <= 1.001 * *leaves) ||
-                     share_a_corner(corners(claim.scene(), hit.triangle), receiver);
+    for (ExactHit& hit : hits) {
+        const Corners t = corners(claim.scene(), hit.triangle);
+        hit.is_own = hit.triangle == claim.pixel(p).seen || share_a_corner(t, receiver) ||
+                     (leaves && (hit.t <= *leaves || is_coplanar(receiver, t)));
+    }
 }
 
 /// The shadow ray as it would have been without epsilon or offset.

@@ -13,7 +13,7 @@ namespace shadowproof {
 struct ExactHit {
     std::uint32_t triangle = no_triangle;
     double t = 0;        ///< rounded
-    bool is_own = false; ///< it is the receiver's own surface (see own_surface)
+    bool is_own = false; ///< it is the receiver's own surface, as below
 };
 
 /// The rays of a pixel, traced exactly.

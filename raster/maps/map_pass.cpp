@@ -17,20 +17,6 @@ namespace {
 
 constexpr GLfloat farthest_depth = 1;
 
-GLenum gl_format(MapFormat format) {
-    switch (format) {
-    case MapFormat::d16:
-        return GL_DEPTH_COMPONENT16;
-    case MapFormat::d24:
-        return GL_DEPTH_COMPONENT24;
-    case MapFormat::ramp8:
-        return GL_R8;
-    case MapFormat::d32f:
-        break;
-    }
-    return GL_DEPTH_COMPONENT32F;
-}
-
 /// The nearest texel; beside the texture that of its border.
 void set_nearest(const GlFunctions& gl, const Texture& texture) {
     gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -159,6 +145,20 @@ void set_culling(const GlFunctions& gl, MapCulling culling) {
 
 } // namespace
 
+GLenum gl_format(MapFormat format) {
+    switch (format) {
+    case MapFormat::d16:
+        return GL_DEPTH_COMPONENT16;
+    case MapFormat::d24:
+        return GL_DEPTH_COMPONENT24;
+    case MapFormat::ramp8:
+        return GL_R8;
+    case MapFormat::d32f:
+        break;
+    }
+    return GL_DEPTH_COMPONENT32F;
+}
+
 glm::mat3 map_from_world(const Camera& camera) {
     return glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
                                      camera.up / camera.tan_half_height, camera.forward));
@@ -207,8 +207,9 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
     gl.DepthMask(GL_TRUE);
     gl.FrontFace(GL_CCW);
     set_culling(gl, pass.model.culling);
-    set_enabled(gl, GL_POLYGON_OFFSET_FILL, pass.model.slope_bias != 0);
-    gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias), 0);
+    set_enabled(gl, GL_POLYGON_OFFSET_FILL, pass.model.has_offset());
+    gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias),
+                     static_cast<GLfloat>(pass.model.offset_units));
     gl.BindVertexArray(geometry.vertices.name());
     gl.BindTextureUnit(3, pass.ramp.name());
     const bool at_once = pass.making == MapMaking::geometry_shader;

@@ -27,6 +27,9 @@ struct MapPass {
     std::vector<SurfaceRun> casters{}; ///< what is drawn
 };
 
+/// OpenGL's name of the format.
+GLenum gl_format(MapFormat format);
+
 /// From the world's axes to those of a face's camera: right and up over its half side at depth 1,
 /// and forward.
 glm::mat3 map_from_world(const Camera& camera);

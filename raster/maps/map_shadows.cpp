@@ -1,6 +1,7 @@
 #include "raster/maps/map_shadows.h"
 
 #include "raster/gl/stage_clock.h"
+#include "raster/maps/offset_unit.h"
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
@@ -154,10 +155,13 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     const FrameTime time = quickest_frame(gl, true, draw); // results tell the map's own time
     Frame frame = read_back(gl, frames.target, Counter::none);
     frame.family = "map";
-    frame.mapped = MapEvidence{.model = model,
-                               .faces = read_map(gl, frames.map),
-                               .format = format_of(gl, frames.map),
-                               .map_milliseconds = time.stages.front().milliseconds};
+    frame.mapped =
+        MapEvidence{.model = model,
+                    .faces = read_map(gl, frames.map),
+                    .format = format_of(gl, frames.map),
+                    .offset_unit = model.offset_units != 0 ? measured_offset_unit(gl, model.format)
+                                                           : OffsetUnit{},
+                    .map_milliseconds = time.stages.front().milliseconds};
     if (model.filter > 0) frame.share = take_shares(model, frame.claim);
     frame.depth_model = frames.depth_model;
     frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;

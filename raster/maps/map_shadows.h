@@ -65,7 +65,7 @@ inline std::vector<std::string_view> without(std::vector<std::string_view> setti
 /// Those of maps that hold depths unless the user asks otherwise.
 inline std::vector<std::string_view> depth_map_settings() {
     std::vector<std::string_view> settings = map_settings();
-    settings.emplace_back("map-slope-bias");
+    settings.insert(settings.end(), {"map-slope-bias", "map-offset-units"});
     return settings;
 }
 

@@ -63,6 +63,8 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"cube_edge", "shadows that run over the edges of a cube around the light"},
         {"far_light", "casters smaller than a texel of the light's map"},
         {"low_light", "a light that grazes the floor, where a map's texels are steep"},
+        {"light_range", "a light whose range, where a map's far plane lies, ends amid the floor"},
+        {"near_light", "wires closer to the light than a map's near plane"},
         {"in_metres", "small things in metres: an epsilon of 1e-3 is a millimetre"},
         {"in_millimetres", "a room in millimetres: floats are further apart than 1e-3"},
         {"slivers", "slivers so thin that float rays slip through between them"},

@@ -232,10 +232,11 @@ Section precision(Gpu& gpu) {
     row("spot_map", "24 bits, window depths", MapFormat::d24);
     row("spot_map", "32 bits, floats", MapFormat::d32f);
     text +=
-        "\nIt holds, as soon as there is more space than shadows in it. Within a step of the ramp "
-        "two\n"
-        "depths count as equal, which is a bias of its own: it mends acne, and loses what is\n"
-        "closer to its shadow. Window depths of 16 bits fail by a near plane close to the light, "
+        "\nIt holds where the map's range is long against the distances between casters and their\n"
+        "shadows. Within a step of the ramp two depths count as equal, which is a bias of its own: "
+        "it\n"
+        "mends acne, and loses what is closer to its shadow. Window depths of 16 bits fail by a "
+        "near plane close to the light, "
         "which is a\n"
         "1,024th of the far plane here.\n";
     return {"Two textures of bytes have limited precision", text, ""};

@@ -8,6 +8,7 @@
 #include "compare/command/bench/sampled_truth.h"
 #include "compare/command/bench/sweep.h"
 #include "compare/command/judged_cell.h"
+#include "compare/command/process/place_in_run.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
@@ -45,6 +46,9 @@ struct BenchTrial {
     std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
     std::vector<bool> warm{};                   ///< this process has drawn them
     Stopwatch since{};                          ///< it was begun
+    std::size_t judged = 0;   ///< techniques, each with all its settings
+    std::size_t to_judge = 0; ///< how many there are
+    Stopwatch judging{};      ///< since the first of them
     bool complete = true;   ///< all that was asked for was measured, but for what took too long
     bool timed_out = false; ///< something did
 };
@@ -109,7 +113,10 @@ const BenchPoint* add_point(BenchTrial& trial, const Technique& technique,
     bool warm = false;
     if (known == nullptr || work.pictures != nullptr) {
         const std::string named = name_of_point(technique, settings);
-        work.console.progress(fmt::format("{}: judging {}", trial.name, named));
+        work.console.progress(fmt::format("{}{}: technique {} of {}, judging {}{}", work.place,
+                                          trial.name, trial.judged + 1, trial.to_judge, named,
+                                          time_left(trial.judged, trial.to_judge,
+                                                    trial.judging.milliseconds() / 1000)));
         JudgedPoint judged = work.pieces.piece("judging " + named, [&] {
             warm = true;
             return judge_point(trial, technique, point);
@@ -251,10 +258,16 @@ void add_points(BenchTrial& trial) {
     add_truth(trial);
     add_unfiltered_truth(trial);
     add_sampled_truth(trial);
-    for (const Technique* technique : options.technique.chosen())
-        // What is named is drawn, or says why it is not for such a scene.
-        if (!options.technique.techniques.empty() || suits(*technique, trial.scene))
-            add_points_of(trial, *technique);
+    // What is named is drawn, or says why it is not for such a scene.
+    std::vector<const Technique*> techniques = options.technique.chosen();
+    if (options.technique.techniques.empty())
+        std::erase_if(techniques, [&](const Technique* each) { return !suits(*each, trial.scene); });
+    trial.to_judge = techniques.size();
+    trial.judging = Stopwatch();
+    for (const Technique* technique : techniques) {
+        add_points_of(trial, *technique);
+        ++trial.judged;
+    }
 }
 
 /// Adds a sample's stages, each after those of earlier samples.

@@ -93,7 +93,8 @@ function mapRecord({ blocks, cellFile }, rank) {
   return { face: blocks.map_face[rank], x: blocks.map_x[rank], y: blocks.map_y[rank],
            stored: blocks.map_stored[rank], own: blocks.map_own[rank],
            shown: blocks.map_shown[rank], bias: cellFile.map.bias, size: cellFile.map.size,
-           value: cellFile.map.value, slopeBias: cellFile.map.slope_bias ?? 0, lit: blocks.map_lit[rank],
+           value: cellFile.map.value, slopeBias: cellFile.map.slope_bias ?? 0,
+           offsetUnits: cellFile.map.offset_units ?? 0, lit: blocks.map_lit[rank],
            width: blocks.map_width[rank], foot: blocks.map_foot.subarray(2 * rank, 2 * rank + 2),
            filter: cellFile.map.filter ?? 0, average: cellFile.map.average,
            edges: cellFile.map.edges, format: cellFile.map.format,
@@ -156,6 +157,7 @@ addFamily('map', {
         ['Stored', `${short(record.stored)} (${record.value})`],
         ['Bias', short(record.bias)],
         ...(record.slopeBias > 0 ? [['Slope bias', `${record.slopeBias}, in what is stored`]] : []),
+        ...(record.offsetUnits > 0 ? [['Offset units', `${record.offsetUnits}, in what is stored`]] : []),
         ['Own point', short(record.own)],
         ['Footprint', `${printed(record.foot[0], 3)} × ${printed(record.foot[1], 3)} on the surface`],
         ['Texel shows', record.shown === noTriangle ? 'nothing' : `triangle ${record.shown}`]])];

@@ -204,6 +204,7 @@ Json lights_of(const Stage& stage) {
     for (const Lamp& lamp : lamps_of(stage)) {
         Json light{{"name", lamp.name}, {"type", lamp.type}, {"intensity", lamp.intensity}};
         if (lamp.color != glm::dvec3(1)) light["color"] = array(lamp.color);
+        if (lamp.range) light["range"] = *lamp.range;
         if (lamp.type == "spot")
             light["spot"] = {{"innerConeAngle", 0.8 * lamp.outer_cone},
                              {"outerConeAngle", lamp.outer_cone}};

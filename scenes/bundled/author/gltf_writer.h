@@ -89,6 +89,7 @@ struct Lamp {
     glm::dvec3 color{1, 1, 1};          ///< linear
     double intensity = 2000;            ///< candela, or lux of a directional light
     double outer_cone = 0.785;          ///< of a spot, radians
+    std::optional<double> range{};      ///< as KHR_lights_punctual has it
     std::optional<glm::dvec3> moves_to; ///< where it is after four seconds, along a straight line
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace shadowproof::author {
 
@@ -81,10 +83,54 @@ Stage low_light() {
     return stage;
 }
 
+/// The light's range ends amid the floor, and with it a map whose far plane lies there.
+Stage light_range() {
+    Stage stage = looking_along_floor("light_range",
+                                      "A light whose range ends amid what it lights: a map that "
+                                      "reaches no further has no answer beyond.",
+                                      {"range"});
+    stage.light.range = 10.313;
+    add(stage,
+        {{"near case",
+          box({0.413, 0.613, 0.373}, 5),
+          teal,
+          {-1.713, 0.6141, 0.813},
+          {0, 1, 0},
+          0.4371},
+         {"ring", torus(0.513, 0.171, 64, 24), amber, {0.313, 0.1713, -1.413}, {1, 0, 0}, 0.0031},
+         {"far case",
+          box({0.373, 0.513, 0.413}, 5),
+          coral,
+          {2.613, 0.5141, 0.471},
+          {0, 1, 0},
+          0.871}});
+    return stage;
+}
+
+/// Two wires pass the light more closely than a map's near plane, 2^-14 of the way to the floor.
+/// Two sides of a volume that begin so close to the light part fast: they pass the far plane, and
+/// what is extruded to a finite length ends early.
+Stage near_light() {
+    Stage stage = looking_along_floor("near_light",
+                                      "Wires that pass the light closely: a map's near plane cuts "
+                                      "them away, and their shadows with them.",
+                                      {"range", "far_plane", "extrusion"});
+    const glm::dvec3 light = stage.light.position;
+    const auto wire = [&](std::string name, double below, const glm::dvec3& along) {
+        const glm::dvec3 middle = light - glm::dvec3(0, below, 0);
+        return rod(std::move(name), middle - along, middle + along, 0.000031, slate);
+    };
+    add(stage,
+        {wire("wire", 0.000413, {0.00213, 0.0000713, 0.000171}),
+         wire("wire across", 0.000571, {-0.000313, 0.0000371, 0.00187}),
+         {"puck", disc(0.613, 0.213, 48), coral, {0.813, 0.2143, -0.671}, {0, 1, 0}, 0.171}});
+    return stage;
+}
+
 } // namespace
 
 std::vector<Stage> stages_of_maps() {
-    return {thin_caster(), cube_edge(), far_light(), low_light()};
+    return {thin_caster(), cube_edge(), far_light(), low_light(), light_range(), near_light()};
 }
 
 } // namespace shadowproof::author

@@ -167,6 +167,7 @@ Light read_light(const Document& document, const NodeGraph& graph, const Carrier
     light.kind = light_kind(carrier.place / "type", source.type);
     if (!source.color.empty()) light.color = glm::make_vec3(source.color.data());
     light.intensity = source.intensity;
+    if (source.range > 0) light.range = source.range;
     if (light.intensity < 0)
         (carrier.place / "intensity").refuse("is negative", "write candela, or lux");
     if (light.kind == Light::Kind::spot) read_cones(carrier.place / "spot", source.spot, light);
@@ -181,13 +182,13 @@ Light read_light(const Document& document, const NodeGraph& graph, const Carrier
     return light;
 }
 
-/// A range is where a light's intensity is cut off to save time; nothing physical ends there.
 void note_range(const Document& document, const Carrier& carrier, Scene& scene) {
     const double range = document.model.lights[carrier.index].range;
     if (range > 0)
-        scene.notes.push_back(fmt::format("{}/range of {:g} is not evaluated: the light shines on "
-                                          "without end",
-                                          carrier.place.pointer(), range));
+        scene.notes.push_back(
+            fmt::format("{}/range of {:g} is not evaluated: the light shines on "
+                        "without end, and only a shadow map's far plane lies there",
+                        carrier.place.pointer(), range));
 }
 
 } // namespace

@@ -40,8 +40,9 @@ TEST(SufficientDepths, of_fixed_point_are_as_many_near_planes_as_pixels_are_wide
     const SufficientDepths depths = sufficient_depths(
         scene, {.projection = DepthModel::Projection::infinite, .near = scene.camera.near});
     EXPECT_EQ(depths.nearest, 0.1);
-    // 2^-20 (t^2 / near + 2 t) = pixel t, as eye and light are at distance t
-    EXPECT_NEAR(depths.furthest, 0.1 * (pixel * 0x1p20 - 2), 1e-9);
+    // 2^-20 t^2 / near for the window, 10 2^-24 2 t (t / near) for the transform, as eye and light
+    // are at distance t
+    EXPECT_NEAR(depths.furthest, 0.1 * pixel * 0x1p24 / 36, 1e-9);
     const SufficientDepths twice = sufficient_depths(
         at_origin(0.2), {.projection = DepthModel::Projection::infinite, .near = 0.2});
     EXPECT_NEAR(twice.furthest, 2 * depths.furthest, 1e-9);
@@ -66,8 +67,8 @@ TEST(SufficientDepths, far_from_the_origin_begin_some_way_off_or_nowhere) {
     const DepthModel reversed{
         .projection = DepthModel::Projection::infinite_reversed, .near = 0.1, .floating = true};
     const SufficientDepths far_off = sufficient_depths(scene, reversed);
-    // 2^-20 of eye and point, some 2e4 - t, and of t: a pixel's width from about here
-    EXPECT_NEAR(far_off.nearest, 2e4 * 0x1p-20 / width_of_pixel(scene.camera), 0.1);
+    // 10 2^-24 of eye and point, some 2e4, and 2^-20 t: a pixel's width from here
+    EXPECT_NEAR(far_off.nearest, 2e5 * 0x1p-24 / (width_of_pixel(scene.camera) - 0x1p-20), 1e-6);
     EXPECT_EQ(far_off.furthest, infinity);
     const DepthModel infinite{.projection = DepthModel::Projection::infinite, .near = 0.1};
     const SufficientDepths both = sufficient_depths(scene, infinite);
@@ -224,7 +225,7 @@ TEST(Precision, that_is_too_near_makes_a_cell_a_defect) {
         return judged.comparison.cause.at(p.x, p.y);
     };
     constexpr auto precision = static_cast<std::uint8_t>(Cause::precision);
-    for (const double near : {3.4e-4, 4e-4, 4.6e-4}) {
+    for (const double near : {6.5e-4, 7.5e-4, 8.5e-4}) {
         SCOPED_TRACE(near);
         const JudgedFromAbove right = judged_from_above(near, std::nullopt);
         EXPECT_EQ(right.comparison.too_near, 0U);
@@ -236,16 +237,16 @@ TEST(Precision, that_is_too_near_makes_a_cell_a_defect) {
         EXPECT_EQ(at_border.verdict, Verdict::fails_as_predicted);
         EXPECT_TRUE(at_border.excuses_precision);
     }
-    const JudgedFromAbove coarse = judged_from_above(3.4e-4, further);
+    const JudgedFromAbove coarse = judged_from_above(6.5e-4, further);
     EXPECT_EQ(cause_at(coarse, further), precision);
     EXPECT_EQ(coarse.comparison.too_near, 0U);
     EXPECT_EQ(coarse.verdict, Verdict::fails_as_predicted);
-    const JudgedFromAbove caught = judged_from_above(4e-4, further);
+    const JudgedFromAbove caught = judged_from_above(7.5e-4, further);
     EXPECT_EQ(cause_at(caught, further), precision);
     EXPECT_EQ(caught.comparison.too_near, 1U);
     EXPECT_EQ(caught.verdict, Verdict::defect);
     EXPECT_FALSE(caught.excuses_precision);
-    EXPECT_EQ(judged_from_above(4.6e-4, further).verdict, Verdict::unexplained);
+    EXPECT_EQ(judged_from_above(8.5e-4, further).verdict, Verdict::unexplained);
 }
 
 TEST(Precision, of_near_planes_close_to_the_eye_begins_where_the_numbers_end) {

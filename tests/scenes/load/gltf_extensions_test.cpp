@@ -141,7 +141,9 @@ TEST(lights, say_that_their_range_is_not_evaluated) {
     EXPECT_FALSE(says(load(gltf), "range"));
     json& light = gltf["extensions"]["KHR_lights_punctual"]["lights"][0];
     light["range"] = 12.5;
-    EXPECT_TRUE(says(load(gltf), "lights/0/range of 12.5 is not evaluated"));
+    const Scene scene = load(gltf);
+    EXPECT_TRUE(says(scene, "lights/0/range of 12.5 is not evaluated"));
+    EXPECT_EQ(scene.lights.front().range * scene.unit, 12.5);
     light["range"] = -1;
     EXPECT_NE(refusal(gltf).find("/range: -1 is not above 0"), std::string::npos);
 }

@@ -30,6 +30,7 @@ export const faults = [
   { name: 'map_face_upside_down', ...camera('if (face == 3 || model.faces() == 1) c.up = -c.up') },
   { name: 'map_light_moved_1e-2', ...camera('seen_from_light.lights.front().position += glm::dvec3(1e-2 * model.far, 0, 0); c.eye = seen_from_light.lights.front().position') },
   { name: 'map_light_moved_1e-4', ...camera('seen_from_light.lights.front().position += glm::dvec3(1e-4 * model.far, 0, 0); c.eye = seen_from_light.lights.front().position') },
+  { name: 'map_of_another_light', ...camera('c.eye = scene.lights[(scene.light + 1) % scene.lights.size()].position; seen_from_light.lights.front().position = c.eye') },
   { name: 'map_wider_by_a_percent', ...camera('c.tan_half_height *= 1.01') },
   { name: 'map_wider_by_a_thousandth', ...camera('c.tan_half_height *= 1.001') },
   { name: 'map_half_a_texel_aside', ...camera('c.forward += c.right * (c.tan_half_height / model.size)') },

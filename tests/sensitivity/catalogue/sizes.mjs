@@ -15,7 +15,7 @@ const border = `${snapping}, at the picture's border`;
 const outline = `${snapping}, at outlines`;
 const floats = '2^-24 of each number: roundings of floats';
 const centres = 'no border is drawn: a pixel tells on which side its centre is';
-const texels = '2^-17: the sampler rounds places to 1/256 of a texel, of 512';
+const texels = '2^-24 of each number: roundings of floats; it shows at borders of texels alone';
 const step = '2^-24: a step of 24 bits';
 export const faults = [
   { name: 'viewport_shift', unit: 'pixels', largest: -1, aim: -6, own: snapping, ...shift('AMOUNT', '0') },

@@ -39,7 +39,10 @@ export const faults = [
   { name: 'sun_not_asked', file: sun, right: 'ask_shadows && is_shadowed', wrong: 'false && is_shadowed' },
   { name: 'sun_asked_of_all', file: sun, right: 'ask_shadows && is_shadowed', wrong: 'is_shadowed', why: 'On no bundled scene with a directional light is there a surface without shadows.' },
 ].map((fault) => ({ kind: 'map', techniques: 'sun_map', ...fault })).concat([
-  // A slope bias that nobody asked for.
-  { name: 'map_polygon_offset_unasked', file: pass, right: 'gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias), 0);', wrong: 'gl.Enable(GL_POLYGON_OFFSET_FILL); gl.PolygonOffset(1.1F, 0);' },
-  { name: 'map_polygon_offset_of_units', file: pass, right: 'gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias), 0);', wrong: 'gl.Enable(GL_POLYGON_OFFSET_FILL); gl.PolygonOffset(0, 64);' },
+  // A polygon offset that nobody asked for.
+  ...[['unasked', '1.1F, 0'], ['of_units', '0, 64']].map(([name, offset]) => ({
+    name: `map_polygon_offset_${name}`, file: pass,
+    right: `gl.PolygonOffset(static_cast<GLfloat>(pass.model.slope_bias),
+                     static_cast<GLfloat>(pass.model.offset_units));`,
+    wrong: `gl.Enable(GL_POLYGON_OFFSET_FILL); gl.PolygonOffset(${offset});` })),
 ].map((fault) => ({ kind: 'map', techniques: 'spot_map,sun_map', ...fault })));

@@ -1,8 +1,9 @@
-#include "compare/maps/slope_offset.h"
+#include "compare/maps/polygon_offset.h"
 
 #include "scenes/roundoff.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -33,14 +34,12 @@ Determinant determinant(double a, double b, double c, double d, double error_of_
                                          2 * error_of_ab * error_of_cd + 6 * v * terms};
 }
 
-} // namespace
-
-// OpenGL 4.5, section 14.6.5: the slope is the length of the gradient, or the larger of its
-// components instead. Of a polygon that is drawn as several triangles, each may have its own.
-SlopeOffset slope_offset(const std::vector<PicturePoint>& polygon, double factor, double scale,
-                         double reach) {
-    SlopeOffset offset{0, std::numeric_limits<double>::infinity(), 0};
-    if (factor == 0 || polygon.size() < 3) return {};
+/// The factor times the slope. OpenGL 4.5, section 14.6.5: that is the length of the gradient, or
+/// the larger of its components instead. Of a polygon that is drawn as several triangles, each may
+/// have its own.
+PolygonOffset offset_of_slope(const std::vector<PicturePoint>& polygon, double times,
+                              double reach) {
+    PolygonOffset offset{0, std::numeric_limits<double>::infinity(), 0};
     for (std::size_t i = 2; i < polygon.size(); ++i) {
         const PicturePoint& a = polygon[0];
         const PicturePoint& b = polygon[i - 1];
@@ -60,7 +59,6 @@ SlopeOffset slope_offset(const std::vector<PicturePoint>& polygon, double factor
         };
         const Determinant along_x{x.size, x.error + off(d01.y, d20.y)};
         const Determinant along_y{y.size, y.error + off(d01.x, d20.x)};
-        const double times = factor * scale;
         const double least = std::max(along_x.least(), along_y.least()) / area.most();
         const double most = area.least() > 0
                                 ? std::hypot(along_x.most(), along_y.most()) / area.least()
@@ -70,6 +68,45 @@ SlopeOffset slope_offset(const std::vector<PicturePoint>& polygon, double factor
         offset.most = std::max(offset.most, times * most * (1 + 4 * v));
     }
     return offset;
+}
+
+/// What floats resolve next to a depth from 0 to 1: 2^(e - 23), where e is its exponent.
+double float_step(double depth) {
+    return std::exp2(std::ilogb(std::clamp(depth, double{FLT_MIN}, 1.0)) - 23);
+}
+
+/// OpenGL 4.5, section 14.6.5: one unit is the smallest difference of window depths that the format
+/// resolves. Of fixed point it is a constant of the driver's. Of floats it depends on the
+/// triangle's largest depth; each of the triangles that a polygon is drawn as has three of its
+/// corners, so that the third smallest is the least that counts.
+PolygonOffset resolved(const std::vector<PicturePoint>& polygon, const MapModel& model,
+                       const OffsetUnit& unit, const WindowScale& window) {
+    if (!depth_format_of(model.format).floating)
+        return {0.5 * (unit.least + unit.most), unit.least, unit.most};
+    std::vector<double> depths;
+    double error = 0;
+    for (const PicturePoint& point : polygon) {
+        depths.push_back(window.at_zero + window.slope * point.inverse_depth);
+        error = std::max(error, std::abs(window.slope) * point.depth_error);
+    }
+    std::ranges::sort(depths);
+    return {float_step(depths.back()), float_step(depths[2] - error),
+            float_step(depths.back() + error)};
+}
+
+} // namespace
+
+PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const MapModel& model,
+                             const OffsetUnit& unit, const WindowScale& window, double reach) {
+    if (!model.has_offset() || polygon.size() < 3) return {};
+    PolygonOffset offset;
+    if (model.slope_bias != 0)
+        offset = offset_of_slope(polygon, model.slope_bias * std::abs(window.slope), reach);
+    if (model.offset_units == 0) return offset;
+    const PolygonOffset one = resolved(polygon, model, unit, window);
+    return {offset.own + model.offset_units * one.own,
+            offset.least + model.offset_units * one.least * (1 - 2 * v),
+            offset.most + model.offset_units * one.most * (1 + 2 * v)};
 }
 
 } // namespace shadowproof

@@ -1,13 +1,16 @@
-// A slope bias, which is OpenGL's polygon offset: how far it moves a surface is bounded, what it
-// makes wrong is named, and a map drawn with another one than it says is caught.
+// A slope bias and units, which are OpenGL's polygon offset: how far they move a surface is
+// bounded, what they make wrong is named, and a map drawn with others than it says is caught.
 #include "compare/evidence.h"
-#include "compare/maps/slope_offset.h"
+#include "compare/maps/polygon_offset.h"
 #include "scenes/error.h"
 #include "tests/compare/maps/drawn_map.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 namespace shadowproof {
 namespace {
@@ -27,8 +30,41 @@ std::vector<PicturePoint> tilted() {
     return {at(0, 0), at(16, 0), at(0, 16)};
 }
 
+PolygonOffset slope_offset(const std::vector<PicturePoint>& polygon, double factor, double scale,
+                           double reach) {
+    MapModel model;
+    model.slope_bias = factor;
+    return polygon_offset(polygon, model, {}, {0, scale}, reach);
+}
+
+PolygonOffset offset_of(const std::vector<PicturePoint>& polygon, double units, MapFormat format) {
+    MapModel model;
+    model.offset_units = units;
+    model.format = format;
+    return polygon_offset(polygon, model, {0x1p-23, 0x1.001p-23}, {}, 0);
+}
+
+TEST(OffsetUnits, are_steps_of_the_format_and_of_floats_those_at_the_largest_depth) {
+    // Its depths are 0.1, 0.26 and 0.42.
+    EXPECT_EQ(offset_of(tilted(), 3, MapFormat::d32f).own, 3 * 0x1p-25);
+    EXPECT_EQ(offset_of(tilted(), 1, MapFormat::d24).own, 0x1.0008p-23);
+    EXPECT_EQ(offset_of(tilted(), 0, MapFormat::d24).most, 0);
+    for (const MapFormat format : all_map_formats) {
+        const PolygonOffset offset = offset_of(tilted(), 7, format);
+        EXPECT_LE(offset.least, offset.own);
+        EXPECT_GE(offset.most, offset.own);
+        EXPECT_LT(offset.most, 1.001 * offset.least);
+    }
+    // Next to a power of two either exponent may be taken.
+    std::vector<PicturePoint> border = tilted();
+    border[2].inverse_depth = 0.5;
+    border[2].depth_error = 1e-7;
+    EXPECT_EQ(offset_of(border, 1, MapFormat::d32f).own, 0x1p-24);
+    EXPECT_LT(offset_of(border, 1, MapFormat::d32f).least, 0x1.01p-25);
+}
+
 TEST(SlopeOffset, is_the_factor_times_the_larger_slope_and_at_most_the_gradient) {
-    const SlopeOffset exact = slope_offset(tilted(), 3, 1, 0);
+    const PolygonOffset exact = slope_offset(tilted(), 3, 1, 0);
     EXPECT_NEAR(exact.own, 0.06, 1e-9);
     EXPECT_NEAR(exact.least, 0.06, 1e-6);
     EXPECT_NEAR(exact.most, 3 * std::hypot(0.01, 0.02), 1e-6);
@@ -38,8 +74,8 @@ TEST(SlopeOffset, is_the_factor_times_the_larger_slope_and_at_most_the_gradient)
 }
 
 TEST(SlopeOffset, is_looser_where_corners_are_snapped_and_unbounded_where_there_is_no_area) {
-    const SlopeOffset exact = slope_offset(tilted(), 3, 1, 0);
-    const SlopeOffset snapped = slope_offset(tilted(), 3, 1, 0x1p-9);
+    const PolygonOffset exact = slope_offset(tilted(), 3, 1, 0);
+    const PolygonOffset snapped = slope_offset(tilted(), 3, 1, 0x1p-9);
     EXPECT_LT(snapped.least, exact.least);
     EXPECT_GT(snapped.most, exact.most);
     // Corners that move by 1/512 of a texel change a slope over 16 texels by less than a hundredth.
@@ -61,12 +97,45 @@ protected:
     Gpu gpu{GlPlatform::osmesa};
     TracedScene traced{small(GetParam().scene)};
 
-    Frame sloped(double slope_bias, double bias) {
-        return drawn(
-            gpu, traced, GetParam().technique,
-            {.size = 256, .bias = bias, .slope_bias = slope_bias, .value = MapValue::depth});
+    Frame sloped(double slope_bias, double bias, double units = 0,
+                 std::optional<MapFormat> format = {}, std::optional<double> near = {}) {
+        return drawn(gpu, traced, GetParam().technique,
+                     {.size = 256,
+                      .bias = bias,
+                      .slope_bias = slope_bias,
+                      .offset_units = units,
+                      .value = MapValue::depth,
+                      .format = format,
+                      .near = near});
     }
 };
+
+TEST_P(SlopeBias, of_units_is_predicted_for_each_format_and_others_are_caught) {
+    for (const MapFormat format : all_map_formats)
+        for (const double slope_bias : {0.0, 1.1}) {
+            // So many that a tenth of them is more than the bounds of depths, and 1 is not reached.
+            const double units =
+                format == MapFormat::d16 ? 40 : (format == MapFormat::d24 ? 4000 : 1e5);
+            SCOPED_TRACE(testing::Message() << name_of(format) << ", " << slope_bias);
+            // In perspective window depths are next to 1 but for a near plane far from the light.
+            const bool is_sun = std::string_view(GetParam().technique) == "sun_map";
+            Frame frame = sloped(slope_bias, 0.001, units, format,
+                                 is_sun ? std::nullopt : std::optional(1.0));
+            EXPECT_EQ(texels_not_shown(traced, frame), 0U);
+            EXPECT_TRUE(is_explained(compared(traced, frame)));
+            for (const double share : {0.9, 1.1}) {
+                frame.mapped->model.offset_units = share * units;
+                EXPECT_GT(texels_not_shown(traced, frame), 0U) << share;
+            }
+        }
+}
+
+TEST_P(SlopeBias, of_many_units_mends_acne) {
+    EXPECT_GT(pixels_of(compared(traced, sloped(0, 0)), Cause::acne), 100U);
+    const Comparison moved = compared(traced, sloped(0, 0, 1e6));
+    EXPECT_LT(pixels_of(moved, Cause::acne),
+              pixels_of(compared(traced, sloped(0, 0)), Cause::acne));
+}
 
 TEST_P(SlopeBias, of_any_size_leaves_no_texel_and_no_pixel_unexplained) {
     for (const double slope_bias : {0.25, 1.1, 4.0, 40.0}) {
@@ -109,6 +178,7 @@ TEST(SlopeBiasOfDistances, is_refused) {
     Gpu gpu(GlPlatform::osmesa);
     const TracedScene ordinary(small("ordinary", 16));
     EXPECT_THROW(drawn(gpu, ordinary, "cube_map_six_pass", {.slope_bias = 1}), Error);
+    EXPECT_THROW(drawn(gpu, ordinary, "cube_map_six_pass", {.offset_units = 1}), Error);
     EXPECT_NO_THROW(drawn(gpu, ordinary, "cube_map_six_pass",
                           {.size = 16, .slope_bias = 1, .value = MapValue::depth}));
 }

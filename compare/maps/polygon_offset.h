@@ -1,0 +1,31 @@
+// By how much OpenGL's polygon offset moves a triangle's window depths, as far as a driver is free
+// to compute it: a factor times the slope of its plane over the picture, and units of what the
+// depth format resolves.
+#pragma once
+
+#include "compare/driver/clipped_polygon.h"
+#include "scenes/shadow_map.h"
+
+#include <vector>
+
+namespace shadowproof {
+
+/// Of window depth.
+struct PolygonOffset {
+    double own = 0; ///< by the exact plane, whose slope is the larger of both axes'
+    double least = 0;
+    double most = 0; ///< infinite where it is seen edge-on, as far as can be told
+};
+
+/// How a point's inverse_depth gives its window depth.
+struct WindowScale {
+    double at_zero = 0;
+    double slope = 1;
+};
+
+/// `polygon`: what clipping leaves of the triangle. `unit`: the driver's. `reach`: how far each of
+/// its corners may be snapped, in texels. No offset where the model asks for none.
+PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const MapModel& model,
+                             const OffsetUnit& unit, const WindowScale& window, double reach);
+
+} // namespace shadowproof
