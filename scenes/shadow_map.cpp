@@ -94,8 +94,8 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
     }
     if (model.has_offset() && model.value == MapValue::distance)
         refuse(scene,
-               fmt::format("has a light whose map would hold distances, which {} does not move: it "
-                           "is a polygon offset, of window depths",
+               fmt::format("would have a shadow map of distances, which {} does not move: it is a "
+                           "polygon offset, of window depths",
                            model.slope_bias != 0 ? "--map-slope-bias" : "--map-offset-units"),
                "give --map-value depth, or leave the polygon offset out");
     if (!model.is_ramp()) model.format = settings.format.value_or(model.format);
@@ -122,7 +122,7 @@ MapModel with_settings(MapModel model, const MapSettings& settings, const Scene&
     }
     if (!(model.near > 0 && model.near < model.far))
         refuse(scene,
-               fmt::format("has a light whose map would reach from {} to {}",
+               fmt::format("would have a shadow map that reaches from {:.6g} to {:.6g}",
                            model.near * scene.unit, model.far * scene.unit),
                "give --map-near and --map-far so that 0 < near < far");
     return model;

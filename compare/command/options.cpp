@@ -129,6 +129,9 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
         ->type_name(names_of(all_bump_forms, "|"));
 }
 
+/// The least of numbers above zero.
+constexpr double above_zero = std::numeric_limits<double>::denorm_min();
+
 /// A length in the file's units, `least` or more.
 void add_length_flag(CLI::App& command, const char* flag, std::optional<double>& value,
                      double least, const std::string& words) {
@@ -140,7 +143,7 @@ void add_length_flag(CLI::App& command, const char* flag, std::optional<double>&
                 if (!value || *value < least)
                     throw CLI::ValidationError(
                         flag, "'" + text + "' is no length here; give a number" +
-                                  (least < 0 ? "" : fmt::format(", {} or more", least)) +
+                                  (least < 0 ? "" : (least > 0 ? " above 0" : ", 0 or more")) +
                                   ", as 0.15");
             },
             words)
@@ -156,13 +159,13 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
     command
         .add_option("--map-slope-bias", settings.slope_bias,
                     "How many times its depth's change over a texel's step a surface is moved away "
-                    "in maps of depths (0)")
+                    "in maps of depths; of cubes with --map-value depth (0)")
         ->type_name("FACTOR")
         ->check(CLI::Range(0.0, largest_polygon_offset));
     command
         .add_option("--map-offset-units", settings.offset_units,
                     "How many times what its format resolves a surface is moved away in maps of "
-                    "depths (0)")
+                    "depths; of cubes with --map-value depth (0)")
         ->type_name("UNITS")
         ->check(CLI::Range(0.0, largest_polygon_offset));
     const auto add_choice = [&](const char* flag, const auto& all, auto& value,
@@ -176,11 +179,12 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
                 words + " (each technique's own)")
             ->type_name(names_of(all, "|"));
     };
-    add_choice("--map-value", all_map_values, settings.value, "What shadow maps hold");
+    add_choice("--map-value", all_map_values, settings.value,
+               "What shadow maps hold; those of suns hold depths in any case");
     add_choice("--map-format", all_map_formats, settings.format, "How they store it");
     add_choice("--map-culling", all_map_cullings, settings.culling,
                "Which sides of casters they leave out");
-    add_length_flag(command, "--map-near", settings.near, 0,
+    add_length_flag(command, "--map-near", settings.near, above_zero,
                     "Near plane of the light's camera (close to the light)");
     add_length_flag(
         command, "--map-far", settings.far, 0,
@@ -369,6 +373,43 @@ CLI::Validator not_empty() {
             "not empty"};
 }
 
+namespace {
+
+/// A flag and its value for each setting that was asked for.
+std::vector<std::string> settings(const TechniqueSettings& asked) {
+    std::vector<std::string> words;
+    const auto add = [&](const char* flag, const std::string& value) {
+        words.emplace_back(flag);
+        words.push_back(value);
+    };
+    const LightingSettings& lighting = asked.lighting;
+    if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
+    if (lighting.cube_size) add("--cube-size", fmt::format("{}", *lighting.cube_size));
+    if (lighting.newton_steps) add("--newton-steps", fmt::format("{}", *lighting.newton_steps));
+    if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
+    if (const std::optional<double>& extrusion = asked.volumes.extrusion)
+        add("--extrusion", fmt::format("{}", *extrusion));
+    const MapSettings& map = asked.map;
+    if (map.size) add("--map-size", fmt::format("{}", *map.size));
+    if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
+    if (map.slope_bias) add("--map-slope-bias", fmt::format("{}", *map.slope_bias));
+    if (map.offset_units) add("--map-offset-units", fmt::format("{}", *map.offset_units));
+    if (map.value) add("--map-value", std::string(name_of(*map.value)));
+    if (map.format) add("--map-format", std::string(name_of(*map.format)));
+    if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
+    if (map.near) add("--map-near", fmt::format("{}", *map.near));
+    if (map.far) add("--map-far", fmt::format("{}", *map.far));
+    if (map.filter) add("--map-filter", fmt::format("{}", *map.filter));
+    if (map.average) add("--map-average", std::string(name_of(*map.average)));
+    if (map.edges) add("--map-edges", std::string(name_of(*map.edges)));
+    const RaySettings& rays = asked.rays;
+    if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
+    if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));
+    return words;
+}
+
+} // namespace
+
 std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOptions& technique) {
     std::vector<std::string> words;
     const auto add = [&](const char* flag, const std::string& value) {
@@ -386,30 +427,24 @@ std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOpti
     for (const std::string& word : settings(scene.view)) words.push_back(word);
     if (scene.stress) add("--stress", words_of(*scene.stress));
     if (technique.platform == GlPlatform::egl) add("--gl", "egl");
-    const LightingSettings& lighting = technique.asked.lighting;
-    if (lighting.normalisation) add("--normalise", std::string(name_of(*lighting.normalisation)));
-    if (lighting.cube_size) add("--cube-size", fmt::format("{}", *lighting.cube_size));
-    if (lighting.newton_steps) add("--newton-steps", fmt::format("{}", *lighting.newton_steps));
-    if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
-    if (const std::optional<double>& extrusion = technique.asked.volumes.extrusion)
-        add("--extrusion", fmt::format("{}", *extrusion));
-    const MapSettings& map = technique.asked.map;
-    if (map.size) add("--map-size", fmt::format("{}", *map.size));
-    if (map.bias) add("--map-bias", fmt::format("{}", *map.bias));
-    if (map.slope_bias) add("--map-slope-bias", fmt::format("{}", *map.slope_bias));
-    if (map.offset_units) add("--map-offset-units", fmt::format("{}", *map.offset_units));
-    if (map.value) add("--map-value", std::string(name_of(*map.value)));
-    if (map.format) add("--map-format", std::string(name_of(*map.format)));
-    if (map.culling) add("--map-culling", std::string(name_of(*map.culling)));
-    if (map.near) add("--map-near", fmt::format("{}", *map.near));
-    if (map.far) add("--map-far", fmt::format("{}", *map.far));
-    if (map.filter) add("--map-filter", fmt::format("{}", *map.filter));
-    if (map.average) add("--map-average", std::string(name_of(*map.average)));
-    if (map.edges) add("--map-edges", std::string(name_of(*map.edges)));
-    const RaySettings& rays = technique.asked.rays;
-    if (rays.epsilon) add("--ray-epsilon", fmt::format("{}", *rays.epsilon));
-    if (rays.offset) add("--ray-offset", fmt::format("{}", *rays.offset));
+    for (const std::string& word : settings(technique.asked)) words.push_back(word);
     return words;
+}
+
+std::string unheeded_settings(const TechniqueOptions& options) {
+    const std::vector<const Technique*> chosen = options.chosen();
+    const std::vector<std::string> words = settings(options.asked);
+    std::string unheeded;
+    for (std::size_t i = 0; i < words.size(); i += 2) {
+        const std::string_view name = std::string_view(words[i]).substr(2);
+        if (std::ranges::any_of(chosen, [&](const Technique* each) { return heeds(*each, name); }))
+            continue;
+        unheeded += (unheeded.empty() ? "" : ", ") + words[i];
+    }
+    if (unheeded.empty()) return {};
+    return fmt::format("{}: of no effect on the techniques that are tried (shadowproof list "
+                       "names what each heeds)",
+                       unheeded);
 }
 
 std::string extension_of(const std::string& file) {

@@ -80,6 +80,9 @@ CLI::Validator not_empty();
 /// A file name's extension in lower case: ".exr".
 std::string extension_of(const std::string& file);
 
+/// What to note of flags that were given and that no chosen technique heeds; empty where all count.
+std::string unheeded_settings(const TechniqueOptions& options);
+
 /// The flags that differ from their defaults, as words of a command line.
 std::vector<std::string> settings(const SceneOptions& scene, const TechniqueOptions& technique);
 

@@ -27,6 +27,12 @@ struct FromLight {
     double depth = 0;                     ///< along the face's axis; infinity: nothing
 };
 
+/// Limits of the light's camera that a counterfactual lifts.
+struct LiftedLimits {
+    bool range = false;   ///< its near and far planes cut nothing off
+    bool culling = false; ///< both sides of casters are drawn
+};
+
 /// Keeps a reference to the evidence.
 class LightView {
 public:
@@ -45,6 +51,9 @@ public:
     virtual std::vector<FromLight> trace(std::span<const Texel> texels) const = 0;
     /// Of the ray through a point, given relative to the light, whose face is `face`.
     virtual FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const = 0;
+    /// The same without some of the camera's limits.
+    virtual FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
+                                    const glm::dvec3& from_light) const = 0;
 
     /// The triangle whose surface the texel shows: the one at its centre, or another that the
     /// driver may draw there. `shows` is false where no rasterizer would store this.
@@ -56,6 +65,8 @@ public:
         double moved = 0; ///< the same as the polygon offset moves it
     };
     Shown shown(const Texel& texel, const FromLight& at_centre) const;
+    /// What the texel's centre would show without some of the camera's limits.
+    virtual Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const = 0;
 
     /// A depth of a triangle of the scene as the polygon offset moves it there, in world units, and
     /// at most to the far plane; the depth itself without one.

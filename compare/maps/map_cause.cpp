@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace shadowproof {
 
@@ -19,13 +20,61 @@ bool is_in_range(const MapModel& model, const Lookup& lookup) {
            lookup.value <= model.far;
 }
 
+/// A texel's ray that meets something before the point does not go through the point. What it meets
+/// is the receiver itself, or another triangle. With a bias below zero, neither that ray nor a bias
+/// of zero is enough alone where it is another.
+PixelCause of_texel(const Scene& scene, const MapModel& model, std::uint32_t shown,
+                    std::uint32_t receiver) {
+    if (are_joined(scene, shown, receiver)) return {Cause::acne, {}};
+    if (!(model.bias < 0)) return {Cause::resolution, {}};
+    PixelCause cause{Cause::acne, {}};
+    cause.also.add(Cause::resolution);
+    return cause;
+}
+
+/// Of a point that the map does not reach. Where the light's camera sees it, the ray through it
+/// finds what the map was cleared to.
+PixelCause beyond_range(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
+    const MapModel& model = light.model();
+    const double own = wrong.lookup.value;
+    const LightView::Shown whole = light.shown_without({.range = true}, wrong.lookup.texel);
+    const double kept = whole.value <= model.far ? whole.moved : whole.value;
+    if (!(kept + model.bias < own)) return {Cause::range, {}};
+    PixelCause cause = of_texel(scene, model, whole.triangle, wrong.receiver);
+    if (!is_shadowed(model, 1, own)) return cause;
+    cause.also.add(cause.cause);
+    cause.cause = Cause::range;
+    return cause;
+}
+
 PixelCause of_false_shadow(const LightView& light, const Scene& scene, const WrongAnswer& wrong) {
     const MapModel& model = light.model();
-    if (!is_in_range(model, wrong.lookup)) return {Cause::range, {}};
+    if (!is_in_range(model, wrong.lookup)) return beyond_range(light, scene, wrong);
     if (!(wrong.shown.moved + model.bias < wrong.lookup.value)) return {Cause::precision, {}};
-    return {are_joined(scene, wrong.shown.triangle, wrong.receiver) ? Cause::acne
-                                                                    : Cause::resolution,
-            {}};
+    return of_texel(scene, model, wrong.shown.triangle, wrong.receiver);
+}
+
+/// The cause of light that no caster takes away on the ray through the point itself, as the light's
+/// camera is limited: which of its limits must go so that one does, the fewest that suffice.
+PixelCause of_missing_occluder(const LightView& light, const WrongAnswer& wrong) {
+    const MapModel& model = light.model();
+    const double own = wrong.lookup.value;
+    const auto found = [&](const LiftedLimits& lifted) {
+        const FromLight met =
+            light.trace_without(lifted, wrong.lookup.texel.face, wrong.from_light);
+        return met.triangle != no_triangle && met.triangle != wrong.receiver &&
+                       met.depth < wrong.lookup.depth
+                   ? own * met.depth / wrong.lookup.depth
+                   : std::numeric_limits<double>::infinity();
+    };
+    const bool culls = model.culling != MapCulling::none;
+    const double in_range = found({.range = true});
+    const double unculled = culls ? found({.culling = true}) : in_range;
+    if (culls && unculled + model.bias < own) return {Cause::open_mesh, {}};
+    if (in_range + model.bias < own || !culls || !wrong.lookup.in_map) return {Cause::range, {}};
+    PixelCause cause{Cause::open_mesh, {}};
+    if (!(unculled < own)) cause.also.add(Cause::range);
+    return cause;
 }
 
 PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
@@ -34,7 +83,7 @@ PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
     if (wrong.lookup.in_map && wrong.shown.moved + model.bias < own) return {Cause::precision, {}};
     const FromLight met = met_on_the_way(light, wrong.lookup, wrong.from_light);
     if (met.triangle == no_triangle || met.triangle == wrong.receiver)
-        return {model.culling != MapCulling::none ? Cause::open_mesh : Cause::range, {}};
+        return of_missing_occluder(light, wrong);
     const double met_value =
         light.moved_away(wrong.lookup.texel, met.triangle, own * met.depth / wrong.lookup.depth);
     if (met_value + model.bias < own) return {Cause::resolution, {}};

@@ -88,11 +88,40 @@ std::vector<FromLight> ParallelView::trace(std::span<const Texel> texels) const 
     return met(rays);
 }
 
-FromLight ParallelView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
-    const Camera& from = camera(face);
+AnyRay ParallelView::ray_through(const glm::dvec3& from_light) const {
+    const Camera& from = camera(0);
     const glm::dvec3 along = glm::dot(from_light, from.forward) * from.forward;
-    const AnyRay ray{from.eye + from_light - along, from.forward, model().near, model().far};
+    return {from.eye + from_light - along, from.forward, model().near, model().far};
+}
+
+FromLight ParallelView::trace_to(std::size_t /*face*/, const glm::dvec3& from_light) const {
+    const AnyRay ray = ray_through(from_light);
     return met(std::span(&ray, 1)).front();
+}
+
+FromLight ParallelView::met_without(const LiftedLimits& lifted, AnyRay ray) const {
+    if (!tracer_) return {no_triangle, infinity};
+    if (lifted.range) {
+        ray.near = -infinity;
+        ray.far = infinity;
+    }
+    const auto counts = [&](std::uint32_t caster) {
+        return is_drawn(casters_, caster, lifted.culling ? MapCulling::none : model().culling);
+    };
+    const MetTriangle first = first_met(*tracer_, std::span(&ray, 1), counts).front();
+    if (first.triangle == no_triangle) return {no_triangle, infinity};
+    return {of_scene_[first.triangle], first.t};
+}
+
+FromLight ParallelView::trace_without(const LiftedLimits& lifted, std::size_t /*face*/,
+                                      const glm::dvec3& from_light) const {
+    return met_without(lifted, ray_through(from_light));
+}
+
+LightView::Shown ParallelView::shown_without(const LiftedLimits& lifted, const Texel& texel) const {
+    const FromLight found = met_without(lifted, ray_at(texel.x + 0.5, texel.y + 0.5));
+    if (found.triangle == no_triangle) return {true, no_triangle, infinity, infinity};
+    return showing(texel, caster_of(found.triangle));
 }
 
 ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster) const {

@@ -18,6 +18,9 @@ public:
 
     std::vector<FromLight> trace(std::span<const Texel> texels) const override;
     FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
+    FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
+                            const glm::dvec3& from_light) const override;
+    Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const override;
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
@@ -38,7 +41,9 @@ private:
 
     std::uint32_t caster_of(std::uint32_t triangle) const;
     AnyRay ray_at(double x, double y) const;
+    AnyRay ray_through(const glm::dvec3& from_light) const;
     std::vector<FromLight> met(std::span<const AnyRay> rays) const;
+    FromLight met_without(const LiftedLimits& lifted, AnyRay ray) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
     PolygonOffset offset(std::uint32_t caster) const;

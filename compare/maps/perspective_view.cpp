@@ -4,6 +4,8 @@
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/neighbourhood.h"
 #include "compare/driver/setup_error.h"
+#include "reference/trace/faces.h"
+#include "reference/trace/first_met.h"
 #include "scenes/driver.h"
 
 #include <algorithm>
@@ -77,6 +79,35 @@ FromLight PerspectiveView::trace_to(std::size_t face, const glm::dvec3& from_lig
     const SeenSurface seen = see_rays(*tracer_, std::span(&ray, 1)).front();
     if (seen.triangle == no_triangle) return {no_triangle, infinity};
     return {of_scene_[seen.triangle], seen.depth};
+}
+
+// The faces' scenes have wound their casters so that a side which is drawn is a front.
+FromLight PerspectiveView::met_without(const LiftedLimits& lifted, const glm::dvec3& ray) const {
+    if (!tracer_) return {no_triangle, infinity};
+    const AnyRay from_light{origin(), ray, lifted.range ? 0 : model().near,
+                            lifted.range ? infinity : model().far};
+    const auto counts = [&](std::uint32_t caster) {
+        return lifted.culling || model().culling == MapCulling::none ||
+               side(faces_.front(), caster, {origin(), 1}) > 0;
+    };
+    const MetTriangle first = first_met(*tracer_, std::span(&from_light, 1), counts).front();
+    if (first.triangle == no_triangle) return {no_triangle, infinity};
+    return {of_scene_[first.triangle], first.t};
+}
+
+FromLight PerspectiveView::trace_without(const LiftedLimits& lifted, std::size_t face,
+                                         const glm::dvec3& from_light) const {
+    const double depth = glm::dot(from_light, camera(face).forward);
+    if (!(depth > 0)) return {no_triangle, infinity};
+    return met_without(lifted, from_light / depth);
+}
+
+LightView::Shown PerspectiveView::shown_without(const LiftedLimits& lifted,
+                                                const Texel& texel) const {
+    const FromLight found =
+        met_without(lifted, ray_direction(camera(texel.face), texel.x + 0.5, texel.y + 0.5));
+    if (found.triangle == no_triangle) return {true, no_triangle, infinity, infinity};
+    return showing(texel, caster_of(found.triangle));
 }
 
 PlaneAtPixel PerspectiveView::plane(const Texel& texel, std::uint32_t caster) const {

@@ -18,6 +18,9 @@ public:
 
     std::vector<FromLight> trace(std::span<const Texel> texels) const override;
     FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
+    FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
+                            const glm::dvec3& from_light) const override;
+    Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const override;
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
@@ -28,6 +31,7 @@ private:
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
     mutable std::array<std::once_flag, 6> is_made_;
 
+    FromLight met_without(const LiftedLimits& lifted, const glm::dvec3& ray) const;
     PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
     double value(const PlaneAtPixel& plane) const;
     std::uint32_t caster_of(std::uint32_t triangle) const;

@@ -49,10 +49,11 @@ inline std::vector<Cause> map_failings_by_nature() {
     return {Cause::resolution, Cause::acne, Cause::leak};
 }
 
-/// The flags that affect all of them (Technique::settings).
+/// The flags that affect all of them (Technique::settings); a polygon offset those that hold
+/// depths, or are asked to.
 inline std::vector<std::string_view> map_settings() {
-    return {"map-size",    "map-bias", "map-value", "map-format",
-            "map-culling", "map-near", "map-far"};
+    return {"map-size",   "map-bias",    "map-slope-bias", "map-offset-units", "map-value",
+            "map-format", "map-culling", "map-near",       "map-far"};
 }
 /// Those without these names.
 inline std::vector<std::string_view> without(std::vector<std::string_view> settings,
@@ -62,13 +63,6 @@ inline std::vector<std::string_view> without(std::vector<std::string_view> setti
     });
     return settings;
 }
-/// Those of maps that hold depths unless the user asks otherwise.
-inline std::vector<std::string_view> depth_map_settings() {
-    std::vector<std::string_view> settings = map_settings();
-    settings.insert(settings.end(), {"map-slope-bias", "map-offset-units"});
-    return settings;
-}
-
 /// What techniques that average over a block have besides.
 template <class T>
 std::vector<T> joined(std::vector<T> list, std::initializer_list<T> more) {

@@ -38,7 +38,8 @@ test('the depth to which a technique\'s numbers suffice follows from the scene\'
   assert.ok(Math.abs(zfail.sufficient.to / deeper.techniques[0].sufficient.to -
                      record.near / deeper.near) < 0.2);
   assert.deepEqual(reversed.sufficient, { from: record.near, to: null });
-  assert.match(text, new RegExp(`zfail .* to ${Math.round(zfail.sufficient.to)} `));
+  const [, told] = text.match(/zfail .* to ([\d.]+) /);
+  assert.ok(Math.abs(told / zfail.sufficient.to - 1) < 1e-3);
   assert.match(text, /zfail_reversed .* at any depth /);
 });
 

@@ -267,6 +267,8 @@ std::string extent_of(const BenchRun& run) {
 
 int bench(const BenchOptions& options, int watcher) {
     Console console(options.quiet, watcher);
+    if (const std::string note = unheeded_settings(options.technique); !note.empty())
+        console.line("note: " + note);
     check_files(options);
     MemoryAccount memory(options.scene.memory);
     std::optional<BenchRun> older;

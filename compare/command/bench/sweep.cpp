@@ -62,12 +62,15 @@ std::span<const SweptSetting> swept_settings() {
             {"0", "0.001", "0.01", "0.05", "0.15", "0.5"},
             [](const Frame& f, double unit) { return length(f.mapped->model.bias, unit); }},
         SweptSetting{
-            "map-slope-bias",
-            {"0", "0.5", "1.1", "2", "4"},
-            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.slope_bias); }},
-        SweptSetting{
             "map-value", names_of(all_map_values),
             [](const Frame& f, double) { return std::string(name_of(f.mapped->model.value)); }},
+        SweptSetting{
+            "map-slope-bias",
+            {"0", "0.5", "1.1", "2", "4"},
+            [](const Frame& f, double) { return fmt::format("{}", f.mapped->model.slope_bias); },
+            {},
+            {},
+            {"map-value", name_of(MapValue::depth)}},
         SweptSetting{
             "map-format", names_of(all_map_formats),
             [](const Frame& f, double) { return std::string(name_of(f.mapped->model.format)); }},
@@ -116,10 +119,12 @@ const std::string* value_of(const BenchSettings& settings, std::string_view name
     return found == settings.end() ? nullptr : &found->second;
 }
 
-/// Whether a setting does anything beside these.
-bool does_something(const SweptSetting& setting, const BenchSettings& beside) {
+/// Whether a setting of the technique does anything beside these. Where the technique leaves no
+/// choice of what the setting needs, it has it.
+bool does_something(const SweptSetting& setting, const Technique& technique,
+                    const BenchSettings& beside) {
     const auto& [name, value] = setting.within;
-    if (name.empty()) return true;
+    if (name.empty() || !heeds(technique, name)) return true;
     const std::string* const is = value_of(beside, name);
     return is != nullptr && *is == value;
 }
@@ -129,7 +134,7 @@ bool does_something(const SweptSetting& setting, const BenchSettings& beside) {
 BenchSettings own_settings(const Technique& technique, const Frame& frame, double unit) {
     BenchSettings own;
     for (const SweptSetting& setting : swept_settings())
-        if (heeds(technique, setting.name) && does_something(setting, own))
+        if (heeds(technique, setting.name) && does_something(setting, technique, own))
             own.emplace_back(setting.name, setting.own(frame, unit));
     return own;
 }
@@ -157,7 +162,7 @@ std::vector<BenchSettings> sweep(const Technique& technique, const BenchSettings
     for (const SweptSetting& setting : swept_settings()) {
         if (!heeds(technique, setting.name) || value_of(fixed, setting.name) != nullptr) continue;
         BenchSettings beside = fixed;
-        if (!does_something(setting, own)) {
+        if (!does_something(setting, technique, own)) {
             const auto& [name, value] = setting.within;
             if (value_of(fixed, name) != nullptr) continue; // to what makes it do nothing
             beside.emplace_back(name, value);

@@ -172,6 +172,8 @@ int conclude(const StressOptions& options, const StressRun& run, Console& consol
 
 int stress(const StressOptions& options, int watcher) {
     Console console(options.quiet, watcher);
+    if (const std::string note = unheeded_settings(options.technique); !note.empty())
+        console.line("note: " + note);
     check_files(options);
     std::vector<std::string> fixed{page_name, results_name, results_script_name};
     if (options.pictures)

@@ -41,6 +41,8 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     check_outputs(options.output, options.scenes);
     require_picture(options.scene.memory, options.scene.size.width, options.scene.size.height,
                     Workload::comparison);
+    if (const std::string note = unheeded_settings(options.technique); !note.empty())
+        console.line("note: " + note);
     for (const Allowance& allowance : options.gate.gate.allow)
         if (allowance.cause == Cause::edge)
             console.line("note: --allow edge changes nothing: edge pixels never fail");

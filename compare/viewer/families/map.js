@@ -141,7 +141,7 @@ addFamily('map', {
     ['Map', `${map.size} texels a side, ${map.value === 'distance' ? 'distances' : 'depths'} in ${map.format}`],
     ['Planes of the light', `${short(map.near)} to ${short(map.far)}, in the file's units`],
     ['Texels asked', grouped(map.texels)],
-    ['May show another surface or texel',
+    ['Show another surface or texel than the centre',
      `${counted(map.straddling, 'pixel')}, ${short(100 * map.straddling / pixels)} %`]] : []),
   differing({ opened }, pixel) {
     const record = mapRecord(opened, rankOf(opened.differing, pixel));

@@ -22,7 +22,7 @@ Technique spot_map_technique() {
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},
-            .settings = depth_map_settings(),
+            .settings = map_settings(),
             .run = run};
 }
 

@@ -22,7 +22,8 @@ Technique spot_map_dual_texture_technique() {
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},
-            .settings = without(map_settings(), {"map-value", "map-format"}),
+            .settings = without(map_settings(),
+                                {"map-slope-bias", "map-offset-units", "map-value", "map-format"}),
             .run = run};
 }
 

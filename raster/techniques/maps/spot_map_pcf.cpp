@@ -26,8 +26,7 @@ Technique spot_map_pcf_technique() {
             .fails_at = joined(map_failings(), {Cause::filter}),
             .by_nature = joined(map_failings_by_nature(), {Cause::filter}),
             .lights = {Light::Kind::spot},
-            .settings =
-                joined<std::string_view>(depth_map_settings(), {"map-filter", "map-average"}),
+            .settings = joined<std::string_view>(map_settings(), {"map-filter", "map-average"}),
             .run = run};
 }
 

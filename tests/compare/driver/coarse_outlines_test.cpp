@@ -1,6 +1,7 @@
 // The clipper makes corners from others far away, in floats: what it may draw aside is explained,
 // and no more than that.
 #include "compare/driver/coarse_outlines.h"
+#include "scenes/mesh/touching_light.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
 
@@ -105,6 +106,28 @@ TEST(WideFloor, is_explained) {
             EXPECT_EQ(comparison.evidence.unexplained, 0U);
             EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U);
         }
+    }
+}
+
+/// A thousand kilometres under a light two metres above: the clipper's guard band, which cuts the
+/// floor's dark cap at infinity, would be off by a part of the picture, did the cap not have a
+/// corner in its middle.
+TEST(WideFloor, keeps_its_dark_cap_over_all_of_the_picture) {
+    Scene scene = box_over_wide_floor(2e6F);
+    scene.lights.front().position = {-10.4, 2.2, 7.5};
+    Gpu gpu(GlPlatform::osmesa);
+    for (const int size : {32, 64, 100}) {
+        scene.camera.width = scene.camera.height = size;
+        const TracedScene traced(scene);
+        ASSERT_FALSE(triangles_touching_light(scene).empty());
+        const Frame frame =
+            render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+        std::size_t lost = 0;
+        for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
+            lost += frame.claim.pixels[i] == Visibility::shadowed &&
+                    traced.truth.visibility.pixels[i] == Visibility::lit;
+        EXPECT_LT(lost, frame.claim.pixels.size() / 100) << size;
+        EXPECT_EQ(compared(traced, frame).evidence.unexplained, 0U) << size;
     }
 }
 
