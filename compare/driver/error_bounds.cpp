@@ -15,16 +15,18 @@ constexpr double v = float_roundoff;
 
 /// Sum of the sizes of the terms that the float transform adds up for a point's view coordinate
 /// along an axis of the camera. World coordinates carry the eye's distance from the origin with
-/// them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice. A point
-/// of a volume's side was extruded from the light, and that direction is rounded too.
-double transform_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& axis,
-                       const glm::dvec3& point) {
+/// them; eye-relative ones do not, but subtract the eye as two floats, which rounds twice.
+double position_terms(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& axis,
+                      const glm::dvec3& point) {
     const glm::dvec3& eye = scene.camera.eye;
-    const glm::dvec4 light = homogeneous(chosen_light(scene));
     const auto terms = [&](const glm::dvec3& p) { return glm::dot(glm::abs(axis), glm::abs(p)); };
-    const double position =
-        depth_model.eye_relative ? 2 * terms(point - eye) : terms(point) + terms(eye);
-    return position + terms(light.w * point - glm::dvec3(light));
+    return depth_model.eye_relative ? 2 * terms(point - eye) : terms(point) + terms(eye);
+}
+
+/// The same for the direction along which a point of a volume's side was extruded from the light.
+double direction_terms(const Scene& scene, const glm::dvec3& axis, const glm::dvec3& point) {
+    const glm::dvec4 light = homogeneous(chosen_light(scene));
+    return glm::dot(glm::abs(axis), glm::abs(light.w * point - glm::dvec3(light)));
 }
 
 /// View depth of `point`, at least the near plane's.
@@ -45,7 +47,8 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
     const double scale = 0.5 * camera.height / camera.tan_half_height;
     double terms = 0;
     for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
-        terms = std::max(terms, transform_terms(scene, depth_model, axis, point));
+        terms = std::max(terms, position_terms(scene, depth_model, axis, point) +
+                                    direction_terms(scene, axis, point));
     const double transform =
         transform_roundings * v * (scale + 0.5 * pixels) * terms / depth_of(camera, point);
     return half_step + transform + 3 * v * pixels;
@@ -68,13 +71,20 @@ double stored_depth_error(const DepthModel& depth_model, double depth) {
 
 // The transform's sums round 5 times a face (see lateral_error). Reversed depth is n/w, and as far
 // off as w. In standard depth z/w the numerator is rounded by itself, and dt/dz = t^2 / n over w =
-// t leaves t / n of the terms' error.
-double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+// t leaves t / n of the terms' error. What rounds the direction of a volume's side moves its
+// points, in numerator and w alike.
+double transform_depth_error(const Scene& scene, const DepthModel& depth_model,
+                             const glm::dvec3& point) {
     const double t = depth_of(scene.camera, point);
     const double growth = depth_model.reversed() ? 1 : std::max(t / depth_model.near, 1.0);
-    return stored_depth_error(depth_model, t) +
-           2 * transform_roundings * v * growth *
-               transform_terms(scene, depth_model, scene.camera.forward, point);
+    return 2 * transform_roundings * v *
+           (growth * position_terms(scene, depth_model, scene.camera.forward, point) +
+            direction_terms(scene, scene.camera.forward, point));
+}
+
+double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point) {
+    return stored_depth_error(depth_model, depth_of(scene.camera, point)) +
+           transform_depth_error(scene, depth_model, point);
 }
 
 } // namespace shadowproof

@@ -22,7 +22,12 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
 /// the roundings of window depth alone. What their corners are off by is setup_error's.
 double stored_depth_error(const DepthModel& depth_model, double depth);
 
-/// The same, and the float transform's error at a world point near which their corners lie.
+/// The same by the float transform, at a world point near which their corners lie: ten roundings
+/// for two faces.
+double transform_depth_error(const Scene& scene, const DepthModel& depth_model,
+                             const glm::dvec3& point);
+
+/// Both together.
 double depth_error(const Scene& scene, const DepthModel& depth_model, const glm::dvec3& point);
 
 } // namespace shadowproof

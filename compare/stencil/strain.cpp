@@ -21,8 +21,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Standard deviation of a sum of `window_depth_roundings` for each of two faces, over its bound.
-const double deviation_share = 0.5 / std::sqrt(3.0 * 2 * window_depth_roundings);
+/// Standard deviation of a sum of so many roundings for each of two faces, over its bound.
+double deviation_share(int roundings) {
+    return 0.5 / std::sqrt(3.0 * 2 * roundings);
+}
 
 /// Of a pixel, below which it is left out: those of 4096x4096 pixels add up to less than 0.017, and
 /// a technique is derived to break from log 2 on.
@@ -91,7 +93,10 @@ Strained strained_at(const CountedClaim& judged, PixelPlace p, RegionLedger& led
     const bool lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
     if ((judged.stored(judged.predicted(p)) == 0) != lit) return {infinity, p, point};
     ledger.crossings(direction, crossings);
-    const double deviation = deviation_share * depth_error(scene, judged.frame.depth_model, point);
+    const DepthModel& model = judged.frame.depth_model;
+    const double deviation = std::hypot(
+        deviation_share(window_depth_roundings) * stored_depth_error(model, depth),
+        deviation_share(transform_roundings) * transform_depth_error(scene, model, point));
     const std::int32_t inside = judged.prediction.depths().at_surface.at(p.x, p.y);
     return {
         chance_of_error(scene, crossings, truth.triangle.at(p.x, p.y), depth, inside, deviation), p,

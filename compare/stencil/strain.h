@@ -14,7 +14,8 @@ namespace shadowproof {
 ///
 /// N roundings, each of anything up to e, add up to N e at most (depth_error), and to sqrt(N / 3) e
 /// by standard deviation; half of that, since the largest error that rounding to float may have,
-/// relative to a number, is twice the smallest. How the planes of faces are set up is not part of
+/// relative to a number, is twice the smallest. Those of window depth and of the transform are
+/// independent: their squares add up. How the planes of faces are set up is not part of
 /// it: that depends on single faces.
 double strain(const CountedClaim& judged);
 

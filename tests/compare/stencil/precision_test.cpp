@@ -40,9 +40,9 @@ TEST(SufficientDepths, of_fixed_point_are_as_many_near_planes_as_pixels_are_wide
     const SufficientDepths depths = sufficient_depths(
         scene, {.projection = DepthModel::Projection::infinite, .near = scene.camera.near});
     EXPECT_EQ(depths.nearest, 0.1);
-    // 2^-20 t^2 / near for the window, 10 2^-24 2 t (t / near) for the transform, as eye and light
-    // are at distance t
-    EXPECT_NEAR(depths.furthest, 0.1 * pixel * 0x1p24 / 36, 1e-9);
+    // 2^-20 t^2 / near for the window, 10 2^-24 t (t / near) for the transform of places, and
+    // 10 2^-24 t for that of directions, as eye and light are at distance t
+    EXPECT_NEAR(depths.furthest, 0.1 * (pixel * 0x1p24 - 10) / 26, 1e-9);
     const SufficientDepths twice = sufficient_depths(
         at_origin(0.2), {.projection = DepthModel::Projection::infinite, .near = 0.2});
     EXPECT_NEAR(twice.furthest, 2 * depths.furthest, 1e-9);
