@@ -17,8 +17,8 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
     Account account;
     nlohmann::ordered_json members;
     if (!pixel) {
-        account.columns = {
-            {"face", "-"}, {"texel", "-"}, {"footprint", "-"}, {"map", "-"}, {"own", "-"}};
+        account.columns = {{"face", "-"}, {"texel", "-"}, {"footprint", "-"},
+                           {"map", "-"},  {"bias", "-"},  {"own", "-"}};
         if (model.filter > 0) account.columns.push_back({"lit", "-"});
         account.remark = {"shows", "not asked"};
         members["map"] = nullptr;
@@ -29,6 +29,7 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
                            {"footprint", fmt::format("{:.3g}x{:.3g}", pixel->footprint.x * unit,
                                                      pixel->footprint.y * unit)},
                            {"map", fmt::format("{:.6g}", pixel->stored * unit)},
+                           {"bias", fmt::format("{:.3g}", model.bias * unit)},
                            {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
         account.remark = {"shows", pixel->shown == no_triangle
                                        ? std::string("nothing")
@@ -44,6 +45,8 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
                           {"shows", pixel->shown == no_triangle
                                         ? nlohmann::ordered_json(nullptr)
                                         : nlohmann::ordered_json(pixel->shown)}};
+        if (model.slope_bias != 0) members["map"]["slope_bias"] = model.slope_bias;
+        if (model.offset_units != 0) members["map"]["offset_units"] = model.offset_units;
         if (model.filter > 0) {
             members["map"]["lit"] = pixel->lit;
             members["map"]["of"] = model.asked();

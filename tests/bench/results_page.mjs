@@ -173,7 +173,8 @@ it is within 5 % of the median.${settled.length < run.points.length / 2 ? ' Most
 ## Maps against volumes
 
 The lecture CS448 (Akeley and Hanrahan, Stanford, Fall 2001, lecture 11) ends with a summary of shadow
-volumes and shadow maps. These are its statements and what they come to here. Volumes are
+volumes and shadow maps. These are its statements and what they come to here, but for two: that tuning a
+bias is difficult for dynamic scenes, and that maps may be extended to linear and area lights. Volumes are
 \`zfail_reversed\`; maps are \`cube_map_six_pass\` with its own settings (${
   Object.entries(map(scenes[0]).own).map(([name, value]) => `${name} ${value}`).join(', ')}) where none are named.
 
