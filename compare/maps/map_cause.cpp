@@ -67,12 +67,21 @@ PixelCause of_missing_occluder(const LightView& light, const WrongAnswer& wrong)
                    ? own * met.depth / wrong.lookup.depth
                    : std::numeric_limits<double>::infinity();
     };
+    // The texel's own ray may miss what the ray through the point meets.
+    const auto named = [&](Cause cause, const LiftedLimits& lifted) {
+        PixelCause why{cause, {}};
+        if (wrong.lookup.in_map &&
+            !(light.shown_without(lifted, wrong.lookup.texel).value + model.bias < own))
+            why.also.add(Cause::resolution);
+        return why;
+    };
     const bool culls = model.culling != MapCulling::none;
     const double in_range = found({.range = true});
     const double unculled = culls ? found({.culling = true}) : in_range;
-    if (culls && unculled + model.bias < own) return {Cause::open_mesh, {}};
-    if (in_range + model.bias < own || !culls || !wrong.lookup.in_map) return {Cause::range, {}};
-    PixelCause cause{Cause::open_mesh, {}};
+    if (culls && unculled + model.bias < own) return named(Cause::open_mesh, {.culling = true});
+    if (in_range + model.bias < own || !culls || !wrong.lookup.in_map)
+        return named(Cause::range, {.range = true});
+    PixelCause cause = named(Cause::open_mesh, {.range = true, .culling = true});
     if (!(unculled < own)) cause.also.add(Cause::range);
     return cause;
 }
@@ -82,8 +91,9 @@ PixelCause of_false_light(const LightView& light, const WrongAnswer& wrong) {
     const double own = wrong.lookup.value;
     if (wrong.lookup.in_map && wrong.shown.moved + model.bias < own) return {Cause::precision, {}};
     const FromLight met = met_on_the_way(light, wrong.lookup, wrong.from_light);
-    if (met.triangle == no_triangle || met.triangle == wrong.receiver)
-        return of_missing_occluder(light, wrong);
+    const bool is_occluder = met.triangle != no_triangle && met.triangle != wrong.receiver &&
+                             met.depth < wrong.lookup.depth;
+    if (!is_occluder) return of_missing_occluder(light, wrong);
     const double met_value =
         light.moved_away(wrong.lookup.texel, met.triangle, own * met.depth / wrong.lookup.depth);
     if (met_value + model.bias < own) return {Cause::resolution, {}};

@@ -28,16 +28,16 @@ struct WrongAnswer {
 ///   acne        the ray goes through the point itself, instead of the texel's centre; no caster
 ///               lies on that ray. The texel shows the receiver, or a triangle that shares a corner
 ///               with it, so that a larger bias mends it, too
-///   resolution  the same, and the texel shows another triangle. With a bias below zero that needs
-///   a
-///               larger bias as well, and is acne first
+///   resolution  the same, and the texel shows another triangle. With a bias below zero that is
+///               acne first, as it needs a larger bias as well
 ///
 /// Falsely lit:
 ///   precision   the texel holds its exact value, and nothing is rounded in the comparison
 ///   resolution  the ray goes through the point itself
 ///   leak        there is no bias, nor a polygon offset; perhaps this needs that ray, too
 ///   open_mesh   both sides of casters are drawn; perhaps this needs a map that reaches further,
-///   too range       the map reaches the occluder
+///               or the ray through the point, too
+///   range       the map reaches the occluder; perhaps this needs that ray, too
 PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
 
 /// What the ray from the light through the point meets first; nothing where no map looks there.

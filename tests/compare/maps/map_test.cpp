@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +52,14 @@ std::vector<Setting> all_settings(const Scene& scene) {
                                 .format = format,
                                 .culling = culling}});
     }
+    for (const MapFormat format : all_map_formats)
+        all.push_back({"depth_" + std::string(name_of(format)) + "_offset",
+                       {.size = 96,
+                        .bias = 0.001 * reach,
+                        .slope_bias = 1.1,
+                        .offset_units = 4,
+                        .value = MapValue::depth,
+                        .format = format}});
     return all;
 }
 
@@ -108,9 +118,12 @@ TEST_P(MapOfScene, no_setting_leaves_a_pixel_unexplained) {
     for (const std::string& technique : techniques()) {
         if (technique == "cube_map_geometry_shader") continue; // its maps are those of six passes
         for (const Setting& setting : settings_of(technique, traced.scene)) {
-            const Comparison comparison =
-                compared(traced, drawn(gpu, traced, technique, setting.settings));
+            const Frame frame = drawn(gpu, traced, technique, setting.settings);
+            const Comparison comparison = compared(traced, frame);
             EXPECT_TRUE(is_explained(comparison)) << technique << " " << setting.name;
+            // Beside those that pixels ask; filtered maps are drawn as the others are.
+            if (frame.mapped->model.filter > 0) continue;
+            EXPECT_EQ(texels_not_shown(traced, frame), 0U) << technique << " " << setting.name;
             EXPECT_LT(comparison.evidence.in_band, comparison.cause.pixels.size() / 50)
                 << technique << " " << setting.name;
         }
@@ -175,6 +188,26 @@ INSTANTIATE_TEST_SUITE_P(Maps, MapOfEachKind,
                                          OnScene{"sun_map", "sun"}),
                          [](const auto& of) { return std::string(of.param.technique); });
 
+class MapErrors : public MapOfEachKind {};
+
+TEST_P(MapErrors, add_up_to_less_the_more_texels_there_are) {
+    double before = std::numeric_limits<double>::infinity();
+    for (const int size : {16, 64, 256, 1024}) {
+        const Frame frame = drawn(gpu, traced, GetParam().technique, {.size = size, .bias = 0.05});
+        const Comparison comparison = compared(traced, frame);
+        const double wrong = comparison.shares ? comparison.shares->wrongness
+                                               : static_cast<double>(comparison.differing);
+        EXPECT_LT(wrong, before) << size;
+        before = wrong;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, MapErrors,
+                         testing::Values(OnScene{"spot_map", "spot"},
+                                         OnScene{"spot_map_pcf", "spot"},
+                                         OnScene{"cube_map_pcf", "ordinary"}),
+                         [](const auto& of) { return std::string(of.param.technique); });
+
 TEST_F(Maps, without_acne_have_bias_enough_to_mend_it) {
     EXPECT_GT(pixels_of(judged({.size = 128, .bias = 0.01}), Cause::acne), 0U);
     EXPECT_EQ(pixels_of(judged({.size = 128, .bias = 1}), Cause::acne), 0U);
@@ -189,6 +222,60 @@ TEST_F(Maps, show_range_where_the_far_plane_cuts_the_scene_and_nowhere_else) {
     EXPECT_EQ(judge(ordinary.scene, find_technique("cube_map_six_pass")->fails_at,
                     find_technique("cube_map_six_pass")->by_nature, cut),
               Verdict::defect);
+}
+
+/// A pixel's cause names what mends it: drawn again with a map that reaches further, those that
+/// have `range` alone are right, and those that have another cause with it are not.
+TEST_F(Maps, that_reach_further_mend_what_range_alone_is_the_cause_of) {
+    const TracedScene scene(small("light_range"));
+    const auto judge = [&](std::optional<double> far) {
+        return compared(scene, drawn(gpu, scene, "cube_map_six_pass", {.size = 24, .far = far}));
+    };
+    const Comparison cut = judge({});
+    const Comparison whole = judge(100);
+    int alone = 0;
+    int with_others = 0;
+    for (std::size_t i = 0; i < cut.cause.pixels.size(); ++i) {
+        if (cut.cause.pixels[i] != static_cast<std::uint8_t>(Cause::range)) continue;
+        const bool needs_more = cut.also.pixels[i] != 0;
+        (needs_more ? with_others : alone) += 1;
+        EXPECT_EQ(whole.cause.pixels[i] == no_difference, !needs_more) << i;
+    }
+    EXPECT_GT(alone, 1000);
+    EXPECT_GT(with_others, 10);
+    EXPECT_EQ(pixels_of(whole, Cause::range), 0U);
+}
+
+/// Wires before the near plane are lost whichever sides are culled.
+TEST_F(Maps, that_cull_name_open_meshes_only_where_drawing_both_sides_mends_a_pixel) {
+    const TracedScene wires(small("near_light"));
+    const TracedScene lid(small("open_lid"));
+    for (const MapCulling culling : {MapCulling::front, MapCulling::back}) {
+        const MapSettings settings{.size = 64, .culling = culling};
+        const Comparison before_near =
+            compared(wires, drawn(gpu, wires, "cube_map_six_pass", settings));
+        EXPECT_GT(pixels_of(before_near, Cause::range), 100U) << name_of(culling);
+        EXPECT_EQ(pixels_of(before_near, Cause::open_mesh), 0U) << name_of(culling);
+        EXPECT_TRUE(is_explained(before_near));
+    }
+    const Comparison open = compared(
+        lid, drawn(gpu, lid, "cube_map_six_pass", {.size = 64, .culling = MapCulling::back}));
+    const Comparison both = compared(lid, drawn(gpu, lid, "cube_map_six_pass", {.size = 64}));
+    for (std::size_t i = 0; i < open.cause.pixels.size(); ++i) {
+        const bool is_open = open.cause.pixels[i] == static_cast<std::uint8_t>(Cause::open_mesh);
+        if (!is_open || open.also.pixels[i] != 0) continue;
+        EXPECT_EQ(both.cause.pixels[i], no_difference) << i;
+    }
+}
+
+TEST_F(Maps, with_a_bias_below_zero_are_wrong_by_acne) {
+    const Comparison comparison = judged({.bias = -0.1});
+    EXPECT_GT(pixels_of(comparison, Cause::acne), 1000U);
+    for (std::size_t i = 0; i < comparison.cause.pixels.size(); ++i)
+        if (comparison.cause.pixels[i] == static_cast<std::uint8_t>(Cause::resolution)) {
+            EXPECT_EQ(ordinary.truth.visibility.pixels[i], Visibility::shadowed) << i;
+        }
+    EXPECT_TRUE(is_explained(comparison));
 }
 
 TEST_F(Maps, of_one_pass_are_those_of_six) {
