@@ -53,10 +53,11 @@ namespace {
 /// divides, subtracts, multiplies and adds once.
 constexpr double direction_error =
     (2 + 3 * transform_roundings + 6 * clipping_roundings) * float_roundoff;
+
 /// By how much more a point at infinity may be off where a clipper cuts it than where it is drawn.
 /// Mesa's guard band cuts x at 2 w on either side, where w is the picture's half extent h times the
-/// depth z. What the picture shows has |x| <= h z, so that h z is left to the cut; z is at least the
-/// point's size over that of the picture's longest ray; and x and 2 w are off by 1 + 2 h.
+/// depth z. What the picture shows has |x| <= h z, so that h z is left to the cut; z is at least
+/// the point's size over that of the picture's longest ray; and x and 2 w are off by 1 + 2 h.
 double guard_band_growth(const Camera& camera) {
     const glm::dvec2 half = half_extent(camera);
     const double least = std::min(half.x, half.y);

@@ -46,9 +46,9 @@ struct BenchTrial {
     std::vector<const Technique*> techniques{}; ///< of those points; null: the truth itself
     std::vector<bool> warm{};                   ///< this process has drawn them
     Stopwatch since{};                          ///< it was begun
-    std::size_t judged = 0;   ///< techniques, each with all its settings
-    std::size_t to_judge = 0; ///< how many there are
-    Stopwatch judging{};      ///< since the first of them
+    std::size_t judged = 0;                     ///< techniques, each with all its settings
+    std::size_t to_judge = 0;                   ///< how many there are
+    Stopwatch judging{};                        ///< since the first of them
     bool complete = true;   ///< all that was asked for was measured, but for what took too long
     bool timed_out = false; ///< something did
 };
@@ -113,10 +113,10 @@ const BenchPoint* add_point(BenchTrial& trial, const Technique& technique,
     bool warm = false;
     if (known == nullptr || work.pictures != nullptr) {
         const std::string named = name_of_point(technique, settings);
-        work.console.progress(fmt::format("{}{}: technique {} of {}, judging {}{}", work.place,
-                                          trial.name, trial.judged + 1, trial.to_judge, named,
-                                          time_left(trial.judged, trial.to_judge,
-                                                    trial.judging.milliseconds() / 1000)));
+        work.console.progress(fmt::format(
+            "{}{}: technique {} of {}, judging {}{}", work.place, trial.name, trial.judged + 1,
+            trial.to_judge, named,
+            time_left(trial.judged, trial.to_judge, trial.judging.milliseconds() / 1000)));
         JudgedPoint judged = work.pieces.piece("judging " + named, [&] {
             warm = true;
             return judge_point(trial, technique, point);
@@ -261,7 +261,8 @@ void add_points(BenchTrial& trial) {
     // What is named is drawn, or says why it is not for such a scene.
     std::vector<const Technique*> techniques = options.technique.chosen();
     if (options.technique.techniques.empty())
-        std::erase_if(techniques, [&](const Technique* each) { return !suits(*each, trial.scene); });
+        std::erase_if(techniques,
+                      [&](const Technique* each) { return !suits(*each, trial.scene); });
     trial.to_judge = techniques.size();
     trial.judging = Stopwatch();
     for (const Technique* technique : techniques) {

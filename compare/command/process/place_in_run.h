@@ -6,8 +6,8 @@
 
 namespace shadowproof {
 
-/// ", about 300 s left", where `done` of `all` things took so many seconds; empty before the first is
-/// done.
+/// ", about 300 s left", where `done` of `all` things took so many seconds; empty before the first
+/// is done.
 std::string time_left(std::size_t done, std::size_t all, double seconds);
 
 /// "scene 2 of 37, about 300 s left: "; the time is that of the earlier scenes on average. Empty
