@@ -1,7 +1,7 @@
 #include "compare/command/wrapped.h"
 
 #include <algorithm>
-#include <sstream>
+#include <string>
 
 namespace shadowproof {
 
@@ -36,8 +36,11 @@ void put_wrapped(std::string line, std::size_t columns, std::string& result) {
 
 std::string wrapped(const std::string& text, std::size_t columns) {
     std::string result;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) put_wrapped(line, columns, result);
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        put_wrapped(text.substr(begin, end - begin), columns, result);
+        begin = end + 1;
+    }
     return result;
 }
 

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <sstream>
+#include <charconv>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace shadowproof {
 
@@ -21,22 +24,39 @@ void append(const Descriptor& file, Kind kind, const std::string& rest) {
     write_all(file, fmt::format("\n{} {}\n", static_cast<char>(kind), rest));
 }
 
-/// Reads line by line; a line without an end was truncated.
-void take(JournalRecord& record, const std::string& line) {
+// Streams would end where memory runs out, without a word, and what is left would count as all.
+
+/// Takes the text before the next separator, and that; what is left if there is none.
+std::string_view taken(std::string_view& text, char separator) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    const std::string_view part = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return part;
+}
+
+template <class Number>
+bool is_number(std::string_view text, Number& number) {
+    const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
+    return error == std::errc() && end == text.end();
+}
+
+void take(JournalRecord& record, std::string_view line) {
     if (line.size() < 3) return;
-    std::istringstream words(line.substr(2));
-    const std::string name = line.substr(2);
-    FolderIdentity folder;
-    Fingerprint fingerprint;
+    const std::string name(line.substr(2));
+    std::string_view rest = name;
     switch (line[0]) {
-    case of_folder:
-        if (words >> folder.device >> folder.inode) record.folder = folder;
+    case of_folder: {
+        FolderIdentity folder;
+        if (is_number(taken(rest, ' '), folder.device) && is_number(taken(rest, ' '), folder.inode))
+            record.folder = folder;
         break;
+    }
     case of_begun: {
-        std::string begun;
-        if (words >> fingerprint.size >> fingerprint.xxh3 && std::getline(words.ignore(), begun) &&
-            is_name_below(begun))
-            record.begun.insert_or_assign(begun, fingerprint);
+        Fingerprint fingerprint;
+        if (!is_number(taken(rest, ' '), fingerprint.size)) break;
+        fingerprint.xxh3 = taken(rest, ' ');
+        if (is_name_below(rest))
+            record.begun.insert_or_assign(std::string(rest), std::move(fingerprint));
         break;
     }
     case of_complete:
@@ -84,8 +104,10 @@ JournalRecord read_journal(const fs::path& file) {
     } catch (const std::system_error& error) {
         if (error.code().value() != ENOENT) throw;
     }
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line) && !stream.eof();) take(record, line);
+    // A line without an end was truncated.
+    std::string_view left(text);
+    left = left.substr(0, left.rfind('\n') + 1);
+    while (!left.empty()) take(record, taken(left, '\n'));
     return record;
 }
 
