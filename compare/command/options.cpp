@@ -156,18 +156,20 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
         ->check(CLI::Range(1, 16384));
     add_length_flag(command, "--map-bias", settings.bias, std::numeric_limits<double>::lowest(),
                     "How much farther than its texel a point may be and still be lit (0.15)");
-    command
-        .add_option("--map-slope-bias", settings.slope_bias,
-                    "How many times its depth's change over a texel's step a surface is moved away "
-                    "in maps of depths; of cubes with --map-value depth (0)")
-        ->type_name("FACTOR")
-        ->check(CLI::Range(0.0, largest_polygon_offset));
-    command
-        .add_option("--map-offset-units", settings.offset_units,
-                    "How many times what its format resolves a surface is moved away in maps of "
-                    "depths; of cubes with --map-value depth (0)")
-        ->type_name("UNITS")
-        ->check(CLI::Range(0.0, largest_polygon_offset));
+    const auto add_offset = [&](const char* flag, std::optional<double>& value, const char* words,
+                                const char* unit) {
+        command
+            .add_option(flag, value,
+                        std::string(words) +
+                            " a surface is moved away in maps of depths; of cubes with --map-value "
+                            "depth (0)")
+            ->type_name(unit)
+            ->check(CLI::Range(0.0, largest_polygon_offset));
+    };
+    add_offset("--map-slope-bias", settings.slope_bias,
+               "How many times its depth's change over a texel's step", "FACTOR");
+    add_offset("--map-offset-units", settings.offset_units,
+               "How many times what its format resolves", "UNITS");
     const auto add_choice = [&](const char* flag, const auto& all, auto& value,
                                 const std::string& words) {
         command
@@ -187,7 +189,7 @@ void add_map_flags(CLI::App& command, MapSettings& settings) {
     add_length_flag(command, "--map-near", settings.near, above_zero,
                     "Near plane of the light's camera (close to the light)");
     add_length_flag(
-        command, "--map-far", settings.far, 0,
+        command, "--map-far", settings.far, above_zero,
         "Far plane of the light's camera (the light's range, or just beyond the farthest "
         "caster)");
     command

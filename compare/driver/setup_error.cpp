@@ -199,11 +199,9 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
 
 std::array<glm::dvec4, 3> far_corners(const Scene& casters, const std::vector<glm::vec3>& far_ends,
                                       std::uint32_t triangle) {
-    const auto at = [&](std::size_t k) {
-        const auto index = static_cast<int>(k);
-        return glm::dvec4(glm::dvec3(far_ends[casters.triangles[triangle][index]]), 1);
-    };
-    return {at(0), at(1), at(2)};
+    const glm::uvec3& corners = casters.triangles[triangle];
+    return {glm::dvec4(far_ends[corners.x], 1), glm::dvec4(far_ends[corners.y], 1),
+            glm::dvec4(far_ends[corners.z], 1)};
 }
 
 std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
