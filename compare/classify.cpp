@@ -218,6 +218,28 @@ void mark(Comparison& comparison, PixelPlace p, const PixelCause& cause) {
     ++comparison.several;
 }
 
+/// What the pixels' centres tell of a row.
+struct SettledRow {
+    std::vector<PixelPlace> open; ///< those that they do not settle
+    std::vector<std::pair<PixelPlace, PixelCause>> causes;
+};
+
+std::vector<SettledRow> settle_rows(const Case& tried, int width, int height) {
+    std::vector<SettledRow> rows(static_cast<std::size_t>(height));
+    parallel_for(height, tried.tracer().threads(), [&](int y, int) {
+        SettledRow& row = rows[static_cast<std::size_t>(y)];
+        for (int x = 0; x < width; ++x) {
+            const PixelPlace p{x, y};
+            std::optional<PixelCause> cause;
+            if (!tried.judge.settles(p, cause))
+                row.open.push_back(p);
+            else if (cause)
+                row.causes.emplace_back(p, *cause);
+        }
+    });
+    return rows;
+}
+
 /// Which of two causes to show first: unexplained, then any failing, then edge.
 int urgency(Cause cause) {
     if (cause == Cause::unexplained) return 2;
@@ -307,20 +329,14 @@ Comparison classify(const TracedScene& traced, const Frame& frame, const Judge& 
     comparison.cause = Image<std::uint8_t>(width, height, no_difference);
     comparison.evidence_miss = Image<std::uint8_t>(width, height);
     comparison.evidence_name = judge.evidence();
-    Image<std::uint8_t> at_centre(width, height);
+    Image<std::uint8_t> at_centre(width, height, 1);
     std::vector<PixelPlace> open;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const PixelPlace p{x, y};
-            std::optional<PixelCause> cause;
-            if (!judge.settles(p, cause)) {
-                open.push_back(p);
-                continue;
-            }
-            at_centre.at(x, y) = 1;
-            ++comparison.evidence.equal;
-            if (cause) mark(comparison, p, *cause);
-        }
+    for (const SettledRow& row : settle_rows(tried, width, height)) {
+        for (const PixelPlace& p : row.open) at_centre.at(p.x, p.y) = 0;
+        open.insert(open.end(), row.open.begin(), row.open.end());
+        for (const auto& [p, cause] : row.causes) mark(comparison, p, cause);
+    }
+    comparison.evidence.equal = at_centre.pixels.size() - open.size();
 
     std::ranges::stable_sort(open, {}, [&](const PixelPlace& p) { return scattered(p, width); });
     const std::vector<Finding> findings = look_around(tried, open);

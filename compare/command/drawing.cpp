@@ -29,7 +29,8 @@ std::string draw_cutaway(const std::string& record, std::size_t technique) {
     if (!heap) throw std::bad_alloc();
     duk_context* context = heap.get();
     for (const char* name : {"cutaway/geometry.js", "cutaway/words.js", "cutaway/svg.js",
-                             "cutaway/side.js", "cutaway/strip.js", "cutaway/cutaway.js"}) {
+                             "cutaway/side.js", "cutaway/strip.js", "cutaway/comparison.js",
+                             "cutaway/float_ray.js", "cutaway/evidence.js", "cutaway/cutaway.js"}) {
         const std::string_view script = viewer_file(name);
         check(context, duk_peval_lstring(context, script.data(), script.size()));
         duk_pop(context);

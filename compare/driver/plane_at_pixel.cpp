@@ -11,18 +11,12 @@
 
 namespace shadowproof {
 
-namespace {
-
-/// A triangle's plane: the inverse view depth along a ray of direction D is D . plane. Not finite
-/// where the eye lies in it.
-glm::dvec3 plane_of(const Scene& scene, std::uint32_t triangle) {
+glm::dvec3 plane_before_eye(const Scene& scene, std::uint32_t triangle) {
     const auto [a, b, c] = from_short_edge(
         {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)});
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     return normal / glm::dot(a - scene.camera.eye, normal);
 }
-
-} // namespace
 
 WindowDepth window_depth_of(const DepthModel& model) {
     const double n = model.near;
@@ -46,9 +40,14 @@ WindowDepth window_depth_of(const DepthModel& model) {
 
 PlaneAtPixel::PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing,
                            double far, std::uint32_t triangle, int x, int y)
+    : PlaneAtPixel(scene, model, drawing, far, triangle, plane_before_eye(scene, triangle),
+                   ray_direction(scene.camera, x + 0.5, y + 0.5)) {}
+
+PlaneAtPixel::PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing,
+                           double far, std::uint32_t triangle, const glm::dvec3& plane,
+                           const glm::dvec3& centre)
     : scene_(scene), model_(model), drawing_(drawing), far_(far), triangle_(triangle),
-      centre_(ray_direction(scene.camera, x + 0.5, y + 0.5)), plane_(plane_of(scene, triangle)),
-      inverse_(glm::dot(centre_, plane_)) {
+      centre_(centre), plane_(plane), inverse_(glm::dot(centre_, plane_)) {
     const glm::dvec2 half = half_extent(scene.camera);
     pixel_ = {2 * half.x / scene.camera.width, 2 * half.y / scene.camera.height};
     slope_ = pixel_.x * std::abs(glm::dot(scene.camera.right, plane_)) +

@@ -21,12 +21,19 @@ struct WindowDepth {
 };
 WindowDepth window_depth_of(const DepthModel& model);
 
+/// A triangle's plane: the inverse view depth along a ray of direction D is D . plane. Not finite
+/// where the eye lies in it.
+glm::dvec3 plane_before_eye(const Scene& scene, std::uint32_t triangle);
+
 /// Keeps a reference to the scene.
 class PlaneAtPixel {
 public:
     /// `far`: the depth beyond which nothing is seen. `drawing`: how the triangle is clipped.
     PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing, double far,
                  std::uint32_t triangle, int x, int y);
+    /// `plane`: the triangle's, plane_before_eye's. `centre`: the direction of the pixel's centre.
+    PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing, double far,
+                 std::uint32_t triangle, const glm::dvec3& plane, const glm::dvec3& centre);
 
     /// False if the eye lies in the plane: the triangle has no area in the picture, and any depth
     /// may come out.

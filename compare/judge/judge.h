@@ -78,7 +78,8 @@ public:
     virtual std::string_view evidence() const = 0;
 
     /// Settle: whether what was read back at the pixel is what is predicted at its centre, and its
-    /// claim, if it differs from the truth, follows from that; `cause` is then named.
+    /// claim, if it differs from the truth, follows from that; `cause` is then named. Called from
+    /// many threads at once.
     virtual bool settles(PixelPlace p, std::optional<PixelCause>& cause) const = 0;
 
     /// For each pixel, how far aside what is drawn there may lie. `places`: of one region.

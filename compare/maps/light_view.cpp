@@ -33,7 +33,8 @@ bool LightView::is_in_format(float stored) const {
     if (map_.model.format == MapFormat::d32f) return true;
     const double most = steps_of(map_.model.format);
     const double steps = double{stored} * most;
-    return std::abs(steps - std::round(steps)) <= 2 * float_roundoff * steps;
+    const double nearest = static_cast<int>(steps + 0.5); // quicker than std::round
+    return std::abs(steps - nearest) <= 2 * float_roundoff * steps;
 }
 
 double LightView::half_step() const {
@@ -53,6 +54,13 @@ LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre
     if (at_centre.triangle != no_triangle)
         if (const Shown centre = shown_of(texel, at_centre.triangle); centre.shows) return centre;
     return shown_around(texel);
+}
+
+std::vector<std::uint32_t> inverse_of(std::span<const std::uint32_t> of_scene,
+                                      std::size_t triangles) {
+    std::vector<std::uint32_t> place(triangles, no_triangle);
+    for (std::uint32_t i = 0; i < of_scene.size(); ++i) place[of_scene[i]] = i;
+    return place;
 }
 
 std::unique_ptr<LightView> light_view(const Scene& scene, const MapEvidence& map, int subpixel_bits,

@@ -92,6 +92,10 @@ private:
     std::vector<Camera> cameras_; ///< one per face
 };
 
+/// By each triangle of a scene its place in a list of some of them; no_triangle of others.
+std::vector<std::uint32_t> inverse_of(std::span<const std::uint32_t> of_scene,
+                                      std::size_t triangles);
+
 /// `subpixel_bits`: the driver's. A sun's view is parallel (parallel_view.h), others are in
 /// perspective (perspective_view.h).
 std::unique_ptr<LightView> light_view(const Scene& scene, const MapEvidence& map, int subpixel_bits,

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 namespace shadowproof {
@@ -16,6 +17,18 @@ namespace shadowproof {
 namespace {
 
 constexpr double v = float_roundoff;
+
+/// The comparison of one value with many texels, without any rounding.
+class Comparator {
+public:
+    Comparator(const MapModel& model, double value);
+    bool is_shadowed(double stored) const;
+
+private:
+    const MapModel& model_;
+    double value_;
+    double limit_ = 0; ///< of what is stored; not used with distances
+};
 
 double value_of(const MapModel& model, const glm::dvec3& from_light, double depth) {
     return model.value == MapValue::depth ? depth : glm::length(from_light);
@@ -132,11 +145,7 @@ Texel texel_of_block(const MapModel& model, const Texel& texel) {
 }
 
 bool crosses_edge(const MapModel& model, const Lookup& lookup) {
-    const auto lies_beside = [&](int first) {
-        return first < 0 || first + model.filter > model.size;
-    };
-    return model.shape == MapModel::Shape::cube && model.filter > 0 &&
-           (lies_beside(lookup.first.x) || lies_beside(lookup.first.y));
+    return model.shape == MapModel::Shape::cube && model.filter > 0 && !lies_within(model, lookup);
 }
 
 Texel own_texel(const MapModel& model, const Lookup& asked, const Texel& place) {
@@ -228,12 +237,24 @@ Answers compare(const MapModel& model, double stored, double low, double high) {
             may_be_before || stored >= map_window_depth(model, least) - 5 * v};
 }
 
-bool is_shadowed(const MapModel& model, double stored, double value) {
-    if (model.value == MapValue::distance) return stored * model.far + model.bias < value;
+Comparator::Comparator(const MapModel& model, double value) : model_(model), value_(value) {
+    if (model.value == MapValue::distance) return;
     const double nearer = value - model.bias;
-    if (model.is_ramp()) return step_of_stored(stored) < ramp_step(place_on_ramp(model, nearer));
-    if (model.shape != MapModel::Shape::sun && nearer <= model.near) return false;
-    return stored < map_window_depth(model, nearer);
+    if (model.is_ramp())
+        limit_ = ramp_step(place_on_ramp(model, nearer));
+    else if (model.shape == MapModel::Shape::sun || nearer > model.near)
+        limit_ = map_window_depth(model, nearer);
+    else
+        limit_ = -std::numeric_limits<double>::infinity();
+}
+
+bool Comparator::is_shadowed(double stored) const {
+    if (model_.value == MapValue::distance) return stored * model_.far + model_.bias < value_;
+    return (model_.is_ramp() ? step_of_stored(stored) : stored) < limit_;
+}
+
+bool is_shadowed(const MapModel& model, double stored, double value) {
+    return Comparator(model, value).is_shadowed(stored);
 }
 
 namespace {
@@ -251,9 +272,10 @@ int lit_comparisons(const LightView& light, const MapModel& model, const Lookup&
     if (model.average == MapAverage::values)
         return is_shadowed(model, mean_stored(light, model, lookup), lookup.value) ? 0
                                                                                    : model.asked();
+    const Comparator comparator(model, lookup.value);
     int lit = 0;
     visit_asked(model, lookup, [&](const Texel& texel) {
-        lit += is_shadowed(model, light.stored(texel), lookup.value) ? 0 : 1;
+        lit += comparator.is_shadowed(light.stored(texel)) ? 0 : 1;
     });
     return lit;
 }

@@ -24,14 +24,22 @@ Lookup lookup(const LightView& light, const glm::dvec3& from_light);
 /// The texel that is read for one of a block, which may lie beside the map.
 Texel texel_of_block(const MapModel& model, const Texel& texel);
 
+/// Whether the block lies on its face altogether.
+inline bool lies_within(const MapModel& model, const Lookup& lookup) {
+    const auto fits = [&](int first) { return first >= 0 && first + model.filter <= model.size; };
+    return fits(lookup.first.x) && fits(lookup.first.y);
+}
+
 /// Calls visit(texel) for each texel that is read.
 template <class Visit>
 void visit_asked(const MapModel& model, const Lookup& lookup, const Visit& visit) {
     if (model.filter == 0) return visit(lookup.texel);
+    const bool is_inside = lies_within(model, lookup);
     for (int y = 0; y < model.filter; ++y)
-        for (int x = 0; x < model.filter; ++x)
-            visit(
-                texel_of_block(model, {lookup.texel.face, lookup.first.x + x, lookup.first.y + y}));
+        for (int x = 0; x < model.filter; ++x) {
+            const Texel texel{lookup.texel.face, lookup.first.x + x, lookup.first.y + y};
+            visit(is_inside ? texel : texel_of_block(model, texel));
+        }
 }
 
 /// Whether the block that is averaged reaches beyond its face of a cube.

@@ -38,9 +38,15 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
             account.columns.push_back({"lit", fmt::format("{}/{}", pixel->lit, model.asked())});
         members["map"] = {{"face", texel.face},
                           {"texel", {texel.x, texel.y}},
+                          {"size", model.size},
+                          {"value", name_of(model.value)},
+                          {"format", name_of(model.format)},
+                          {"near", model.near * unit},
+                          {"far", model.far * unit},
                           {"stored", pixel->stored * unit},
                           {"bias", model.bias * unit},
                           {"own", pixel->lookup.value * unit},
+                          {"width", pixel->width * unit},
                           {"footprint", {length(pixel->footprint.x), length(pixel->footprint.y)}},
                           {"shows", pixel->shown == no_triangle
                                         ? nlohmann::ordered_json(nullptr)
@@ -50,6 +56,10 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
         if (model.filter > 0) {
             members["map"]["lit"] = pixel->lit;
             members["map"]["of"] = model.asked();
+            members["map"]["filter"] = model.filter;
+            members["map"]["average"] = name_of(model.average);
+            if (model.shape == MapModel::Shape::cube)
+                members["map"]["edges"] = name_of(model.edges);
         }
     }
     account.members = members.dump();

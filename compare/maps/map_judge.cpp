@@ -11,6 +11,7 @@
 #include "compare/maps/map_memory.h"
 #include "compare/maps/map_report.h"
 #include "compare/maps/map_results.h"
+#include "compare/maps/texel_set.h"
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
 
@@ -19,7 +20,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <mutex>
 
 namespace shadowproof {
 
@@ -38,7 +38,7 @@ public:
         : claim_{traced, frame}, receives_(receiving_triangles(traced.scene())),
           view_(light_view(traced.scene(), *frame.mapped, frame.depth_model.subpixel_bits,
                            traced.tracer().threads())),
-          light_(*view_) {
+          light_(*view_), asked_(light_.model()) {
         trace_texels();
     }
 
@@ -117,7 +117,7 @@ public:
     EvidenceSummary summary(const EvidenceCheck& check,
                             const Image<std::uint8_t>& /*cause*/) const override {
         const MapFigures figures{
-            .straddling = check.in_band, .asked = texels_.size(), .unexplained = not_shown_.size()};
+            .straddling = check.in_band, .asked = texels_.size(), .unexplained = not_shown_};
         return summary_of_map(*claim_.frame.mapped, figures, claim_.traced.scene().unit);
     }
 
@@ -139,9 +139,10 @@ private:
     std::vector<std::uint8_t> receives_;
     std::unique_ptr<LightView> view_;
     const LightView& light_;
-    std::vector<Texel> texels_;           ///< that pixels' centres ask, in order
+    TexelSet asked_;                      ///< by pixels' centres
+    std::vector<Texel> texels_;           ///< its list
     std::vector<LightView::Shown> shown_; ///< by each
-    std::vector<Texel> not_shown_;        ///< those that no rasterizer would store, in order
+    std::size_t not_shown_ = 0;           ///< how many no rasterizer would store
 
     glm::dvec3 direction_at(PixelPlace p) const {
         return ray_direction(claim_.traced.scene().camera, p.x + 0.5, p.y + 0.5);
@@ -193,47 +194,50 @@ private:
 
     void trace_texels() {
         const Image<Visibility>& claim = claim_.frame.claim;
-        std::mutex mutex;
         parallel_for(claim.height, claim_.traced.tracer().threads(), [&](int y, int) {
-            std::vector<Texel> row;
             for (int x = 0; x < claim.width; ++x)
                 if (const Asked asked = asked_at({x, y}); asked.asks && asked.lookup.in_map)
-                    visit_asked(light_.model(), asked.lookup,
-                                [&](const Texel& texel) { row.push_back(texel); });
-            std::sort(row.begin(), row.end());
-            row.erase(std::unique(row.begin(), row.end()), row.end());
-            const std::lock_guard lock(mutex);
-            texels_.insert(texels_.end(), row.begin(), row.end());
+                    add_asked(asked.lookup);
         });
-        std::sort(texels_.begin(), texels_.end());
-        texels_.erase(std::unique(texels_.begin(), texels_.end()), texels_.end());
-        const std::vector<FromLight> at_centres = light_.trace(texels_);
+        texels_ = asked_.list(claim_.traced.tracer().threads());
         shown_.resize(texels_.size());
-        constexpr std::size_t piece = 256;
-        const auto pieces = static_cast<int>((texels_.size() + piece - 1) / piece);
-        parallel_for(pieces, claim_.traced.tracer().threads(), [&](int k, int) {
-            const std::size_t first = static_cast<std::size_t>(k) * piece;
-            for (std::size_t i = first; i < std::min(first + piece, texels_.size()); ++i)
-                shown_[i] = light_.shown(texels_[i], at_centres[i]);
-        });
-        for (std::size_t i = 0; i < texels_.size(); ++i)
-            if (!shown_[i].shows) not_shown_.push_back(texels_[i]);
+        constexpr std::size_t together = std::size_t{1} << 17U; // so that few rays are held at once
+        for (std::size_t first = 0; first < texels_.size(); first += together)
+            show_texels(first, std::min(together, texels_.size() - first));
+        not_shown_ =
+            static_cast<std::size_t>(std::ranges::count(shown_, false, &LightView::Shown::shows));
+    }
+
+    void add_asked(const Lookup& lookup) {
+        const int filter = light_.model().filter;
+        if (filter == 0 || !lies_within(light_.model(), lookup))
+            return visit_asked(light_.model(), lookup,
+                               [&](const Texel& texel) { asked_.add(texel); });
+        for (int y = 0; y < filter; ++y)
+            asked_.add_row({lookup.texel.face, lookup.first.x, lookup.first.y + y},
+                           lookup.first.x + filter - 1);
+    }
+
+    void show_texels(std::size_t first, std::size_t count) {
+        const std::span<const Texel> texels = std::span(texels_).subspan(first, count);
+        const std::vector<FromLight> at_centres = light_.trace(texels);
+        parallel_for_all(
+            count, claim_.traced.tracer().threads(),
+            [&](std::size_t i) { shown_[first + i] = light_.shown(texels[i], at_centres[i]); },
+            256);
     }
 
     /// Whether what all texels hold that a pixel's centre asks is as predicted.
     bool are_shown(const Lookup& lookup) const {
-        if (not_shown_.empty()) return true;
+        if (not_shown_ == 0) return true;
         bool all = true;
-        visit_asked(light_.model(), lookup, [&](const Texel& texel) {
-            all = all && !std::binary_search(not_shown_.begin(), not_shown_.end(), texel);
-        });
+        visit_asked(light_.model(), lookup,
+                    [&](const Texel& texel) { all = all && shown_by(texel).shows; });
         return all;
     }
 
     LightView::Shown shown_by(const Texel& texel) const {
-        const auto found = std::lower_bound(texels_.begin(), texels_.end(), texel);
-        if (found != texels_.end() && *found == texel)
-            return shown_[static_cast<std::size_t>(found - texels_.begin())];
+        if (const std::optional<std::size_t> place = asked_.place(texel)) return shown_[*place];
         return light_.shown(texel, light_.trace(std::span(&texel, 1)).front());
     }
 

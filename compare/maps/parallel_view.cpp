@@ -1,5 +1,6 @@
 #include "compare/maps/parallel_view.h"
 
+#include "reference/parallel.h"
 #include "reference/trace/faces.h"
 #include "scenes/driver.h"
 
@@ -55,12 +56,12 @@ ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpi
         if (box.low.x <= box.high.x) boxes.push_back(box);
     }
     grid_ = CasterGrid(std::move(boxes), map.model.size);
+    caster_at_ = inverse_of(of_scene_, scene.triangles.size());
     if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(casters_, threads);
 }
 
 std::uint32_t ParallelView::caster_of(std::uint32_t triangle) const {
-    return static_cast<std::uint32_t>(
-        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
+    return caster_at_[triangle];
 }
 
 AnyRay ParallelView::ray_at(double x, double y) const {
@@ -82,9 +83,11 @@ std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays) const {
 }
 
 std::vector<FromLight> ParallelView::trace(std::span<const Texel> texels) const {
-    std::vector<AnyRay> rays;
-    rays.reserve(texels.size());
-    for (const Texel& texel : texels) rays.push_back(ray_at(texel.x + 0.5, texel.y + 0.5));
+    if (!tracer_) return std::vector<FromLight>(texels.size(), {no_triangle, infinity});
+    std::vector<AnyRay> rays(texels.size());
+    parallel_for_all(texels.size(), tracer_->threads(), [&](std::size_t i) {
+        rays[i] = ray_at(texels[i].x + 0.5, texels[i].y + 0.5);
+    });
     return met(rays);
 }
 

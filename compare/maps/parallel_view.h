@@ -31,9 +31,10 @@ private:
         bool has_depth() const { return std::isfinite(depth) && std::isfinite(slope); }
     };
 
-    Scene casters_;                       ///< alone
-    std::vector<std::uint32_t> of_scene_; ///< their triangles' indices in the scene
-    std::vector<std::uint8_t> drawn_;     ///< which show a side that is not culled
+    Scene casters_;                        ///< alone
+    std::vector<std::uint32_t> of_scene_;  ///< their triangles' indices in the scene
+    std::vector<std::uint32_t> caster_at_; ///< the reverse: by triangle of the scene
+    std::vector<std::uint8_t> drawn_;      ///< which show a side that is not culled
     CasterGrid grid_;
     std::unique_ptr<Tracer> tracer_; ///< null without casters
     double half_step_ = 0;           ///< of the snapping grid, texels

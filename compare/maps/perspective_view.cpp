@@ -4,6 +4,7 @@
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/neighbourhood.h"
 #include "compare/driver/setup_error.h"
+#include "reference/parallel.h"
 #include "reference/trace/faces.h"
 #include "reference/trace/first_met.h"
 #include "scenes/driver.h"
@@ -55,20 +56,33 @@ PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int
     depth_model_.subpixel_bits = subpixel_bits;
     for (std::size_t face = 0; face < map.model.faces(); ++face)
         faces_.push_back(casters_of(scene, map.model, face, of_scene_));
+    for (const Scene& casters : faces_) {
+        drawings_.push_back(drawing_of(casters, depth_model_, map.model.far));
+        std::vector<glm::dvec3>& columns = columns_.emplace_back();
+        std::vector<glm::dvec3>& rows = rows_.emplace_back();
+        for (int i = 0; i < map.model.size; ++i) {
+            columns.push_back(ray_column(casters.camera, i + 0.5));
+            rows.push_back(ray_row(casters.camera, i + 0.5));
+        }
+    }
+    caster_at_ = inverse_of(of_scene_, scene.triangles.size());
+    for (std::uint32_t caster = 0; caster < of_scene_.size(); ++caster)
+        planes_.push_back(plane_before_eye(faces_.front(), caster));
     if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(faces_.front(), threads);
 }
 
 std::vector<FromLight> PerspectiveView::trace(std::span<const Texel> texels) const {
-    std::vector<FromLight> found(texels.size(), {no_triangle, infinity});
-    if (!tracer_) return found;
-    std::vector<glm::dvec3> rays;
-    rays.reserve(texels.size());
-    for (const Texel& texel : texels)
-        rays.push_back(ray_direction(camera(texel.face), texel.x + 0.5, texel.y + 0.5));
+    if (!tracer_) return std::vector<FromLight>(texels.size(), {no_triangle, infinity});
+    std::vector<FromLight> found(texels.size());
+    std::vector<glm::dvec3> rays(texels.size());
+    parallel_for_all(texels.size(), tracer_->threads(),
+                     [&](std::size_t i) { rays[i] = direction(texels[i]); });
     const std::vector<SeenSurface> seen = see_rays(*tracer_, rays);
-    for (std::size_t i = 0; i < seen.size(); ++i)
-        if (seen[i].triangle != no_triangle)
-            found[i] = {of_scene_[seen[i].triangle], seen[i].depth};
+    parallel_for_all(texels.size(), tracer_->threads(), [&](std::size_t i) {
+        found[i] = seen[i].triangle == no_triangle
+                       ? FromLight{no_triangle, infinity}
+                       : FromLight{of_scene_[seen[i].triangle], seen[i].depth};
+    });
     return found;
 }
 
@@ -104,17 +118,14 @@ FromLight PerspectiveView::trace_without(const LiftedLimits& lifted, std::size_t
 
 LightView::Shown PerspectiveView::shown_without(const LiftedLimits& lifted,
                                                 const Texel& texel) const {
-    const FromLight found =
-        met_without(lifted, ray_direction(camera(texel.face), texel.x + 0.5, texel.y + 0.5));
+    const FromLight found = met_without(lifted, direction(texel));
     if (found.triangle == no_triangle) return {true, no_triangle, infinity, infinity};
     return showing(texel, caster_of(found.triangle));
 }
 
 PlaneAtPixel PerspectiveView::plane(const Texel& texel, std::uint32_t caster) const {
-    const Scene& scene = faces_[texel.face];
-    return {scene,       depth_model_, drawing_of(scene, depth_model_, model().far),
-            model().far, caster,       texel.x,
-            texel.y};
+    return {faces_[texel.face], depth_model_,    drawings_[texel.face], model().far, caster,
+            planes_[caster],    direction(texel)};
 }
 
 double PerspectiveView::value(const PlaneAtPixel& plane) const {
@@ -123,8 +134,7 @@ double PerspectiveView::value(const PlaneAtPixel& plane) const {
 }
 
 std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
-    return static_cast<std::uint32_t>(
-        std::lower_bound(of_scene_.begin(), of_scene_.end(), triangle) - of_scene_.begin());
+    return caster_at_[triangle];
 }
 
 // The window depths of corners are rounded as they are, and not as little as their inverse depths.
@@ -133,8 +143,8 @@ PolygonOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) 
     const Scene& scene = faces_[texel.face];
     const WindowDepth window = window_depth_of(depth_model_);
     const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
-    std::vector<PicturePoint> polygon = clipped_polygon(
-        scene.camera, {at(0), at(1), at(2)}, drawing_of(scene, depth_model_, model().far));
+    std::vector<PicturePoint> polygon =
+        clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawings_[texel.face]);
     for (PicturePoint& point : polygon)
         point.depth_error += window_depth_roundings * v / std::abs(window.slope);
     return polygon_offset(polygon, model(), offset_unit(), {window.at(0), window.slope},
@@ -188,8 +198,7 @@ bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
     };
     if (within(0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(),
-                             drawing_of(scene, depth_model_, model().far)};
+    const CoveredPixel pixel{at.direction(), at.lateral(), drawings_[texel.face]};
     return within(at.error_of_place(),
                   std::sqrt(3.0) *
                       interpolated_place_error(scene, caster, pixel, scene.camera.eye));
@@ -198,8 +207,8 @@ bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
 // A distance is the length of a vector that is interpolated over the triangle: off by the lateral
 // error of the place, as the plane's depth is, by the interpolation's share of the largest corner's
 // components, and by the roundings of a length, a quotient and the format: 8 v.
-bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const {
-    const PlaneAtPixel at = plane(texel, caster);
+bool PerspectiveView::may_store(const PlaneAtPixel& at, const Texel& texel,
+                                std::uint32_t caster) const {
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
     const double read = stored(texel);
     if (model().is_ramp()) return may_store_step(at, texel, caster);
@@ -226,22 +235,27 @@ bool PerspectiveView::may_store(const Texel& texel, std::uint32_t caster) const 
     };
     if (off_by(0, 0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(),
-                             drawing_of(scene, depth_model_, model().far)};
+    const CoveredPixel pixel{at.direction(), at.lateral(), drawings_[texel.face]};
     const double interpolated =
         std::sqrt(3.0) * interpolated_place_error(scene, caster, pixel, scene.camera.eye);
     return off_by(at.error_of_place(), std::sqrt(2.0) * at.spread(), interpolated);
 }
 
 LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t caster) const {
-    const double exact = value(plane(texel, caster));
+    return showing(plane(texel, caster), texel, caster);
+}
+
+LightView::Shown PerspectiveView::showing(const PlaneAtPixel& at, const Texel& texel,
+                                          std::uint32_t caster) const {
+    const double exact = value(at);
     return {true, of_scene_[caster], exact, moved_away(texel, of_scene_[caster], exact)};
 }
 
 LightView::Shown PerspectiveView::shown_of(const Texel& texel, std::uint32_t triangle) const {
     const std::uint32_t caster = caster_of(triangle);
-    if (!may_store(texel, caster)) return {};
-    return showing(texel, caster);
+    const PlaneAtPixel at = plane(texel, caster);
+    if (!may_store(at, texel, caster)) return {};
+    return showing(at, texel, caster);
 }
 
 bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {
@@ -255,7 +269,7 @@ bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen
 /// What may be left of a caster in a face's picture.
 std::vector<PicturePoint> PerspectiveView::pictured(std::size_t face, std::uint32_t caster) const {
     const Scene& scene = faces_[face];
-    const Drawing drawing = drawing_of(scene, depth_model_, model().far);
+    const Drawing& drawing = drawings_[face];
     std::vector<ViewCorner> corners;
     for (int k = 0; k < 3; ++k)
         corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
@@ -321,7 +335,7 @@ bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster
 LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     if (!tracer_) return {};
     const Scene& scene = faces_[texel.face];
-    const glm::dvec3 centre = ray_direction(scene.camera, texel.x + 0.5, texel.y + 0.5);
+    const glm::dvec3 centre = direction(texel);
     const double reach =
         lateral_error(scene, depth_model_, scene.camera.eye + model().near * centre);
     const Neighbourhood around =
@@ -340,9 +354,10 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     }
     // `nearest` is an inverse depth.
     const auto may_show = [&](std::uint32_t caster, double nearest) {
-        if (model().has_offset()) return stored(texel) <= deepest_seen && may_store(texel, caster);
+        if (model().has_offset())
+            return stored(texel) <= deepest_seen && may_store(plane(texel, caster), texel, caster);
         const bool hidden = nearest * farthest * (1 + 0x1p-16) < 1;
-        return !hidden && may_store(texel, caster);
+        return !hidden && may_store(plane(texel, caster), texel, caster);
     };
     // Distances are compared as they are stored, so that window depth's roundings do not count.
     const auto nearest_at_texel = [&](std::uint32_t caster) {

@@ -25,13 +25,23 @@ public:
 
 private:
     DepthModel depth_model_;
-    std::vector<Scene> faces_;                ///< one per face; casters alone
-    std::vector<std::uint32_t> of_scene_;     ///< their triangles' indices in the scene
+    std::vector<Scene> faces_;             ///< one per face; casters alone
+    std::vector<std::uint32_t> of_scene_;  ///< their triangles' indices in the scene
+    std::vector<std::uint32_t> caster_at_; ///< the reverse: by triangle of the scene
+    std::vector<Drawing> drawings_;        ///< one per face
+    /// The directions through texels' centres are the sum of a column's and a row's.
+    std::vector<std::vector<glm::dvec3>> columns_;
+    std::vector<std::vector<glm::dvec3>> rows_;
+    std::vector<glm::dvec3> planes_;          ///< theirs, before the eye that all faces share
     std::unique_ptr<Tracer> tracer_;          ///< of the first face's scene; null without casters
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
     mutable std::array<std::once_flag, 6> is_made_;
 
     FromLight met_without(const LiftedLimits& lifted, const glm::dvec3& ray) const;
+    glm::dvec3 direction(const Texel& texel) const {
+        return columns_[texel.face][static_cast<std::size_t>(texel.x)] +
+               rows_[texel.face][static_cast<std::size_t>(texel.y)];
+    }
     PlaneAtPixel plane(const Texel& texel, std::uint32_t caster) const;
     double value(const PlaneAtPixel& plane) const;
     std::uint32_t caster_of(std::uint32_t triangle) const;
@@ -39,12 +49,13 @@ private:
     double deepest(const Texel& texel, std::uint32_t caster) const;
     bool may_store_moved(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     bool may_store_step(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
-    bool may_store(const Texel& texel, std::uint32_t caster) const;
+    bool may_store(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     std::vector<PicturePoint> pictured(std::size_t face, std::uint32_t caster) const;
     const CasterGrid& grid(std::size_t face) const;
     bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
     bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
     Shown showing(const Texel& texel, std::uint32_t caster) const;
+    Shown showing(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
     Shown shown_of(const Texel& texel, std::uint32_t triangle) const override;
     Shown shown_around(const Texel& texel) const override;
 };

@@ -1,5 +1,6 @@
 #include "reference/trace/any_rays.h"
 
+#include "reference/exact/bounded.h"
 #include "reference/exact/norms.h"
 #include "reference/trace/state.h"
 
@@ -100,9 +101,18 @@ glm::dvec3 enlargement(const Tracer& tracer, double share, const glm::dvec3& ori
 }
 
 void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found) {
+    if (rays.lanes == 0) return;
     const Hierarchy& hierarchy = tracer.state().hierarchy;
     const Places& places = tracer.state().places;
     const Slabs slabs = slabs_of(rays, reach_of(hierarchy), share);
+    const AnyRay first = rays.ray(__builtin_ctz(rays.lanes));
+    const auto along = [&](const Entry& box) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sum += (double{box.lower[axis]} + box.upper[axis]) *
+                   first.direction[static_cast<int>(axis)];
+        return sum;
+    };
     // Two children an entry: one waits on each level.
     std::array<std::uint32_t, 2 * deepest_level> waiting{};
     std::size_t count = 0;
@@ -113,6 +123,12 @@ void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriang
         if (lanes == 0) continue;
         if (entry.count > 0) {
             for (std::uint32_t i = 0; i < entry.count; ++i) waiting[count++] = entry.first + i;
+            // What is near may lower the rays' limits: the farther one waits longer.
+            std::uint32_t& next = waiting[count - 1];
+            std::uint32_t& later = waiting[count - 2];
+            if (entry.count == 2 &&
+                along(hierarchy.entries[next]) > along(hierarchy.entries[later]))
+                std::swap(next, later);
             continue;
         }
         const Cluster& cluster = hierarchy.clusters[entry.first];
@@ -144,9 +160,67 @@ bool meets(const AnyRay& given, const Corners& t) {
                       predicates.edge(ray, t.c, t.a).sign};
     const bool some_above = std::ranges::any_of(signs, [](int sign) { return sign > 0; });
     const bool some_below = std::ranges::any_of(signs, [](int sign) { return sign < 0; });
-    if (some_above == some_below) return false;
+    return some_above != some_below && meets_plane(given, t);
+}
+
+bool meets_plane(const AnyRay& given, const Corners& t) {
+    const EyeRay ray = exact_ray(given, {});
+    const Predicates predicates;
     return predicates.depth_against(ray, t, given.near).sign > 0 &&
            (std::isinf(given.far) || predicates.depth_against(ray, t, given.far).sign <= 0);
+}
+
+namespace {
+
+/// One bit per lane whose sign is certain.
+struct CertainSigns {
+    std::uint32_t above = 0;
+    std::uint32_t below = 0;
+};
+
+/// The signs of D . ((a - E) x (b - a)), as Predicates::edge has them. Each of the six products of
+/// three factors has its two differences rounded, two products, the difference of two of them, and
+/// two sums: 7 u; the eighth is for the bound's own rounding. Their sum is at most that of the
+/// components of D times that of a - E times the largest of b - a. What is added for underflow is
+/// far above what it can take. Plain loops over sixteen lanes, which compilers turn into vectors.
+CertainSigns edge_signs(const AnyRays& rays, const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 e = b - a;
+    const double share = 8 * double_roundoff * largest(e);
+    alignas(64) Lanes<double> value;
+    alignas(64) Lanes<double> error;
+    for (std::size_t l = 0; l < packet_size; ++l) {
+        const double wx = a.x - rays.origin[0][l];
+        const double wy = a.y - rays.origin[1][l];
+        const double wz = a.z - rays.origin[2][l];
+        const double dx = rays.direction[0][l];
+        const double dy = rays.direction[1][l];
+        const double dz = rays.direction[2][l];
+        value[l] =
+            dx * (wy * e.z - wz * e.y) + dy * (wz * e.x - wx * e.z) + dz * (wx * e.y - wy * e.x);
+        const double d = std::abs(dx) + std::abs(dy) + std::abs(dz);
+        const double w = std::abs(wx) + std::abs(wy) + std::abs(wz);
+        error[l] = share * d * w + Bounded::underflow * (1 + d);
+    }
+    // A product beyond the range of doubles leaves no finite value.
+    constexpr double most = std::numeric_limits<double>::max();
+    CertainSigns signs;
+    for (std::size_t l = 0; l < packet_size; ++l) {
+        signs.above |= static_cast<std::uint32_t>(value[l] > error[l] && value[l] <= most) << l;
+        signs.below |= static_cast<std::uint32_t>(value[l] < -error[l] && value[l] >= -most) << l;
+    }
+    return signs;
+}
+
+} // namespace
+
+LanesBeside lanes_beside(const AnyRays& rays, const Corners& t) {
+    const CertainSigns ab = edge_signs(rays, t.a, t.b);
+    const CertainSigns bc = edge_signs(rays, t.b, t.c);
+    const std::uint32_t beside = (ab.above | bc.above) & (ab.below | bc.below);
+    if ((rays.lanes & ~beside) == 0) return {0, beside};
+    const CertainSigns ca = edge_signs(rays, t.c, t.a);
+    return {(ab.above & bc.above & ca.above) | (ab.below & bc.below & ca.below),
+            (ab.above | bc.above | ca.above) & (ab.below | bc.below | ca.below)};
 }
 
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u) {

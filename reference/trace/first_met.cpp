@@ -42,17 +42,22 @@ public:
     void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) override {
         if (!counts_(triangle)) return;
         const Corners t = corners(tracer_.scene(), triangle);
+        const LanesBeside sides = lanes_beside(rays, t);
+        lanes &= ~sides.beside;
         for (; lanes != 0; lanes &= lanes - 1) {
             const int lane = __builtin_ctz(lanes);
             AnyRay ray = rays.ray(lane);
             ray.far = far[static_cast<std::size_t>(lane)];
-            if (!meets(ray, t)) continue;
+            const auto [least, most] = reach_along(ray, t);
+            if (most <= ray.near || least > rays.far[static_cast<std::size_t>(lane)]) continue;
+            const bool is_within = least > ray.near && most <= ray.far;
+            const bool is_through = (sides.through >> lane & 1U) != 0;
+            if (is_through ? !is_within && !meets_plane(ray, t) : !meets(ray, t)) continue;
             MetTriangle& nearest = found[static_cast<std::size_t>(lane)];
             const int order = nearest.triangle == no_triangle
                                   ? -1
                                   : order_along(ray, t, corners(tracer_.scene(), nearest.triangle));
             if (order > 0 || (order == 0 && triangle > nearest.triangle)) continue;
-            const auto [least, most] = reach_along(ray, t);
             nearest = {triangle, std::clamp(place_on_plane(ray, t), least, most)};
             rays.far[static_cast<std::size_t>(lane)] = std::min(ray.far, most);
         }

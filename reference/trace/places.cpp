@@ -70,16 +70,11 @@ Places find_places(const Scene& scene, const Predicates& predicates, int threads
         size = std::max(size, largest(glm::dvec3(position)));
     std::vector<std::uint64_t> of_place(count);
     std::vector<std::uint64_t> of_plane(count);
-    constexpr std::size_t piece_size = 4096;
-    parallel_for(static_cast<int>((count + piece_size - 1) / piece_size), threads,
-                 [&](int piece, int) {
-                     const std::size_t begin = static_cast<std::size_t>(piece) * piece_size;
-                     for (std::size_t i = begin; i < std::min(count, begin + piece_size); ++i) {
-                         const Corners t = corners(scene, static_cast<std::uint32_t>(i));
-                         of_place[i] = place_hash(t);
-                         of_plane[i] = plane_hash(t, size);
-                     }
-                 });
+    parallel_for_all(count, threads, [&](std::size_t i) {
+        const Corners t = corners(scene, static_cast<std::uint32_t>(i));
+        of_place[i] = place_hash(t);
+        of_plane[i] = plane_hash(t, size);
+    });
     const auto at = [&](std::uint32_t triangle) { return corners(scene, triangle); };
 
     Places places;

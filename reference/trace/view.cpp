@@ -219,15 +219,9 @@ OriginView view_from(const glm::dvec4& from, bool may_be_parallel, const Scene& 
     // The children of an entry come after it, so each group is sorted before it is visited.
     sort_children(view.entries, view.parallel);
 
-    constexpr int piece_size = 4096;
-    const auto count = static_cast<int>(scene.triangles.size());
     view.side.resize(scene.triangles.size());
-    parallel_for((count + piece_size - 1) / piece_size, threads, [&](int piece, int) {
-        const int end = std::min(count, (piece + 1) * piece_size);
-        for (int i = piece * piece_size; i < end; ++i) {
-            const auto triangle = static_cast<std::uint32_t>(i);
-            view.side[triangle] = side_of(from, corners(scene, triangle), predicates);
-        }
+    parallel_for_all(scene.triangles.size(), threads, [&](std::size_t i) {
+        view.side[i] = side_of(from, corners(scene, static_cast<std::uint32_t>(i)), predicates);
     });
     return view;
 }

@@ -78,6 +78,20 @@ test('a drawing for what counts no volumes shows them all, and says what it clai
   }
 });
 
+test('a drawing for a map holds its comparison, and one for a traced claim its ray', () => {
+  const { record, svg } = explained('near_plane', '229,103', ['--technique', 'cube_map_pcf']);
+  const { map } = record.techniques[0];
+  const digits = (value) => String(Number(value.toPrecision(6)));
+  const is = map.stored + map.bias < map.own ? 'less than' : 'not less than';
+  assert.ok(svg.includes(`${digits(map.stored)} + ${digits(map.bias)} is ${is} ${digits(map.own)}`));
+  assert.ok(svg.includes(`own point ${digits(map.own)}`));
+  assert.ok(svg.includes(`Texel (${map.texel[0]}, ${map.texel[1]}) of face ${map.face}, ${map.size}`));
+  assert.ok(svg.includes(`${map.lit} of ${map.of} comparisons find light`));
+  const traced = explained('near_plane', '229,103', ['--technique', 'traced_epsilon']);
+  const { hits } = traced.record.techniques[0].shadow_ray;
+  assert.ok(traced.svg.includes(`meets triangle ${hits[0].triangle}, ${digits(hits[0].t)}`));
+});
+
 test('a drawing that cannot be written is an error that names the file', () => {
   const run = shadowproof(['explain', 'ordinary', '--pixel', '9,9', '--size', '32x32', '--svg',
                            'missing/x.svg']);

@@ -10,7 +10,9 @@ import { randomNumbers, seed } from './random.mjs';
 import { named } from './scripts.mjs';
 
 const { cutaway } = named(['cutaway/geometry.js', 'cutaway/words.js', 'cutaway/svg.js',
-                           'cutaway/side.js', 'cutaway/strip.js', 'cutaway/cutaway.js'], ['cutaway']);
+                           'cutaway/side.js', 'cutaway/strip.js', 'cutaway/comparison.js',
+                           'cutaway/float_ray.js', 'cutaway/evidence.js', 'cutaway/cutaway.js'],
+                          ['cutaway']);
 
 let page;
 before(async () => { page = await emptyPage(); });
@@ -45,6 +47,15 @@ function recordOf(crossings, changes = {}, technique = {}) {
       dark_cap: 'beyond', ...technique }],
   };
 }
+
+/** What a technique asked that reads a shadow map, or traces rays in float. */
+const asksMap = (changes = {}) => ({ name: 'spot_map', test: undefined, statuses: undefined, map: {
+  face: 0, texel: [764, 672], size: 1024, value: 'depth', format: 'd24', near: 0.1, far: 20,
+  stored: 9.147, bias: 0.15, own: 10.283, width: 0.01, footprint: [0.017, 0.02], shows: 14,
+  ...changes } });
+const shoots = (changes = {}) => ({ name: 'traced_epsilon', test: undefined, statuses: undefined,
+  shadow_ray: { near: 0.001, far: 10.3, stopped_by: 15, leaves_plane_at: 4e-6, passed_over: null,
+                hits: [{ triangle: 1750, mesh: 'torus', t: 0.7 }], ...changes } });
 
 function manyCrossings(count) {
   const random = randomNumbers();
@@ -102,6 +113,20 @@ const cases = {
   'fifteen crossings': recordOf(manyCrossings(15)),
   'eighty crossings': recordOf(manyCrossings(80)),
   'four hundred crossings': recordOf(manyCrossings(400)),
+  'a map': recordOf(pair, {}, asksMap()),
+  'a map that is not asked': recordOf(pair, {}, { ...asksMap(), map: null }),
+  'a map that shows nothing': recordOf([], {}, asksMap({ stored: 20, own: 19.99, shows: null })),
+  'a map whose texel is the point': recordOf([], {}, asksMap({ stored: 10.283, bias: 0 })),
+  'a map of a surface seen edge-on': recordOf([], {}, asksMap({ footprint: [null, 0.01] })),
+  'a map of huge lengths': recordOf([], {}, asksMap({ stored: 1.23456e20, own: 1.23457e20 })),
+  'a ramp': recordOf([], {}, asksMap({ format: 'ramp8' })),
+  'an averaged map': recordOf([], {}, asksMap({ filter: 4, average: 'comparisons', lit: 11, of: 16,
+                                                edges: 'seamless' })),
+  'a float ray': recordOf(pair, {}, shoots()),
+  'a float ray to a sun, in nothing’s way': recordOf([], {}, shoots({
+    far: null, near: 0, leaves_plane_at: null, stopped_by: null, hits: [] })),
+  'a float ray that passes over an edge': recordOf([], {}, shoots({
+    passed_over: { triangle: 123456789, mesh: 'caster', t: 5.123456e-7 } })),
   'light cap and surface at one depth': recordOf([{ ...side(10, 1), kind: 'light cap',
                                                     from: surfaceAt(10).corners }, side(12, -1)]),
 };

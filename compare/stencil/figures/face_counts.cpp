@@ -154,15 +154,13 @@ FaceCounts counted(const DrawnPicture& picture, const Image<double>* depths, int
     for (std::size_t first = 0; first < pictured.count(); first += batch_size) {
         std::vector<PicturedFace> faces(std::min(batch_size, pictured.count() - first));
         std::vector<PixelRun> runs(faces.size());
-        constexpr std::size_t together = 64;
-        const auto pieces = static_cast<int>((faces.size() + together - 1) / together);
-        parallel_for(pieces, threads, [&](int piece, int) {
-            const std::size_t begin = static_cast<std::size_t>(piece) * together;
-            for (std::size_t i = begin; i < std::min(begin + together, faces.size()); ++i) {
+        parallel_for_all(
+            faces.size(), threads,
+            [&](std::size_t i) {
                 faces[i] = pictured.face(first + i);
                 runs[i] = rows.rows_of(faces[i]);
-            }
-        });
+            },
+            64);
         parallel_for(rows.bands(), threads, [&](int band, int) { rows.add(faces, runs, band); });
     }
     counts.fragments = rows.fragments();

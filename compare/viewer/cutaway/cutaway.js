@@ -43,10 +43,12 @@ var cutaway = (function () {
     });
 
     var below = cutawayStrip(record, columns, columnX, columnCentre, step, place, width);
-    var text = cutawaySide(record, events, points, plane, place, width) + below.text;
+    var evidence = cutawayEvidence.draw(technique, below.bottom, width);
+    var text = cutawaySide(record, events, points, plane, place, width) + below.text +
+      evidence.text;
 
     var crossings = record.crossings.length;
-    var notes = [say.lightWords(plane, place)];
+    var notes = evidence.notes.concat([say.lightWords(plane, place)]);
     var tests = technique.tests || [technique.test];
     var behind = tests.indexOf('depth_fail') >= 0;
     if (behind && tests.indexOf('depth_pass') >= 0)
@@ -61,7 +63,7 @@ var cutaway = (function () {
     if (!record.seen) notes.push('The ray meets no surface: background.');
     if (!record.adds_up)
       notes.push('Rounding lost a crossing: those drawn do not add up to the exact counts.');
-    var y = below.bottom + 22, most = Math.floor((width - 16) / 7.6);
+    var y = evidence.bottom + 22, most = Math.floor((width - 16) / 7.6);
     var sentence = say.sentenceOf(record, technique);
     say.wrapped(sentence, most).forEach(function (row) {
       text += words([8, y], row, 'ink', 13, 'start', { 'font-weight': '600' });

@@ -1,50 +1,21 @@
 // The section of shadow maps: the texel that a pixel reads, in the map and as its rays cut the
 // surface, and the comparison, drawn along the ray from the light.
 
-/** As many digits as a float has without its last. */
-const short = (length) => String(Number(length.toPrecision(6)));
+const { short } = cutawayComparison;
 
-/** How far along the ray a texel's footprint reaches, for each unit that it reaches across it. */
-const steepness = ({ width, foot }) =>
-  Math.sqrt(Math.max((Math.max(...foot) / width) ** 2 - 1, 0));
-
-/**
- * The light on the left, far off; what the texel stores, the same with the bias, and the pixel's
- * point, as close as they are. The texel's own rays cut its footprint out of the surface, which is
- * as steep as the surface is to them.
- */
+/** The comparison as the command draws it, too. */
 function comparisonDrawing(record) {
-  const { stored, bias, own } = record;
-  const least = Math.min(stored, stored + bias, own);
-  const most = Math.max(stored, stored + bias, own);
-  const room = Math.max(most - least, 1e-6 * most, 1e-30);
-  const place = (length) => 160 + 380 * (length - least) / room;
-  const svg = (name, attributes, ...children) => {
-    const node = document.createElementNS('http://www.w3.org/2000/svg', name);
-    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
-    node.append(...children);
-    return node;
-  };
-  const mark = (length, words, below, kind) => [
-    svg('line', { x1: place(length), x2: place(length), y1: below ? 50 : 24, y2: below ? 76 : 50,
-                  class: kind }),
-    svg('text', { x: place(length), y: below ? 92 : 18, 'text-anchor': 'middle' }, words)];
-  const title = svg('title', {}, 'From the light to the surface: what the texel stores, the ' +
-                    'bias, the point that is compared, and the texel’s footprint around it');
-  const half = 20;
-  const lean = Math.min(half * steepness(record), 55);
-  const border = (side) => svg('line', { x1: 40, y1: 50, x2: place(own) + side * lean,
-                                         y2: 50 + side * half, class: 'ray border' });
-  return svg('svg', { id: 'comparison', viewBox: '0 0 600 100', role: 'img', class: 'comparison' },
-    title, border(-1), border(1),
-    svg('line', { x1: place(own) - lean, y1: 50 - half, x2: place(own) + lean, y2: 50 + half,
-                  class: 'footprint' }),
-    svg('circle', { cx: 40, cy: 50, r: 6, class: 'light' }),
-    svg('line', { x1: 40, x2: 120, y1: 50, y2: 50, class: 'ray skipped' }),
-    svg('line', { x1: 120, x2: 580, y1: 50, y2: 50, class: 'ray' }),
-    svg('line', { x1: place(stored), x2: place(stored + bias), y1: 50, y2: 50, class: 'bias' }),
-    svg('text', { x: 40, y: 76, 'text-anchor': 'middle' }, 'light'),
-    ...mark(stored, 'texel', false, 'stored'), ...mark(own, 'own point', true, 'own'));
+  const { tag, colors } = cutawaySvg;
+  const [width, height] = [600, cutawayComparison.height];
+  const title = 'From the light to the surface: what the texel stores, the bias, the point that ' +
+                'is compared, and the texel’s footprint around it';
+  const drawing = element('div', { id: 'comparison', class: 'comparison' });
+  drawing.innerHTML = tag('svg', { xmlns: 'http://www.w3.org/2000/svg', role: 'img',
+                                   viewBox: `0 0 ${width} ${height}`, 'font-family': 'sans-serif' },
+    tag('title', {}, title) +
+    tag('rect', { x: 0, y: 0, width, height, fill: colors.paper, class: 'cut-fill-paper' }) +
+    cutawayComparison.draw(record, 0, width)); // cutawaySvg escapes all text
+  return drawing;
 }
 
 /** OpenGL's order. */
@@ -101,34 +72,6 @@ function mapRecord({ blocks, cellFile }, rank) {
            near: cellFile.map.near, far: cellFile.map.far };
 }
 
-/** The step of a ramp of 256 in which a depth lies. */
-function stepOfRamp({ near, far }, depth) {
-  return Math.max(0, Math.min(255, Math.floor(256 * (depth - near) / (far - near))));
-}
-
-/** The comparison as the technique makes it: of steps where the map is a ramp. */
-function comparisonWords(record) {
-  const compared = record.format === 'ramp8'
-    ? { stored: stepOfRamp(record, record.stored), own: stepOfRamp(record, record.own - record.bias) }
-    : { stored: record.stored + record.bias, own: record.own };
-  const shadowed = compared.stored < compared.own;
-  const [left, right] = record.format === 'ramp8'
-    ? [`Step ${compared.stored} of the ramp`,
-       `step ${compared.own}, in which ${short(record.own)} \u2212 ${short(record.bias)} lies`]
-    : [`${short(record.stored)} + ${short(record.bias)}`, short(record.own)];
-  return `${left} is ${shadowed ? 'less than' : 'not less than'} ${right}: ${shadowed ? 'shadowed' : 'lit'}.`;
-}
-
-/** What the block of texels around the point's own one says. */
-function filterWords({ filter, average, edges, lit }) {
-  if (filter === 0) return '';
-  const beyond = { clamped: ', repeating the border of its face', seamless: ', across the edges of its face' };
-  const block = `Of its own texel. The claim averages ${filter} × ${filter} texels${beyond[edges] ?? ''}`;
-  return element('p', { id: 'averaged' }, average === 'values'
-    ? `${block}: their values, which are compared once.`
-    : `${block}: ${lit} of ${filter * filter} comparisons find light.`);
-}
-
 addFamily('map', {
   blocks: (pixels, differing) => ({
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
@@ -149,8 +92,9 @@ addFamily('map', {
     return [
       element('h3', {}, 'Comparison'),
       comparisonDrawing(record),
-      element('p', { id: 'compared' }, comparisonWords(record)),
-      filterWords(record),
+      element('p', { id: 'compared' }, cutawayComparison.sentence(record)),
+      record.filter > 0
+        ? element('p', { id: 'averaged' }, cutawayComparison.averaged(record)) : '',
       mapDrawing(opened, record),
       facts([
         ['Texel', `(${record.x}, ${record.y}) of face ${record.face}, ${record.size} a side`],

@@ -13,48 +13,15 @@ function tracedRow({ blocks: { ray, met, at }, differing }, pixel) {
            first: hit(first, firstAt), passed: hit(passed, passedAt) };
 }
 
-/** What lies along a shadow ray, by distance. */
-function tracedMarks(row) {
-  return [
-    { t: 0, words: 'start', color: 'ink' },
-    row.near > 0 ? { t: row.near, words: 'epsilon: hits count beyond', color: 'quiet' } : null,
-    row.leaves === null ? null
-      : { t: row.leaves, words: 'leaves its receiver’s plane', color: 'shade' },
-    row.passed ? { t: row.passed.t, words: `passes over triangle ${row.passed.triangle}`,
-                   color: 'bad' } : null,
-    row.first ? { t: row.first.t, words: `meets triangle ${row.first.triangle}`, color: 'bad' }
-              : null,
-    Number.isFinite(row.far) ? { t: row.far, words: 'light', color: 'light' } : null,
-  ].filter(Boolean).sort((a, b) => a.t - b.t);
-}
-
-/** The ray from left to right, a line of words for each mark. Distances are in logarithms from a
-    half of the smallest, as they range from rounding errors to the size of the scene. */
+/** The ray as the command draws it, too. */
 function tracedDrawing(row, unit) {
-  const { tag, line, words, colors } = cutawaySvg;
-  const marks = tracedMarks(row);
-  const width = 480;
-  const lineHeight = 20;
-  const height = 34 + lineHeight * marks.length;
-  const least = Math.min(...marks.map(({ t }) => t).filter((t) => t > 0), 1) / 2;
-  const scale = (t) => Math.log(1 + t / least);
-  const most = Math.max(...marks.map(({ t }) => scale(t)), 1e-9);
-  const x = (t) => 14 + (width - 28) * (scale(t) / most) * (Number.isFinite(row.far) ? 1 : 0.85);
-  const parts = [
-    tag('rect', { x: 0, y: 0, width, height, fill: colors.paper, class: 'cut-fill-paper' }),
-    line([x(0), 16], [width - 6, 16], 'line', 2)];
-  marks.forEach(({ t, words: text, color }, i) => {
-    const y = 40 + lineHeight * i;
-    const right = x(t) > width / 2;
-    parts.push(line([x(t), 16], [x(t), y - 4], color, 1),
-               tag('circle', { cx: x(t), cy: 16, r: 4, fill: colors[color],
-                               class: `cut-fill-${color}` }),
-               words([x(t) + (right ? -5 : 5), y], `${text}, ${printed(t * unit, 6)}`, color, 12,
-                     right ? 'end' : 'start'));
-  });
+  const { tag, colors } = cutawaySvg;
+  const [width, height] = [480, cutawayFloatRay.heightOf(row)];
   return tag('svg', { xmlns: 'http://www.w3.org/2000/svg', viewBox: `0 0 ${width} ${height}`,
                       width, height, role: 'img', 'font-family': 'sans-serif',
-                      'aria-label': 'The shadow ray from its start to the light' }, parts.join(''));
+                      'aria-label': 'The shadow ray from its start to the light' },
+    tag('rect', { x: 0, y: 0, width, height, fill: colors.paper, class: 'cut-fill-paper' }) +
+    cutawayFloatRay.draw(row, 0, width, (t) => printed(t * unit, 6)));
 }
 
 addFamily('traced', {

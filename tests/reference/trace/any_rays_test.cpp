@@ -44,6 +44,54 @@ TEST(AnyRays, the_nearer_plane_is_told) {
     EXPECT_EQ(order_along(down(0.25, 0.25), triangle, triangle), 0);
 }
 
+/// Corners and rays on a coarse lattice touch edges and corners often; far from the origin their
+/// differences round; tiny ones underflow.
+TEST(AnyRays, what_doubles_are_certain_of_is_so) {
+    Dice dice(3);
+    int through = 0;
+    int beside = 0;
+    int uncertain = 0;
+    for (int i = 0; i < 4000; ++i) {
+        constexpr std::array scales{1.0, 1e-200, 1e-160, 1e150, 1.0};
+        const double scale = dice.one_of(scales);
+        const double far_away = dice.one_in(2) ? 0 : scale * 0x1p50;
+        const auto place = [&] {
+            const auto step = [&] { return scale * (static_cast<double>(dice.below(9)) - 4); };
+            return glm::dvec3(step() + far_away, step() / 3, step() * 0.7);
+        };
+        const Corners t{place(), place(), place()};
+        AnyRays rays;
+        for (int lane = 0; lane < packet_size; ++lane) {
+            const glm::dvec3 from = place();
+            rays.set(lane, {from, dice.one_in(3) ? t.a - from : place() - from, -1e300});
+        }
+        const LanesBeside sides = lanes_beside(rays, t);
+        for (int lane = 0; lane < packet_size; ++lane) {
+            const bool is_through = (sides.through >> lane & 1U) != 0;
+            const bool is_beside = (sides.beside >> lane & 1U) != 0;
+            through += is_through ? 1 : 0;
+            beside += is_beside ? 1 : 0;
+            uncertain += is_through || is_beside ? 0 : 1;
+            const bool is_met = meets(rays.ray(lane), t);
+            if (is_through) {
+                EXPECT_TRUE(is_met) << i << " lane " << lane;
+            }
+            if (is_beside) {
+                EXPECT_FALSE(is_met) << i << " lane " << lane;
+            }
+        }
+    }
+    EXPECT_GT(through, 500);
+    EXPECT_GT(beside, 5000);
+    EXPECT_GT(uncertain, 5000);
+    AnyRays one;
+    one.set(0, down(0.25, 0.25));
+    EXPECT_EQ(lanes_beside(one, triangle).through & 1U, 1U);
+    one.set(0, down(0.5, 0.5));
+    EXPECT_EQ(lanes_beside(one, triangle).through & 1U, 0U) << "on an edge";
+    EXPECT_EQ(lanes_beside(one, triangle).beside & 1U, 0U) << "on an edge";
+}
+
 class Visited final : public NearbyTriangles {
 public:
     std::array<std::set<std::uint32_t>, packet_size> triangles;
