@@ -79,7 +79,9 @@ test('a drawing for what counts no volumes shows them all, and says what it clai
 });
 
 test('a drawing for a map holds its comparison, and one for a traced claim its ray', () => {
-  const { record, svg } = explained('near_plane', '229,103', ['--technique', 'cube_map_pcf']);
+  const said = (text) => text.replace(/<[^>]*>/g, ' ').replace(/\s+/g, ' '); // rows are wrapped
+  const { record, svg: drawn } = explained('near_plane', '229,103', ['--technique', 'cube_map_pcf']);
+  const svg = said(drawn);
   const { map } = record.techniques[0];
   const digits = (value) => String(Number(value.toPrecision(6)));
   const is = map.stored + map.bias < map.own ? 'less than' : 'not less than';
@@ -87,7 +89,7 @@ test('a drawing for a map holds its comparison, and one for a traced claim its r
   assert.ok(svg.includes(`own point ${digits(map.own)}`));
   assert.ok(svg.includes(`Texel (${map.texel[0]}, ${map.texel[1]}) of face ${map.face}, ${map.size}`));
   assert.ok(svg.includes(`${map.lit} of ${map.of} comparisons find light`));
-  const traced = explained('near_plane', '229,103', ['--technique', 'traced_epsilon']);
+  const traced = explained('ordinary', '300,300', ['--technique', 'traced_epsilon']);
   const { hits } = traced.record.techniques[0].shadow_ray;
   assert.ok(traced.svg.includes(`meets triangle ${hits[0].triangle}, ${digits(hits[0].t)}`));
 });

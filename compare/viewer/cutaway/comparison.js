@@ -30,6 +30,11 @@ var cutawayComparison = (function () {
     function place(length) { return 160 + (width - 250) * (length - least) / room; }
     var own = place(record.own), stored = place(record.stored);
     var biased = place(record.stored + record.bias);
+    var texel = 'texel ' + short(record.stored), point = 'own point ' + short(record.own);
+    function within(x, text) {
+      var half = cutawayWords.room(text, 12) / 2 + 4;
+      return Math.max(half, Math.min(x, width - half));
+    }
     var lean = Math.min(half * steepness(record), 55);
     return line([40, axis], [own - lean, axis - half], 'quiet', 1) +
       line([40, axis], [own + lean, axis + half], 'quiet', 1) +
@@ -40,9 +45,9 @@ var cutawayComparison = (function () {
       tag('circle', { cx: 40, cy: axis, r: 6, fill: svg.colors.light, 'class': 'cut-fill-light' }) +
       words([40, axis + 22], 'light', 'quiet', 12) +
       line([stored, axis - 26], [stored, axis], 'ink', 2) +
-      words([stored, axis - 32], 'texel ' + short(record.stored), 'ink', 12) +
+      words([within(stored, texel), axis - 32], texel, 'ink', 12) +
       line([own, axis], [own, axis + 26], 'ink', 2, { 'stroke-dasharray': '4 3' }) +
-      words([own, axis + 42], 'own point ' + short(record.own), 'ink', 12);
+      words([within(own, point), axis + 42], point, 'ink', 12);
   }
 
   /** The step of a ramp of 256 in which a depth lies. */
