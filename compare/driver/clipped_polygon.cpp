@@ -119,7 +119,7 @@ std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
 
 std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<ViewCorner> polygon,
                                           const Drawing& drawing, PlaneCut cut) {
-    const glm::dvec2 guard = 2.0 * half_extent(camera);
+    const glm::dvec2 half = half_extent(camera);
     const double sign = cut == PlaneCut::nominal ? 0 : (cut == PlaneCut::most ? 1 : -1);
     const auto clip = [&](const ClipFunction& function) {
         const bool all_kept =
@@ -127,18 +127,15 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
                         [&](const Corner& corner) { return function(corner) >= 0; });
         if (!all_kept) polygon = clipped(polygon, function, drawing);
     };
+    for (const int axis : {0, 1})
+        for (const double side : {-1.0, 1.0})
+            clip([&](const Corner& c) {
+                return side * c.at[axis] + half[axis] * c.at.z +
+                       sign * (c.error[axis] + half[axis] * c.error.z);
+            });
     clip([&](const Corner& c) {
         return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
     });
-    // The guard band lies outside of the picture, and by how much its cuts are off shows nowhere
-    // but in a face that passes the eye within its corners' errors: where no near plane cuts; or at
-    // infinity, where the light lies nearly in the face's plane.
-    for (const int axis : {0, 1})
-        for (const double side : {1.0, -1.0})
-            clip([&](const Corner& c) {
-                return side * c.at[axis] + guard[axis] * c.at.z +
-                       sign * (c.error[axis] + guard[axis] * c.error.z);
-            });
     if (std::isfinite(drawing.far))
         clip([&](const Corner& c) {
             return drawing.far * c.at.w - c.at.z + sign * far_error(c, drawing);

@@ -64,13 +64,15 @@ using ClipFunction = std::function<double(const ViewCorner&)>;
 std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
                                 const ClipFunction& function, const Drawing& drawing);
 
-/// A convex polygon clipped by the near and far planes and by a guard band, as below.
+/// A convex polygon clipped as below.
 std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<ViewCorner> polygon,
                                           const Drawing& drawing, PlaneCut cut);
 
-/// `corners`: homogeneous world points (p, w). Clipped by the near and far planes, and by a guard
-/// band twice the picture's size, as Mesa's draw module has it (draw_pt_post_vs: x and y to twice
-/// w). Empty where nothing is left.
+/// `corners`: homogeneous world points (p, w). Clipped by the picture's right, left, upper and
+/// lower border, and by the near and far plane, in this order, as llvmpipe does, which asks Mesa's
+/// draw module for no guard band (llvmpipe_create_context). What is left is drawn as a fan from its
+/// first corner. Next to a border that just cuts off a corner one of its triangles is thin, and its
+/// depths and slopes are off by much. Empty where nothing is left.
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing);

@@ -139,15 +139,14 @@ ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster
                 std::abs(along)};
 }
 
-PolygonOffset ParallelView::offset(std::uint32_t caster) const {
+PolygonOffset ParallelView::offset(const Texel& texel, std::uint32_t caster) const {
     if (!model().has_offset()) return {};
-    return polygon_offset(pictured_in_parallel(casters_, camera(0), caster), model(), offset_unit(),
-                          {}, half_step_);
+    return polygon_offset(pictured_in_parallel(casters_, camera(0), caster),
+                          {texel.x + 0.5, texel.y + 0.5}, model(), offset_unit(), {}, half_step_);
 }
 
-double ParallelView::moved_away(const Texel& /*texel*/, std::uint32_t triangle,
-                                double depth) const {
-    return moved_by(depth, offset(caster_of(triangle)).own);
+double ParallelView::moved_away(const Texel& texel, std::uint32_t triangle, double depth) const {
+    return moved_by(depth, offset(texel, caster_of(triangle)).own);
 }
 
 // A corner snapped aside moves the plane by its slope; set-up comes with the corners' own errors;
@@ -167,7 +166,7 @@ double ParallelView::least_error(const Plane& plane) const {
 bool ParallelView::may_store(const Texel& texel, std::uint32_t caster) const {
     const Plane at = plane(texel, caster);
     if (!at.has_depth()) return true; // seen edge-on: any depth may come out
-    const PolygonOffset moved = offset(caster);
+    const PolygonOffset moved = offset(texel, caster);
     const double depth = window(at.depth);
     // A part of the error that is nearly always enough, without what set-up adds.
     if (moved.most == 0 && std::abs(stored(texel) - depth) <= least_error(at)) return true;
@@ -185,7 +184,7 @@ bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
 
 LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster) const {
     const double depth = plane(texel, caster).depth;
-    return {true, of_scene_[caster], depth, moved_by(depth, offset(caster).own)};
+    return {true, of_scene_[caster], depth, moved_by(depth, offset(texel, caster).own)};
 }
 
 LightView::Shown ParallelView::shown_of(const Texel& texel, std::uint32_t triangle) const {
@@ -214,7 +213,7 @@ LightView::Shown ParallelView::shown_around(const Texel& texel) const {
             const bool hides =
                 depth - off > 0 && depth + off < 1 &&
                 !may_be_flipped(pictured_in_parallel(casters_, camera(0), caster), half_step_);
-            if (hides) hidden_behind = depth + off + offset(caster).most;
+            if (hides) hidden_behind = depth + off + offset(texel, caster).most;
         }
         if (hidden_behind == infinity && stored(texel) == 1)
             return {true, no_triangle, infinity, infinity};

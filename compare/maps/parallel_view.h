@@ -47,7 +47,7 @@ private:
     FromLight met_without(const LiftedLimits& lifted, AnyRay ray) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
-    PolygonOffset offset(std::uint32_t caster) const;
+    PolygonOffset offset(const Texel& texel, std::uint32_t caster) const;
     double error(const Texel& texel, std::uint32_t caster, const Plane& plane) const;
     double least_error(const Plane& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;

@@ -147,7 +147,8 @@ PolygonOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) 
         clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawings_[texel.face]);
     for (PicturePoint& point : polygon)
         point.depth_error += window_depth_roundings * v / std::abs(window.slope);
-    return polygon_offset(polygon, model(), offset_unit(), {window.at(0), window.slope},
+    return polygon_offset(polygon, {texel.x + 0.5, texel.y + 0.5}, model(), offset_unit(),
+                          {window.at(0), window.slope},
                           half_snapping_step(depth_model_.subpixel_bits));
 }
 

@@ -1,5 +1,5 @@
 // What OpenGL makes of a triangle under a camera in parallel projection: its picture, clipped by
-// the near and far planes, the window depths over it, and the bounds of both.
+// the picture and the near and far planes, the window depths over it, and the bounds of both.
 #pragma once
 
 #include "compare/driver/clipped_polygon.h"

@@ -23,9 +23,12 @@ struct WindowScale {
     double slope = 1;
 };
 
-/// `polygon`: what clipping leaves of the triangle. `unit`: the driver's. `reach`: how far each of
-/// its corners may be snapped, in texels. No offset where the model asks for none.
-PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const MapModel& model,
-                             const OffsetUnit& unit, const WindowScale& window, double reach);
+/// That of a texel. `polygon`: what clipping leaves of the triangle; of the triangles that it is
+/// drawn as, those count that may hold the texel's centre `place`, or all where none does. `unit`:
+/// the driver's. `reach`: how far each of its corners may be snapped, in texels. No offset where
+/// the model asks for none.
+PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
+                             const MapModel& model, const OffsetUnit& unit,
+                             const WindowScale& window, double reach);
 
 } // namespace shadowproof

@@ -55,13 +55,13 @@ constexpr double direction_error =
     (2 + 3 * transform_roundings + 6 * clipping_roundings) * float_roundoff;
 
 /// By how much more a point at infinity may be off where a clipper cuts it than where it is drawn.
-/// Mesa's guard band cuts x at 2 w on either side, where w is the picture's half extent h times the
-/// depth z. What the picture shows has |x| <= h z, so that h z is left to the cut; z is at least
-/// the point's size over that of the picture's longest ray; and x and 2 w are off by 1 + 2 h.
-double guard_band_growth(const Camera& camera) {
+/// A border of the picture cuts x at w, which is the picture's half extent h times the depth z; x
+/// and w are off by 1 + h. What is lost of the picture is that over h z of its half, and all of it
+/// at the growth. z is at least the point's size over that of the picture's longest ray.
+double clipping_growth(const Camera& camera) {
     const glm::dvec2 half = half_extent(camera);
     const double least = std::min(half.x, half.y);
-    return std::max((1 + 2 * least) * std::sqrt(1 + glm::dot(half, half)) / least, 1.0);
+    return std::max((1 + least) * std::sqrt(1 + glm::dot(half, half)) / least, 1.0);
 }
 
 /// The error of the light's position given as two floats, relative to its length.
@@ -97,7 +97,7 @@ bool touches_light(const Scene& scene, std::uint32_t triangle) {
     const glm::dvec3 nearest =
         weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
     return glm::length(nearest) <=
-           guard_band_growth(scene.camera) * direction_error * glm::dot(weights, lengths) +
+           clipping_growth(scene.camera) * direction_error * glm::dot(weights, lengths) +
                error_of_light(light);
 }
 
@@ -111,7 +111,7 @@ bool almost_touches_light(const Scene& scene, std::uint32_t triangle) {
         furthest = std::max(furthest, glm::length(corners[k]));
     }
     return glm::length(nearest_to_origin(corners)) <=
-           guard_band_growth(scene.camera) * direction_error * furthest;
+           clipping_growth(scene.camera) * direction_error * furthest;
 }
 
 bool edge_touches_light(const Scene& scene, std::uint32_t a, std::uint32_t b) {
@@ -124,7 +124,7 @@ bool edge_touches_light(const Scene& scene, std::uint32_t a, std::uint32_t b) {
     const double t = squared > 0 ? std::clamp(-glm::dot(from, along) / squared, 0.0, 1.0) : 0;
     const double lengths = (1 - t) * glm::length(from) + t * glm::length(to);
     return glm::length(from + t * along) <=
-           guard_band_growth(scene.camera) * direction_error * lengths + error_of_light(light);
+           clipping_growth(scene.camera) * direction_error * lengths + error_of_light(light);
 }
 
 bool is_lost_in_floats(const Scene& scene, std::uint32_t position) {

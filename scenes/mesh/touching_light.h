@@ -15,7 +15,7 @@ namespace shadowproof {
 glm::dvec3 nearest_to_origin(const std::array<glm::dvec3, 3>& corners);
 
 /// Whether the directions from the light to a triangle's corners may surround the light once each
-/// is off by float rounding, or once a clipper's guard band cuts them. Which half of the sky the
+/// is off by float rounding, or once a clipper cuts them. Which half of the sky the
 /// triangle then covers, as seen from the light, depends on rounding; or a strip of the picture is
 /// lost. Never true for a directional light.
 bool touches_light(const Scene& scene, std::uint32_t triangle);

@@ -31,17 +31,17 @@ std::vector<PicturePoint> tilted() {
 }
 
 PolygonOffset slope_offset(const std::vector<PicturePoint>& polygon, double factor, double scale,
-                           double reach) {
+                           double reach, const glm::dvec2& place = {4, 4}) {
     MapModel model;
     model.slope_bias = factor;
-    return polygon_offset(polygon, model, {}, {0, scale}, reach);
+    return polygon_offset(polygon, place, model, {}, {0, scale}, reach);
 }
 
 PolygonOffset offset_of(const std::vector<PicturePoint>& polygon, double units, MapFormat format) {
     MapModel model;
     model.offset_units = units;
     model.format = format;
-    return polygon_offset(polygon, model, {0x1p-23, 0x1.001p-23}, {}, 0);
+    return polygon_offset(polygon, {4, 4}, model, {0x1p-23, 0x1.001p-23}, {}, 0);
 }
 
 TEST(OffsetUnits, are_steps_of_the_format_and_of_floats_those_at_the_largest_depth) {
@@ -84,6 +84,27 @@ TEST(SlopeOffset, is_looser_where_corners_are_snapped_and_unbounded_where_there_
     std::vector<PicturePoint> edge_on = tilted();
     edge_on[2].place = {8, 0};
     EXPECT_TRUE(std::isinf(slope_offset(edge_on, 3, 1, 0x1p-9).most));
+}
+
+TEST(SlopeOffset, is_that_of_the_triangle_which_covers_the_texel) {
+    // A border has cut off a corner: what is left is drawn as two triangles, of which the second is
+    // a tenth of a texel high at most, and its slope is told from a depth over this height.
+    const auto at = [](double x, double y) {
+        return PicturePoint{
+            .place = {x, y}, .inverse_depth = 0.1 + 0.01 * y, .depth_error = 0x1p-20};
+    };
+    const std::vector<PicturePoint> polygon{at(0, 10), at(40, 0), at(40, 20), at(0, 10.1)};
+    const PolygonOffset large = slope_offset(polygon, 1, 1, 0, {30, 10});
+    const PolygonOffset thin = slope_offset(polygon, 1, 1, 0, {2, 10.5});
+    EXPECT_NEAR(large.own, 0.01, 1e-12);
+    EXPECT_EQ(thin.own, large.own);
+    EXPECT_GT(large.least, 0.0099);
+    EXPECT_LT(large.most, 0.0101);
+    EXPECT_LT(thin.least, 0.00999);
+    EXPECT_GT(thin.most, 0.01001);
+    EXPECT_LT(thin.most - thin.least, 0.001);
+    const PolygonOffset beside = slope_offset(polygon, 1, 1, 0, {20, 40});
+    EXPECT_EQ(beside.least, std::min(thin.least, large.least)) << "where none covers it, any may";
 }
 
 /// The technique for a scene's light, with maps of depths.
