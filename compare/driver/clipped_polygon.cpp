@@ -32,6 +32,7 @@ Corner between(const Corner& from, const Corner& to, double t, double standard_n
     made.numerator_error = (1 - t) * from.numerator_error + t * to.numerator_error +
                            3 * v * std::max(numerator(from), numerator(to));
     made.made_by_clipping = true;
+    made.weights = from.weights + t * (to.weights - from.weights);
     return made;
 }
 
@@ -62,7 +63,8 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
     PicturePoint point{.place = {(at.x / at.z / half.x + 1) * 0.5 * camera.width,
                                  (1 - at.y / at.z / half.y) * 0.5 * camera.height},
                        .inverse_depth = at.w / at.z,
-                       .made_by_clipping = corner.made_by_clipping};
+                       .made_by_clipping = corner.made_by_clipping,
+                       .weights = corner.weights};
     const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
                                     double(camera.width), double(camera.height)});
     const double scale = 0.5 * camera.height / camera.tan_half_height;
@@ -72,6 +74,7 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
     const double transform =
         standard_near > 0 ? 0.5 * (corner.numerator_error + corner.error.z) / at.z / standard_near
                           : depth_error * point.inverse_depth;
+    point.w_error = (depth_error + v) * point.inverse_depth;
     point.depth_error = transform + window_depth_roundings * v * point.inverse_depth;
     if (!(at.z > corner.error.z)) point.place_error = std::numeric_limits<double>::infinity();
     return point;
@@ -157,7 +160,10 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing) {
     Polygon polygon;
-    for (const glm::dvec4& corner : corners) polygon.push_back(viewed(camera, corner, drawing));
+    for (int k = 0; k < 3; ++k) {
+        polygon.push_back(viewed(camera, corners[static_cast<std::size_t>(k)], drawing));
+        polygon.back().weights[k] = 1;
+    }
     return clipped_polygon(camera, std::move(polygon), drawing, PlaneCut::nominal);
 }
 

@@ -35,7 +35,10 @@ struct PicturePoint {
     double inverse_depth = 0;
     double place_error = 0; ///< of the float transform, as lateral_error has it, and of clipping
     double depth_error = 0; ///< of both and the window's roundings, as depth_error has it
+    double w_error = 0;     ///< the same of 1 / w, with which attributes are interpolated
     bool made_by_clipping = false;
+    glm::dvec3 weights{0, 0,
+                       0}; ///< of a triangle's corners: values at them, so weighed, are its own
 };
 
 /// A corner relative to the eye, along right, up and forward, and w: exact, with bounds of its
@@ -45,6 +48,7 @@ struct ViewCorner {
     glm::dvec3 error{0, 0, 0};  ///< of right, up and forward
     double numerator_error = 0; ///< of standard window depth's numerator, forward - 2 near w
     bool made_by_clipping = false;
+    glm::dvec3 weights{0, 0, 0}; ///< as PicturePoint has them
 };
 
 /// A homogeneous world point (p, w) after the float transform.

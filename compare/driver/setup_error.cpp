@@ -91,20 +91,47 @@ Plane plane_of_depths(const PicturePoint& first, const PicturePoint& second,
 }
 
 /// The steepest plane of a value over depth, q r, whose value q is nowhere larger than 1 and
-/// differs by at most `variation` between corners: q0 r0 - q1 r1 = q0 (r0 - r1) + (q0 - q1) r1.
+/// differs by at most `variation` between the corners of what was clipped: by that times half the
+/// sum of the differences of their weights. q0 r0 - q1 r1 = q0 (r0 - r1) + (q0 - q1) r1.
+/// `steepest`: of its slopes, as others tell; its rises are no more than these allow.
 Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
-                     const PicturePoint& third, double variation) {
-    const auto rise = [&](const PicturePoint& a, const PicturePoint& b) {
-        return std::min(a.inverse_depth + b.inverse_depth,
-                        std::abs(a.inverse_depth - b.inverse_depth) +
-                            variation * std::min(a.inverse_depth, b.inverse_depth));
-    };
+                     const PicturePoint& third, double variation, const glm::dvec2& steepest) {
     const glm::dvec2 d01 = glm::abs(first.place - second.place);
     const glm::dvec2 d20 = glm::abs(third.place - first.place);
-    const double z01 = rise(first, second);
-    const double z20 = rise(third, first);
+    const auto rise = [&](const PicturePoint& a, const PicturePoint& b, const glm::dvec2& way) {
+        const glm::dvec3 apart = glm::abs(a.weights - b.weights);
+        const double share = 0.5 * (apart.x + apart.y + apart.z);
+        return std::min({a.inverse_depth + b.inverse_depth,
+                         std::abs(a.inverse_depth - b.inverse_depth) +
+                             share * variation * std::min(a.inverse_depth, b.inverse_depth),
+                         glm::dot(steepest, way)});
+    };
+    const double z01 = rise(first, second, d01);
+    const double z20 = rise(third, first, d20);
     const double area = std::abs(cross(first.place - second.place, third.place - first.place));
-    return {z01, z20, glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area};
+    const glm::dvec2 slope =
+        glm::dvec2(z01 * d20.y + z20 * d01.y, z20 * d01.x + z01 * d20.x) / area;
+    return {z01, z20, glm::min(slope, steepest)};
+}
+
+std::array<Plane, 3> steepest_planes(const PictureTriangle& triangle, double variation,
+                                     const glm::dvec2& steepest) {
+    const auto& [a, b, c] = triangle;
+    return {steepest_plane(a, b, c, variation, steepest),
+            steepest_plane(b, c, a, variation, steepest),
+            steepest_plane(c, a, b, variation, steepest)};
+}
+
+/// What is left of a triangle is one plane still: that of its broadest part bounds the slopes of
+/// all.
+glm::dvec2 steepest_slope(const std::vector<PictureTriangle>& fan, double variation) {
+    glm::dvec2 steepest(std::numeric_limits<double>::infinity());
+    for (const PictureTriangle& triangle : fan)
+        for (const Plane& plane :
+             steepest_planes(triangle, variation, glm::dvec2(std::numeric_limits<double>::max())))
+            if (std::isfinite(plane.slope.x) && std::isfinite(plane.slope.y))
+                steepest = glm::min(steepest, plane.slope);
+    return steepest;
 }
 
 double twice_area(const PictureTriangle& triangle) {
@@ -151,12 +178,10 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
 /// is rounded, too, and its value is then that of a place beside it, as in error_of. What moves
 /// corners that are not clipped is the driver's snapping and transform: lateral_error.
 double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel,
-                          double variation, double reach) {
+                          double variation, const glm::dvec2& steepest, double reach) {
     const auto& [a, b, c] = triangle;
     if (!(twice_area(triangle) > 0)) return std::numeric_limits<double>::infinity();
-    const std::array<Plane, 3> planes{steepest_plane(a, b, c, variation),
-                                      steepest_plane(b, c, a, variation),
-                                      steepest_plane(c, a, b, variation)};
+    const std::array<Plane, 3> planes = steepest_planes(triangle, variation, steepest);
     const double slope = std::min(
         {glm::length(planes[0].slope), glm::length(planes[1].slope), glm::length(planes[2].slope)});
     double clipping = 0;
@@ -165,7 +190,7 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
         if (corner.made_by_clipping)
             clipping +=
                 weight_of(triangle, i, pixel, reach) *
-                (3 * v * corner.inverse_depth + corner.depth_error + slope * corner.place_error);
+                (3 * v * corner.inverse_depth + corner.w_error + slope * corner.place_error);
     }
     const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
     return 8 * v * largest + clipping +
@@ -262,11 +287,12 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 // off by up to e: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation) {
-    const double error =
-        largest_error(scene.camera, set_up(scene, triangle, pixel), pixel,
-                      [&](const PictureTriangle& one, const glm::dvec2& place) {
-                          return attribute_error_of(one, place, variation, pixel.reach);
-                      });
+    const std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
+    const glm::dvec2 steepest = steepest_slope(fan, variation);
+    const double error = largest_error(
+        scene.camera, fan, pixel, [&](const PictureTriangle& one, const glm::dvec2& place) {
+            return attribute_error_of(one, place, variation, steepest, pixel.reach);
+        });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);

@@ -114,9 +114,17 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
     bool by_depth = true; // whatever else may have led to it
     for (const Reading& reading : band.readings) {
         if (!explains(judged, p, reading)) continue;
-        // The ideal count leads to this claim, too, with faces moved.
+        // The ideal count leads to this claim, too, with faces moved; or what is counted leads to
+        // the truth with faces where they are.
+        const auto claim_by = [&](std::int64_t count) {
+            return claim_of(judged, count, shown, reading.in_cone);
+        };
+        const auto exactly = [&] {
+            return judged.prediction.count_without(
+                {}, {reading.direction, reading.depth, shown, around.corners});
+        };
         if (reading.by_rounding &&
-            claim_of(judged, reading.ideal, shown, reading.in_cone) == claim) {
+            (claim_by(reading.ideal) == claim || claim_by(exactly()) == truth_of_shown)) {
             precision = true;
             by_depth = by_depth && reading.by_depth;
             continue;

@@ -192,7 +192,7 @@ TEST(OddGeometry, what_floats_displace_by_pixels_is_explained) {
 
 /// The planes of three sides, and of the cap between them, pass the eye closer than floats tell at
 /// 1.7e7: each may be drawn over half of the picture, or over the other half, or be cut off before
-/// the near plane or by the guard band, whose planes meet in the eye. There are no others.
+/// the near plane or at the picture's borders, whose planes meet in the eye. There are no others.
 TEST(OddGeometry, sides_next_to_the_eye_are_counted_or_not) {
     const TracedScene traced(odd_scene("side_through_eye.gltf", 24));
     Gpu gpu(GlPlatform::osmesa);

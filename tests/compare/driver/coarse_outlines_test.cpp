@@ -44,9 +44,9 @@ TEST(CoarseOutlines, are_moved_by_three_roundings_of_the_far_corner) {
     frame.depth_model.projection = DepthModel::Projection::infinite_reversed;
     frame.depth_model.eye_relative = true;
     const CoarseOutlines outlines = outlines_of(traced, frame);
-    // Clipped twice, at the lower edge of the guard band and where it was: 3 v 2^20 a time, half
-    // of which is left in the middle, at 32 / 4 pixels a unit.
-    const glm::dvec2 on = project(camera, {0.5, -4, 1});
+    // Clipped at the lower border of the picture: 3 v 2^20, half of which is left in the middle, at
+    // 32 / 4 pixels a unit.
+    const glm::dvec2 on = project(camera, {0.5, -2, 1});
     const double once = 3 * 0x1p-24 * far * 32 / 4;
     const auto is_reached = [&](double pixels) {
         return !outlines.places_across(on + glm::dvec2(pixels, 0), 0x1p-20, 32).empty();
@@ -109,9 +109,9 @@ TEST(WideFloor, is_explained) {
     }
 }
 
-/// A thousand kilometres under a light two metres above: the clipper's guard band, which cuts the
-/// floor's dark cap at infinity, would be off by a part of the picture, did the cap not have a
-/// corner in its middle.
+/// A thousand kilometres under a light two metres above: the clipper, which cuts the floor's dark
+/// cap at infinity, would be off by a part of the picture, did the cap not have a corner in its
+/// middle.
 TEST(WideFloor, keeps_its_dark_cap_over_all_of_the_picture) {
     Scene scene = box_over_wide_floor(2e6F);
     scene.lights.front().position = {-10.4, 2.2, 7.5};

@@ -225,7 +225,7 @@ TEST(Precision, that_is_too_near_makes_a_cell_a_defect) {
         return judged.comparison.cause.at(p.x, p.y);
     };
     constexpr auto precision = static_cast<std::uint8_t>(Cause::precision);
-    for (const double near : {6.5e-4, 7.5e-4, 8.5e-4}) {
+    for (const double near : {6.5e-4, 8.2e-4, 9.5e-4}) {
         SCOPED_TRACE(near);
         const JudgedFromAbove right = judged_from_above(near, std::nullopt);
         EXPECT_EQ(right.comparison.too_near, 0U);
@@ -241,12 +241,12 @@ TEST(Precision, that_is_too_near_makes_a_cell_a_defect) {
     EXPECT_EQ(cause_at(coarse, further), precision);
     EXPECT_EQ(coarse.comparison.too_near, 0U);
     EXPECT_EQ(coarse.verdict, Verdict::fails_as_predicted);
-    const JudgedFromAbove caught = judged_from_above(7.5e-4, further);
+    const JudgedFromAbove caught = judged_from_above(8.2e-4, further);
     EXPECT_EQ(cause_at(caught, further), precision);
     EXPECT_EQ(caught.comparison.too_near, 1U);
     EXPECT_EQ(caught.verdict, Verdict::defect);
     EXPECT_FALSE(caught.excuses_precision);
-    EXPECT_EQ(judged_from_above(8.5e-4, further).verdict, Verdict::unexplained);
+    EXPECT_EQ(judged_from_above(9.5e-4, further).verdict, Verdict::unexplained);
 }
 
 TEST(Precision, of_near_planes_close_to_the_eye_begins_where_the_numbers_end) {

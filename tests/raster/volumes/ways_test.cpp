@@ -44,8 +44,9 @@ TEST_P(Ways, all_give_the_same_stencil_bit_for_bit_where_every_caster_is_closed)
     }
 }
 
-// A box of two-sided glass around light and eye, and so near that the near plane and the guard band
-// cut it: where its light caps were clipped otherwise than its surfaces, they would show as acne.
+// A box of two-sided glass around light and eye, and so near that the near plane and the picture's
+// borders cut it: where its light caps were clipped otherwise than its surfaces, they would show as
+// acne.
 TEST(TurnedCasters, have_light_caps_at_the_depths_of_their_surfaces_also_where_they_are_clipped) {
     Scene scene = empty_scene();
     scene.materials[0].double_sided = true;
