@@ -320,13 +320,17 @@ const CasterGrid& PerspectiveView::grid(std::size_t face) const {
 bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster,
                                         double reach) const {
     const Scene& scene = faces_[texel.face];
-    std::array<glm::dvec3, 3> corners{};
-    for (int k = 0; k < 3; ++k)
-        corners[static_cast<std::size_t>(k)] = corner(scene, caster, k) - scene.camera.eye;
-    const auto is_beyond_near = [&](const glm::dvec3& c) {
-        return glm::dot(c, scene.camera.forward) > 2 * model().near;
-    };
-    if (std::ranges::all_of(corners, is_beyond_near)) return false;
+    const double half = scene.camera.tan_half_height;
+    bool is_cut = false;
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 at = corner(scene, caster, k) - scene.camera.eye;
+        const double depth = glm::dot(at, scene.camera.forward);
+        const double aside = std::max(std::abs(glm::dot(at, scene.camera.right)),
+                                      std::abs(glm::dot(at, scene.camera.up)));
+        // Also where it is next to a border, by far more than floats are off.
+        is_cut = is_cut || !(depth > 2 * model().near) || !(1.5 * aside < half * depth);
+    }
+    if (!is_cut) return false;
     return may_hold(pictured(texel.face, caster), {texel.x + 0.5, texel.y + 0.5}, reach);
 }
 

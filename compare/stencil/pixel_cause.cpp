@@ -111,28 +111,30 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
         seen != truth.end() ? seen->visibility : judged.truth().visibility.at(p.x, p.y);
     std::optional<PixelCause> algorithmic;
     bool precision = false;
-    bool by_depth = true; // whatever else may have led to it
+    bool mended_exactly = false; // without rounding, whatever else would mend it
+    bool by_depth = true;        // whatever else may have led to it
     for (const Reading& reading : band.readings) {
         if (!explains(judged, p, reading)) continue;
-        // The ideal count leads to this claim, too, with faces moved; or what is counted leads to
-        // the truth with faces where they are.
         const auto claim_by = [&](std::int64_t count) {
             return claim_of(judged, count, shown, reading.in_cone);
         };
-        const auto exactly = [&] {
-            return judged.prediction.count_without(
-                {}, {reading.direction, reading.depth, shown, around.corners});
-        };
-        if (reading.by_rounding &&
-            (claim_by(reading.ideal) == claim || claim_by(exactly()) == truth_of_shown)) {
+        // The ideal count leads to this claim, too, with faces moved.
+        if (reading.by_rounding && claim_by(reading.ideal) == claim) {
             precision = true;
             by_depth = by_depth && reading.by_depth;
             continue;
         }
         if (!algorithmic)
             algorithmic = cause_of_reading(judged, reading, shown, around, truth_of_shown);
+        if (!algorithmic && reading.by_rounding &&
+            claim_by(judged.prediction.count_without(
+                {}, {reading.direction, reading.depth, shown, around.corners})) == truth_of_shown) {
+            mended_exactly = true;
+            by_depth = by_depth && reading.by_depth;
+        }
     }
-    if (precision) return {Cause::precision, {}, by_depth && is_too_near(judged, p)};
+    if (precision || (mended_exactly && !algorithmic))
+        return {Cause::precision, {}, by_depth && is_too_near(judged, p)};
     return algorithmic.value_or(PixelCause{});
 }
 

@@ -135,6 +135,14 @@ TEST(OddGeometry, a_face_that_a_rounded_near_plane_leaves_is_lost_with_the_near_
                  {1, 2, 254});
 }
 
+/// Two caps meet in a silhouette, and beside it their order is open. Without rounding the count is
+/// the truth's, of a technique that fills holes and so counts otherwise than the ideal one.
+TEST(OddGeometry, what_only_rounding_makes_wrong_of_filled_holes_is_precision) {
+    try_kept({2698, 2746, 2759}, {});
+    expect_cause(TracedScene(scene_of_seed(2698, {})), "zfail_half_edge", {17, 15},
+                 Cause::precision, {3, 200});
+}
+
 /// A triangle that fills a hole lies in the plane of the surface shown: it may be drawn in front of
 /// it or behind it.
 TEST(OddGeometry, a_light_cap_in_the_plane_of_the_surface_comes_before_it_or_after_it) {
