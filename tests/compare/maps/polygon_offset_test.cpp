@@ -202,8 +202,8 @@ TEST(SlopeBiasAtBorders, is_explained_where_a_border_leaves_a_thin_triangle) {
                         {.size = 513, .bias = 0.001, .slope_bias = 3, .value = MapValue::depth});
     EXPECT_EQ(texels_not_shown(traced, frame), 0U);
     EXPECT_TRUE(is_explained(compared(traced, frame)));
-    // The offset is 3.94e-5, of which 2e-6 are missing in the thin triangle. Its corners' depths are
-    // off by 1.3e-6 each, over 0.08 of a texel: 1.4e-4 is the most it may have.
+    // The offset is 3.94e-5, of which 2e-6 are missing in the thin triangle. Its corners' depths
+    // are off by 1.3e-6 each, over 0.08 of a texel: 1.4e-4 is the most it may have.
     float& thin = frame.mapped->faces[0].at(180, 34);
     float& beside = frame.mapped->faces[0].at(184, 34);
     for (float* stored : {&thin, &beside}) {
