@@ -37,8 +37,8 @@ struct PicturePoint {
     double depth_error = 0; ///< of both and the window's roundings, as depth_error has it
     double w_error = 0;     ///< the same of 1 / w, with which attributes are interpolated
     bool made_by_clipping = false;
-    glm::dvec3 weights{0, 0,
-                       0}; ///< of a triangle's corners: values at them, so weighed, are its own
+    /// Of the triangle's corners: what is linear over it has their values, so weighed, here.
+    glm::dvec3 weights{0, 0, 0};
 };
 
 /// A corner relative to the eye, along right, up and forward, and w: exact, with bounds of its
