@@ -73,10 +73,10 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
                                           const Drawing& drawing, PlaneCut cut);
 
 /// `corners`: homogeneous world points (p, w). Clipped by the picture's right, left, upper and
-/// lower border, and by the near and far plane, in this order, as llvmpipe does, which asks Mesa's
-/// draw module for no guard band (llvmpipe_create_context). What is left is drawn as a fan from its
-/// first corner. Next to a border that just cuts off a corner one of its triangles is thin, and its
-/// depths and slopes are off by much. Empty where nothing is left.
+/// lower border, and by the near and far plane, in this order, as llvmpipe does, which
+/// sets none of the guard bands of Mesa's draw module (llvmpipe_create_context). What is left is
+/// drawn as a fan from its first corner. Next to a border that just cuts off a corner one of its
+/// triangles is thin, and its depths and slopes are off by much. Empty where nothing is left.
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,
                                           const std::array<glm::dvec4, 3>& corners,
                                           const Drawing& drawing);

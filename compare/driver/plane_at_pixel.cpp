@@ -47,20 +47,25 @@ PlaneAtPixel::PlaneAtPixel(const Scene& scene, const DepthModel& model, const Dr
                            double far, std::uint32_t triangle, const glm::dvec3& plane,
                            const glm::dvec3& centre)
     : scene_(scene), model_(model), drawing_(drawing), far_(far), triangle_(triangle),
-      centre_(centre), plane_(plane), inverse_(glm::dot(centre_, plane_)) {
-    const glm::dvec2 half = half_extent(scene.camera);
-    pixel_ = {2 * half.x / scene.camera.width, 2 * half.y / scene.camera.height};
-    slope_ = pixel_.x * std::abs(glm::dot(scene.camera.right, plane_)) +
-             pixel_.y * std::abs(glm::dot(scene.camera.up, plane_));
+      centre_(centre), plane_(plane), inverse_(glm::dot(centre_, plane_)) {}
+
+glm::dvec2 PlaneAtPixel::pixel() const {
+    const glm::dvec2 half = half_extent(scene_.camera);
+    return {2 * half.x / scene_.camera.width, 2 * half.y / scene_.camera.height};
+}
+
+double PlaneAtPixel::slope() const {
+    return pixel().x * std::abs(glm::dot(scene_.camera.right, plane_)) +
+           pixel().y * std::abs(glm::dot(scene_.camera.up, plane_));
 }
 
 bool PlaneAtPixel::has_depth() const {
-    return std::isfinite(inverse_) && std::isfinite(slope_);
+    return std::isfinite(inverse_) && std::isfinite(plane_.x + plane_.y + plane_.z);
 }
 
 double PlaneAtPixel::least_error(double window_depth) const {
     const double size = model_.reversed() ? std::min(window_depth, 1.0) : 1;
-    return half_snapping_step(model_.subpixel_bits) * slope_ +
+    return half_snapping_step(model_.subpixel_bits) * slope() +
            window_depth_roundings * float_roundoff * size / std::abs(window_depth_of(model_).slope);
 }
 
@@ -72,7 +77,7 @@ double PlaneAtPixel::error() const {
 }
 
 double PlaneAtPixel::spread() const {
-    return lateral() * std::max(pixel_.x, pixel_.y);
+    return lateral() * std::max(pixel().x, pixel().y);
 }
 
 double PlaneAtPixel::lateral() const {

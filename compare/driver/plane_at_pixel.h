@@ -47,7 +47,7 @@ public:
     double least_error(double window_depth) const;
     /// Of the inverse depth, where the triangle is drawn aside: moving the pixel's centre changes
     /// it by the slope.
-    double error_of_place() const { return lateral() * slope_; }
+    double error_of_place() const { return lateral() * slope(); }
     /// The same, plus the errors of set-up and of window depth's roundings. depth_error is for two
     /// depths that are compared; this is one depth.
     double error() const;
@@ -68,8 +68,9 @@ private:
     glm::dvec3 centre_;
     glm::dvec3 plane_;
     double inverse_;
-    double slope_ = 0;       ///< change of the inverse depth, the largest over a pixel's step
-    glm::dvec2 pixel_{0, 0}; ///< its sides at depth 1
+
+    glm::dvec2 pixel() const; ///< its sides at depth 1
+    double slope() const;     ///< change of the inverse depth, the largest over a pixel's step
 };
 
 } // namespace shadowproof

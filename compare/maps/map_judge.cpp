@@ -39,6 +39,9 @@ public:
           view_(light_view(traced.scene(), *frame.mapped, frame.depth_model.subpixel_bits,
                            traced.tracer().threads())),
           light_(*view_), asked_(light_.model()) {
+        const Camera& camera = traced.scene().camera;
+        for (int x = 0; x < camera.width; ++x) columns_.push_back(ray_column(camera, x + 0.5));
+        for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
         trace_texels();
     }
 
@@ -139,13 +142,15 @@ private:
     std::vector<std::uint8_t> receives_;
     std::unique_ptr<LightView> view_;
     const LightView& light_;
+    std::vector<glm::dvec3> columns_;     ///< directions of pixels' centres: the sum of a column's
+    std::vector<glm::dvec3> rows_;        ///< and a row's
     TexelSet asked_;                      ///< by pixels' centres
     std::vector<Texel> texels_;           ///< its list
     std::vector<LightView::Shown> shown_; ///< by each
     std::size_t not_shown_ = 0;           ///< how many no rasterizer would store
 
     glm::dvec3 direction_at(PixelPlace p) const {
-        return ray_direction(claim_.traced.scene().camera, p.x + 0.5, p.y + 0.5);
+        return columns_[static_cast<std::size_t>(p.x)] + rows_[static_cast<std::size_t>(p.y)];
     }
     double depth_at(PixelPlace p) const {
         return std::min(claim_.traced.truth().depth.at(p.x, p.y), claim_.traced.far());

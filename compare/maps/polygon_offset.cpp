@@ -74,7 +74,7 @@ PolygonOffset offset_of_slope(const std::vector<PicturePoint>& polygon, const gl
     constexpr double infinity = std::numeric_limits<double>::infinity();
     PolygonOffset here{0, infinity, 0};
     PolygonOffset any{0, infinity, 0};
-    double largest = -1;
+    double largest = 0;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
         const std::vector<PicturePoint> triangle{polygon[0], polygon[i - 1], polygon[i]};
         const PolygonOffset each =

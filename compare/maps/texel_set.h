@@ -14,7 +14,6 @@ namespace shadowproof {
 /// First texels are added; once they are listed none may be.
 class TexelSet {
 public:
-    TexelSet() = default;
     explicit TexelSet(const MapModel& model);
 
     /// From any number of threads at once.

@@ -113,6 +113,7 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
     bool precision = false;
     bool mended_exactly = false; // without rounding, whatever else would mend it
     bool by_depth = true;        // whatever else may have led to it
+    bool mended_by_depth = true;
     for (const Reading& reading : band.readings) {
         if (!explains(judged, p, reading)) continue;
         const auto claim_by = [&](std::int64_t count) {
@@ -130,11 +131,12 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
             claim_by(judged.prediction.count_without(
                 {}, {reading.direction, reading.depth, shown, around.corners})) == truth_of_shown) {
             mended_exactly = true;
-            by_depth = by_depth && reading.by_depth;
+            mended_by_depth = mended_by_depth && reading.by_depth;
         }
     }
-    if (precision || (mended_exactly && !algorithmic))
-        return {Cause::precision, {}, by_depth && is_too_near(judged, p)};
+    if (precision) return {Cause::precision, {}, by_depth && is_too_near(judged, p)};
+    if (mended_exactly && !algorithmic)
+        return {Cause::precision, {}, mended_by_depth && is_too_near(judged, p)};
     return algorithmic.value_or(PixelCause{});
 }
 

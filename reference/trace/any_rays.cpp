@@ -124,11 +124,9 @@ void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriang
         if (entry.count > 0) {
             for (std::uint32_t i = 0; i < entry.count; ++i) waiting[count++] = entry.first + i;
             // What is near may lower the rays' limits: the farther one waits longer.
-            std::uint32_t& next = waiting[count - 1];
-            std::uint32_t& later = waiting[count - 2];
-            if (entry.count == 2 &&
-                along(hierarchy.entries[next]) > along(hierarchy.entries[later]))
-                std::swap(next, later);
+            if (entry.count == 2 && along(hierarchy.entries[waiting[count - 1]]) >
+                                        along(hierarchy.entries[waiting[count - 2]]))
+                std::swap(waiting[count - 1], waiting[count - 2]);
             continue;
         }
         const Cluster& cluster = hierarchy.clusters[entry.first];
@@ -166,7 +164,9 @@ bool meets(const AnyRay& given, const Corners& t) {
 bool meets_plane(const AnyRay& given, const Corners& t) {
     const EyeRay ray = exact_ray(given, {});
     const Predicates predicates;
-    return predicates.depth_against(ray, t, given.near).sign > 0 &&
+    const bool is_beyond_near = (std::isinf(given.near) && given.near < 0) ||
+                                predicates.depth_against(ray, t, given.near).sign > 0;
+    return is_beyond_near &&
            (std::isinf(given.far) || predicates.depth_against(ray, t, given.far).sign <= 0);
 }
 
@@ -178,36 +178,56 @@ struct CertainSigns {
     std::uint32_t below = 0;
 };
 
-/// The signs of D . ((a - E) x (b - a)), as Predicates::edge has them. Each of the six products of
-/// three factors has its two differences rounded, two products, the difference of two of them, and
-/// two sums: 7 u; the eighth is for the bound's own rounding. Their sum is at most that of the
-/// components of D times that of a - E times the largest of b - a. What is added for underflow is
-/// far above what it can take. Plain loops over sixteen lanes, which compilers turn into vectors.
+/// A sum, and how far it may be off.
+struct BoundedSum {
+    double value = 0;
+    double error = 0;
+};
+/// D . ((a - E) x e) of a lane. Each of the six products of three factors has its two differences
+/// rounded, two products, the difference of two of them, and two sums: 7 u; the eighth is for the
+/// bound's own rounding. Their sum is at most that of the components of D times that of a - E times
+/// the largest of e. `share`: the last, times 8 u. What is added for underflow is far above what it
+/// can take.
+BoundedSum edge_sum(const AnyRays& rays, std::size_t l, const glm::dvec3& a, const glm::dvec3& e,
+                    double share) {
+    const double wx = a.x - rays.origin[0][l];
+    const double wy = a.y - rays.origin[1][l];
+    const double wz = a.z - rays.origin[2][l];
+    const double dx = rays.direction[0][l];
+    const double dy = rays.direction[1][l];
+    const double dz = rays.direction[2][l];
+    const double d = std::abs(dx) + std::abs(dy) + std::abs(dz);
+    const double w = std::abs(wx) + std::abs(wy) + std::abs(wz);
+    return {dx * (wy * e.z - wz * e.y) + dy * (wz * e.x - wx * e.z) + dz * (wx * e.y - wy * e.x),
+            share * d * w + Bounded::underflow * (1 + d)};
+}
+
+/// The signs of D . ((a - E) x (b - a)), as Predicates::edge has them. Plain loops over sixteen
+/// lanes, which compilers turn into vectors.
 CertainSigns edge_signs(const AnyRays& rays, const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 e = b - a;
     const double share = 8 * double_roundoff * largest(e);
+    CertainSigns signs;
+    // A product beyond the range of doubles leaves no finite value.
+    constexpr double most = std::numeric_limits<double>::max();
+    const auto decide = [&](std::size_t l, double value, double error) {
+        signs.above |= static_cast<std::uint32_t>(value > error && value <= most) << l;
+        signs.below |= static_cast<std::uint32_t>(value < -error && value >= -most) << l;
+    };
+    if ((rays.lanes & (rays.lanes - 1)) == 0) { // one ray
+        const auto only = static_cast<std::size_t>(__builtin_ctz(rays.lanes));
+        const BoundedSum sum = edge_sum(rays, only, a, e, share);
+        decide(only, sum.value, sum.error);
+        return signs;
+    }
     alignas(64) Lanes<double> value;
     alignas(64) Lanes<double> error;
     for (std::size_t l = 0; l < packet_size; ++l) {
-        const double wx = a.x - rays.origin[0][l];
-        const double wy = a.y - rays.origin[1][l];
-        const double wz = a.z - rays.origin[2][l];
-        const double dx = rays.direction[0][l];
-        const double dy = rays.direction[1][l];
-        const double dz = rays.direction[2][l];
-        value[l] =
-            dx * (wy * e.z - wz * e.y) + dy * (wz * e.x - wx * e.z) + dz * (wx * e.y - wy * e.x);
-        const double d = std::abs(dx) + std::abs(dy) + std::abs(dz);
-        const double w = std::abs(wx) + std::abs(wy) + std::abs(wz);
-        error[l] = share * d * w + Bounded::underflow * (1 + d);
+        const BoundedSum sum = edge_sum(rays, l, a, e, share);
+        value[l] = sum.value;
+        error[l] = sum.error;
     }
-    // A product beyond the range of doubles leaves no finite value.
-    constexpr double most = std::numeric_limits<double>::max();
-    CertainSigns signs;
-    for (std::size_t l = 0; l < packet_size; ++l) {
-        signs.above |= static_cast<std::uint32_t>(value[l] > error[l] && value[l] <= most) << l;
-        signs.below |= static_cast<std::uint32_t>(value[l] < -error[l] && value[l] >= -most) << l;
-    }
+    for (std::size_t l = 0; l < packet_size; ++l) decide(l, value[l], error[l]);
     return signs;
 }
 

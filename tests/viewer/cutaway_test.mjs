@@ -119,6 +119,7 @@ const cases = {
   'a map whose texel is the point': recordOf([], {}, asksMap({ stored: 10.283, bias: 0 })),
   'a map of a surface seen edge-on': recordOf([], {}, asksMap({ footprint: [null, 0.01] })),
   'a map of huge lengths': recordOf([], {}, asksMap({ stored: 1.23456e20, own: 1.23457e20 })),
+  'a map that holds no number': recordOf([], {}, asksMap({ stored: null })),
   'a ramp': recordOf([], {}, asksMap({ format: 'ramp8' })),
   'an averaged map': recordOf([], {}, asksMap({ filter: 4, average: 'comparisons', lit: 11, of: 16,
                                                 edges: 'seamless' })),

@@ -8,7 +8,11 @@ var cutawayComparison = (function () {
   var height = 100;
 
   /** As many digits as a float has without its last. */
-  function short(length) { return String(Number(length.toPrecision(6))); }
+  function short(length) {
+    return isNumber(length) ? String(Number(length.toPrecision(6))) : 'no number';
+  }
+  /** JSON has no NaN, and null in its place. */
+  function isNumber(length) { return typeof length === 'number' && isFinite(length); }
 
   /** How far along the ray a texel's footprint reaches, for each unit that it reaches across it. */
   function steepness(record) {
@@ -24,6 +28,8 @@ var cutawayComparison = (function () {
    */
   function draw(record, top, width) {
     var axis = top + 50, half = 20;
+    if (!isNumber(record.stored) || !isNumber(record.own))
+      return words([8, axis], 'What the texel stores is no number.', 'bad', 12, 'start');
     var least = Math.min(record.stored, record.stored + record.bias, record.own);
     var most = Math.max(record.stored, record.stored + record.bias, record.own);
     var room = Math.max(most - least, 1e-6 * most, 1e-30);

@@ -27,6 +27,9 @@ TEST(AnyRays, a_triangle_is_closed_and_the_limits_are_open_and_closed) {
     EXPECT_FALSE(meets(down(-1e-300, 0.5), triangle));
     EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, 1}}, triangle)) << "behind";
     EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 1}, triangle)) << "t must exceed near";
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double x : {0.25, 0.5}) // within, and on an edge
+        EXPECT_TRUE(meets({{x, 0.5, -5000}, {0, 0, -1}, -infinity}, triangle)) << x;
     EXPECT_TRUE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 0, 1}, triangle)) << "t may be far";
     EXPECT_FALSE(meets({{0.25, 0.25, 1}, {0, 0, -1}, 0, std::nextafter(1, 0)}, triangle));
 }
