@@ -278,7 +278,7 @@ std::vector<PicturePoint> PerspectiveView::pictured(std::size_t face, std::uint3
 }
 
 /// Of the casters that a face's picture may show. What lies wholly behind the camera, or beside
-/// twice its picture, is in none.
+/// twice its picture, which is farther than anything is moved, is in none.
 const CasterGrid& PerspectiveView::grid(std::size_t face) const {
     std::call_once(is_made_[face], [&] {
         const Scene& scene = faces_[face];

@@ -70,11 +70,8 @@ std::vector<PicturePoint> pictured_in_parallel(const Scene& scene, const Camera&
         if (!std::ranges::all_of(polygon, [&](const ViewCorner& c) { return function(c) >= 0; }))
             polygon = clipped(polygon, function, {});
     };
-    for (const int axis : {0, 1, 2}) { // in the order of clipped_polygon
-        const double first = axis == 2 ? 1 : -1;
-        for (const double side : {first, -first})
-            clip([&](const ViewCorner& c) { return 1 + side * c.at[axis]; });
-    }
+    clip([](const ViewCorner& c) { return 1 + c.at.z; });
+    clip([](const ViewCorner& c) { return 1 - c.at.z; });
     std::vector<PicturePoint> points;
     points.reserve(polygon.size());
     for (const ViewCorner& c : polygon) points.push_back(pictured(camera, c));

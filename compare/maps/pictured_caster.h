@@ -1,5 +1,6 @@
 // What OpenGL makes of a triangle under a camera in parallel projection: its picture, clipped by
-// the picture and the near and far planes, the window depths over it, and the bounds of both.
+// the near and far planes, the window depths over it, and the bounds of both. A sun's map has a
+// margin around all casters, so that its borders cut none.
 #pragma once
 
 #include "compare/driver/clipped_polygon.h"
