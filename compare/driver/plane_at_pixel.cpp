@@ -38,25 +38,33 @@ WindowDepth window_depth_of(const DepthModel& model) {
     return {model.front + (1 - model.front) * depth.at_infinity, (1 - model.front) * depth.slope};
 }
 
-PlaneAtPixel::PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing,
-                           double far, std::uint32_t triangle, int x, int y)
-    : PlaneAtPixel(scene, model, drawing, far, triangle, plane_before_eye(scene, triangle),
-                   ray_direction(scene.camera, x + 0.5, y + 0.5)) {}
-
-PlaneAtPixel::PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing,
-                           double far, std::uint32_t triangle, const glm::dvec3& plane,
-                           const glm::dvec3& centre)
-    : scene_(scene), model_(model), drawing_(drawing), far_(far), triangle_(triangle),
-      centre_(centre), plane_(plane), inverse_(glm::dot(centre_, plane_)) {}
-
-glm::dvec2 PlaneAtPixel::pixel() const {
-    const glm::dvec2 half = half_extent(scene_.camera);
-    return {2 * half.x / scene_.camera.width, 2 * half.y / scene_.camera.height};
+DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Drawing& drawing,
+                           double far) {
+    const WindowDepth window = window_depth_of(model);
+    const glm::dvec2 size(scene.camera.width, scene.camera.height);
+    return {.scene = scene,
+            .model = model,
+            .drawing = drawing,
+            .far = far,
+            .window = window,
+            .pixel = 2.0 * half_extent(scene.camera) / size,
+            .snapped_by = half_snapping_step(model.subpixel_bits),
+            .depth_rounds = window_depth_roundings * float_roundoff / std::abs(window.slope)};
 }
 
+PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, int x, int y)
+    : PlaneAtPixel(picture, triangle, plane_before_eye(picture.scene, triangle),
+                   ray_direction(picture.scene.camera, x + 0.5, y + 0.5)) {}
+
+PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle,
+                           const glm::dvec3& plane, const glm::dvec3& centre)
+    : picture_(picture), triangle_(triangle), centre_(centre), plane_(plane),
+      inverse_(glm::dot(centre_, plane_)) {}
+
 double PlaneAtPixel::slope() const {
-    return pixel().x * std::abs(glm::dot(scene_.camera.right, plane_)) +
-           pixel().y * std::abs(glm::dot(scene_.camera.up, plane_));
+    const Camera& camera = picture_.scene.camera;
+    return picture_.pixel.x * std::abs(glm::dot(camera.right, plane_)) +
+           picture_.pixel.y * std::abs(glm::dot(camera.up, plane_));
 }
 
 bool PlaneAtPixel::has_depth() const {
@@ -64,29 +72,31 @@ bool PlaneAtPixel::has_depth() const {
 }
 
 double PlaneAtPixel::least_error(double window_depth) const {
-    const double size = model_.reversed() ? std::min(window_depth, 1.0) : 1;
-    return half_snapping_step(model_.subpixel_bits) * slope() +
-           window_depth_roundings * float_roundoff * size / std::abs(window_depth_of(model_).slope);
+    const double size = picture_.model.reversed() ? std::min(window_depth, 1.0) : 1;
+    return picture_.snapped_by * slope() + size * picture_.depth_rounds;
 }
 
 double PlaneAtPixel::error() const {
-    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far_) : far_;
-    const CoveredPixel pixel{centre_, lateral(), drawing_};
-    return error_of_place() + setup_error(scene_, triangle_, pixel) +
-           0.5 * stored_depth_error(model_, depth) / (depth * depth);
+    const double far = picture_.far;
+    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far) : far;
+    const CoveredPixel pixel{centre_, lateral(), picture_.drawing};
+    return error_of_place() + setup_error(picture_.scene, triangle_, pixel) +
+           0.5 * stored_depth_error(picture_.model, depth) / (depth * depth);
 }
 
 double PlaneAtPixel::spread() const {
-    return lateral() * std::max(pixel().x, pixel().y);
+    return lateral() * std::max(picture_.pixel.x, picture_.pixel.y);
 }
 
 double PlaneAtPixel::lateral() const {
-    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far_) : far_;
-    return lateral_error(scene_, model_, scene_.camera.eye + depth * centre_);
+    const double far = picture_.far;
+    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far) : far;
+    return lateral_error(picture_.scene, picture_.model,
+                         picture_.scene.camera.eye + depth * centre_);
 }
 
 bool PlaneAtPixel::is_depth(double read) const {
-    const WindowDepth window = window_depth_of(model_);
+    const WindowDepth& window = picture_.window;
     const double off = std::abs(read - window.at(inverse_)) / std::abs(window.slope);
     return off <= least_error(read) || off <= error();
 }

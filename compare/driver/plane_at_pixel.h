@@ -25,15 +25,29 @@ WindowDepth window_depth_of(const DepthModel& model);
 /// where the eye lies in it.
 glm::dvec3 plane_before_eye(const Scene& scene, std::uint32_t triangle);
 
-/// Keeps a reference to the scene.
+/// A picture whose depths are drawn: what all planes at all of its pixels share. Keeps a reference
+/// to the scene.
+struct DepthPicture {
+    const Scene& scene;
+    DepthModel model;
+    Drawing drawing; ///< how its triangles are clipped
+    double far = 0;  ///< the depth beyond which nothing is seen
+    WindowDepth window;
+    glm::dvec2 pixel{0, 0};  ///< its sides at depth 1
+    double snapped_by = 0;   ///< half a step of the snapping grid, pixels
+    double depth_rounds = 0; ///< the roundings of a window depth of 1, as inverse view depth
+};
+
+DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Drawing& drawing,
+                           double far);
+
+/// Keeps a reference to the picture.
 class PlaneAtPixel {
 public:
-    /// `far`: the depth beyond which nothing is seen. `drawing`: how the triangle is clipped.
-    PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing, double far,
-                 std::uint32_t triangle, int x, int y);
+    PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, int x, int y);
     /// `plane`: the triangle's, plane_before_eye's. `centre`: the direction of the pixel's centre.
-    PlaneAtPixel(const Scene& scene, const DepthModel& model, const Drawing& drawing, double far,
-                 std::uint32_t triangle, const glm::dvec3& plane, const glm::dvec3& centre);
+    PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, const glm::dvec3& plane,
+                 const glm::dvec3& centre);
 
     /// False if the eye lies in the plane: the triangle has no area in the picture, and any depth
     /// may come out.
@@ -60,17 +74,13 @@ public:
     bool is_depth(double read) const;
 
 private:
-    const Scene& scene_;
-    DepthModel model_;
-    Drawing drawing_;
-    double far_;
+    const DepthPicture& picture_;
     std::uint32_t triangle_;
     glm::dvec3 centre_;
     glm::dvec3 plane_;
     double inverse_;
 
-    glm::dvec2 pixel() const; ///< its sides at depth 1
-    double slope() const;     ///< change of the inverse depth, the largest over a pixel's step
+    double slope() const; ///< change of the inverse depth, the largest over a pixel's step
 };
 
 } // namespace shadowproof

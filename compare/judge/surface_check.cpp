@@ -1,7 +1,5 @@
 #include "compare/judge/surface_check.h"
 
-#include "compare/driver/plane_at_pixel.h"
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -59,6 +57,15 @@ bool is_within_planes(const Camera& camera, const PlaneAtPixel& plane) {
 
 } // namespace
 
+SurfaceCheck::SurfaceCheck(const Tracer& tracer, const Frame& frame, double far)
+    : tracer_(tracer), frame_(frame),
+      picture_(depth_picture(tracer.scene(), frame.depth_model,
+                             drawing_of(tracer.scene(), frame.depth_model,
+                                        frame.depth_model.clips_at_far()
+                                            ? far
+                                            : std::numeric_limits<double>::infinity()),
+                             far)) {}
+
 // A float of 32 bits or a whole number of 24.
 bool SurfaceCheck::has_format() const {
     const DepthFormat& format = frame_.depth_format;
@@ -73,9 +80,7 @@ bool SurfaceCheck::holds(int x, int y) const {
     if (!has_format()) return false;
     if (triangle == no_triangle) return depth == (model.reversed() ? 0.0F : 1.0F);
     if (!model.floating && !is_on_grid(depth)) return false;
-    const double clips_at = model.clips_at_far() ? far_ : std::numeric_limits<double>::infinity();
-    const PlaneAtPixel plane(tracer_.scene(), model, drawing_of(tracer_.scene(), model, clips_at),
-                             far_, triangle, x, y);
+    const PlaneAtPixel plane(picture_, triangle, x, y);
     if (!sides_of(tracer_, triangle).visible && !may_be_drawn(tracer_, triangle, plane.spread()))
         return false;
     return !plane.has_depth() ||

@@ -2,6 +2,7 @@
 // plane; or, where it shows none, the values to which the buffers were cleared.
 #pragma once
 
+#include "compare/driver/plane_at_pixel.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
@@ -20,8 +21,7 @@ bool may_be_drawn(const Tracer& tracer, std::uint32_t triangle, double error);
 /// band. Keeps references to all arguments.
 class SurfaceCheck {
 public:
-    SurfaceCheck(const Tracer& tracer, const Frame& frame, double far)
-        : tracer_(tracer), frame_(frame), far_(far) {}
+    SurfaceCheck(const Tracer& tracer, const Frame& frame, double far);
 
     /// Whether depth and triangle of pixel (x, y) may be read back like this: the triangle is drawn
     /// and lies between near and far plane, the buffer has the technique's depth format, and the
@@ -32,7 +32,7 @@ public:
 private:
     const Tracer& tracer_;
     const Frame& frame_;
-    double far_;
+    DepthPicture picture_;
 
     bool has_format() const;
 };

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace shadowproof {
 
@@ -20,7 +19,9 @@ double steps_of(MapFormat format) {
 
 } // namespace
 
-LightView::LightView(const Scene& scene, const MapEvidence& map) : map_(map) {
+LightView::LightView(const Scene& scene, const MapEvidence& map)
+    : map_(map), has_format_(map.format == depth_format_of(map.model.format)),
+      steps_(map.model.format == MapFormat::d32f ? 0 : steps_of(map.model.format)) {
     for (std::size_t face = 0; face < map.model.faces(); ++face)
         cameras_.push_back(map_camera(chosen_light(scene), map.model, face));
 }
@@ -28,17 +29,15 @@ LightView::LightView(const Scene& scene, const MapEvidence& map) : map_(map) {
 // A whole number of steps, which comes back as a float: rounded twice where it is multiplied by a
 // rounded reciprocal, as llvmpipe does of 8 and 16 bits.
 bool LightView::is_in_format(float stored) const {
-    if (map_.format != depth_format_of(map_.model.format)) return false;
-    if (!(stored >= 0 && stored <= 1)) return false;
-    if (map_.model.format == MapFormat::d32f) return true;
-    const double most = steps_of(map_.model.format);
-    const double steps = double{stored} * most;
+    if (!has_format_ || !(stored >= 0 && stored <= 1)) return false;
+    if (steps_ == 0) return true;
+    const double steps = double{stored} * steps_;
     const double nearest = static_cast<int>(steps + 0.5); // quicker than std::round
     return std::abs(steps - nearest) <= 2 * float_roundoff * steps;
 }
 
 double LightView::half_step() const {
-    return map_.model.format == MapFormat::d32f ? 0 : 0.5 / steps_of(map_.model.format);
+    return steps_ == 0 ? 0 : 0.5 / steps_;
 }
 
 double LightView::moved_by(double depth, double offset) const {
@@ -46,13 +45,10 @@ double LightView::moved_by(double depth, double offset) const {
     return value_of_stored(model(), std::min(map_window_depth(model(), depth) + offset, 1.0));
 }
 
-LightView::Shown LightView::shown(const Texel& texel, const FromLight& at_centre) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (!is_in_format(stored(texel))) return {};
-    if (at_centre.triangle == no_triangle && stored(texel) == 1)
-        return {true, no_triangle, infinity, infinity};
-    if (at_centre.triangle != no_triangle)
-        if (const Shown centre = shown_of(texel, at_centre.triangle); centre.shows) return centre;
+std::optional<std::uint32_t> LightView::shown(const Texel& texel, std::uint32_t at_centre) const {
+    if (!is_in_format(stored(texel))) return std::nullopt;
+    if (at_centre == no_triangle ? stored(texel) == 1 : may_show(texel, at_centre))
+        return at_centre;
     return shown_around(texel);
 }
 

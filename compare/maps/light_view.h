@@ -6,8 +6,11 @@
 #include "scenes/shadow_map.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +28,14 @@ struct Texel {
 struct FromLight {
     std::uint32_t triangle = no_triangle; ///< of the scene that is judged
     double depth = 0;                     ///< along the face's axis; infinity: nothing
+};
+
+using FoundTriangle = std::function<void(std::size_t ray, std::uint32_t triangle)>;
+
+/// A point, relative to the light, and the face that looks at it.
+struct PointOnFace {
+    std::size_t face = 0;
+    glm::dvec3 from_light{0, 0, 0};
 };
 
 /// Limits of the light's camera that a counterfactual lifts.
@@ -46,27 +57,36 @@ public:
     const glm::dvec3& origin() const { return cameras_.front().eye; }
     const OffsetUnit& offset_unit() const { return map_.offset_unit; }
     float stored(const Texel& texel) const { return map_.faces[texel.face].at(texel.x, texel.y); }
+    /// Of so many texels of a row.
+    std::span<const float> stored_row(const Texel& first, int count) const {
+        const Image<float>& face = map_.faces[first.face];
+        return std::span(face.pixels)
+            .subspan(face.index(first.x, first.y), static_cast<std::size_t>(count));
+    }
 
-    /// Of the texels' centres.
-    virtual std::vector<FromLight> trace(std::span<const Texel> texels) const = 0;
-    /// Of the ray through a point, given relative to the light, whose face is `face`.
-    virtual FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const = 0;
+    /// The triangles that the rays through the texels' centres meet: found(index, triangle), on all
+    /// threads. Many rays are quicker together than one by one, as they are in what follows.
+    virtual void trace(std::span<const Texel> texels, const FoundTriangle& found) const = 0;
     /// The same without some of the camera's limits.
-    virtual FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
-                                    const glm::dvec3& from_light) const = 0;
+    virtual std::vector<FromLight> trace_without(const LiftedLimits& lifted,
+                                                 std::span<const Texel> texels) const = 0;
+    /// Of the rays through points.
+    virtual std::vector<FromLight> trace_to(std::span<const PointOnFace> points,
+                                            const LiftedLimits& lifted = {}) const = 0;
 
     /// The triangle whose surface the texel shows: the one at its centre, or another that the
-    /// driver may draw there. `shows` is false where no rasterizer would store this.
+    /// driver may draw there; no_triangle where it shows none. Nothing where no rasterizer would
+    /// store what it holds.
+    std::optional<std::uint32_t> shown(const Texel& texel, std::uint32_t at_centre) const;
+
+    /// What a texel holds exactly that shows a triangle's surface at its centre.
     struct Shown {
-        bool shows = false;
         std::uint32_t triangle = no_triangle;
-        double value = 0; ///< exact at the texel's centre, on the triangle's plane: as the model's
-                          ///< value, in world units; infinity where nothing is shown
-        double moved = 0; ///< the same as the polygon offset moves it
+        double value = std::numeric_limits<double>::infinity(); ///< in world units, by the model's
+                                                                ///< kind; infinity: nothing
+        double moved = value; ///< the same as the polygon offset moves it
     };
-    Shown shown(const Texel& texel, const FromLight& at_centre) const;
-    /// What the texel's centre would show without some of the camera's limits.
-    virtual Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const = 0;
+    virtual Shown showing(const Texel& texel, std::uint32_t triangle) const = 0;
 
     /// A depth of a triangle of the scene as the polygon offset moves it there, in world units, and
     /// at most to the far plane; the depth itself without one.
@@ -83,12 +103,14 @@ protected:
     double moved_by(double depth, double offset) const;
 
 private:
-    /// Where the texel may hold what is stored there because it shows this triangle.
-    virtual Shown shown_of(const Texel& texel, std::uint32_t triangle) const = 0;
-    /// The same for any triangle that the driver may draw there.
-    virtual Shown shown_around(const Texel& texel) const = 0;
+    /// Whether the texel may hold what is stored there because it shows this triangle.
+    virtual bool may_show(const Texel& texel, std::uint32_t triangle) const = 0;
+    /// Any triangle that the driver may draw there, as of shown.
+    virtual std::optional<std::uint32_t> shown_around(const Texel& texel) const = 0;
 
     const MapEvidence& map_;
+    bool has_format_;             ///< the map's is its model's
+    double steps_;                ///< of a format of whole numbers; 0: of floats
     std::vector<Camera> cameras_; ///< one per face
 };
 

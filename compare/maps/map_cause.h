@@ -4,6 +4,9 @@
 #include "compare/judge/judge.h"
 #include "compare/maps/lookup.h"
 
+#include <span>
+#include <vector>
+
 namespace shadowproof {
 
 /// A wrong answer: the point whose light was looked up in the map, and what was found there.
@@ -15,7 +18,8 @@ struct WrongAnswer {
     bool claims_light = false;            ///< falsely lit, else falsely shadowed
 };
 
-/// The cause of a wrong answer: the first of these changes that makes the answer right.
+/// The cause of each wrong answer: the first of these changes that makes the answer right. Many
+/// answers are quicker together than one by one, as their rays are.
 ///
 /// Where a block of texels is averaged:
 ///   seam        beyond its cube's face, the block continues on the adjacent one
@@ -38,14 +42,12 @@ struct WrongAnswer {
 ///   open_mesh   both sides of casters are drawn; perhaps this needs a map that reaches further,
 ///               or the ray through the point, too
 ///   range       the map reaches the occluder; perhaps this needs that ray, too
-PixelCause cause_of(const LightView& light, const Scene& scene, const WrongAnswer& wrong);
+std::vector<PixelCause> causes_of(const LightView& light, const Scene& scene,
+                                  std::span<const WrongAnswer> answers);
 
-/// What the ray from the light through the point meets first; nothing where no map looks there.
-FromLight met_on_the_way(const LightView& light, const Lookup& lookup,
-                         const glm::dvec3& from_light);
-
-/// Whether the light reaches the point of the receiver that was looked up.
-bool light_reaches(const LightView& light, const Lookup& lookup, const glm::dvec3& from_light,
-                   std::uint32_t receiver);
+/// Whether the light reaches the point of the receiver that was looked up, as far as its camera
+/// sees.
+bool light_reaches(const LightView& light, const Scene& scene, const Lookup& lookup,
+                   const glm::dvec3& from_light, std::uint32_t receiver);
 
 } // namespace shadowproof

@@ -16,6 +16,7 @@
 #include "reference/trace/faces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -32,6 +33,12 @@ struct Asked {
     Lookup lookup;
 };
 
+/// Why the pixel of a row differs, where its centre tells.
+struct NamedCause {
+    int x = 0;
+    PixelCause cause;
+};
+
 class MapJudge final : public Judge {
 public:
     MapJudge(const TracedScene& traced, const Frame& frame)
@@ -43,20 +50,19 @@ public:
         for (int x = 0; x < camera.width; ++x) columns_.push_back(ray_column(camera, x + 0.5));
         for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
         trace_texels();
+        name_wrong_answers();
     }
 
     std::string_view evidence() const override { return "map"; }
 
     bool settles(PixelPlace p, std::optional<PixelCause>& cause) const override {
         if (!claim_.surface_as_true(p)) return false;
-        const std::uint32_t triangle = claim_.traced.truth().triangle.at(p.x, p.y);
-        if (triangle == no_triangle) return !claim_.differs(p);
+        if (claim_.differs(p)) {
+            cause = cause_named(p);
+            return cause.has_value();
+        }
         const Asked asked = asked_at(p);
-        if (!asked.asks) return !claim_.differs(p);
-        if (asked.lookup.in_map && !are_shown(asked.lookup)) return false;
-        if (answer(asked) != claimed_lit(claim_, p)) return false;
-        if (claim_.differs(p)) cause = cause_at(p, triangle, asked);
-        return true;
+        return !asked.asks || answers_so(p, asked);
     }
 
     std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override {
@@ -142,12 +148,13 @@ private:
     std::vector<std::uint8_t> receives_;
     std::unique_ptr<LightView> view_;
     const LightView& light_;
-    std::vector<glm::dvec3> columns_;     ///< directions of pixels' centres: the sum of a column's
-    std::vector<glm::dvec3> rows_;        ///< and a row's
-    TexelSet asked_;                      ///< by pixels' centres
-    std::vector<Texel> texels_;           ///< its list
-    std::vector<LightView::Shown> shown_; ///< by each
-    std::size_t not_shown_ = 0;           ///< how many no rasterizer would store
+    std::vector<glm::dvec3> columns_; ///< directions of pixels' centres: the sum of a column's
+    std::vector<glm::dvec3> rows_;    ///< and a row's
+    TexelSet asked_;                  ///< by pixels' centres
+    std::vector<Texel> texels_;       ///< its list
+    std::vector<std::optional<std::uint32_t>> shown_; ///< LightView::shown, by each
+    std::atomic<std::size_t> not_shown_{0};           ///< how many no rasterizer would store
+    std::vector<std::vector<NamedCause>> named_;      ///< by row, in ascending order
 
     glm::dvec3 direction_at(PixelPlace p) const {
         return columns_[static_cast<std::size_t>(p.x)] + rows_[static_cast<std::size_t>(p.y)];
@@ -178,6 +185,12 @@ private:
         return asked;
     }
 
+    /// Whether the claim follows from what the pixel's centre asks, and that is as predicted.
+    bool answers_so(PixelPlace p, const Asked& asked) const {
+        return (!asked.lookup.in_map || are_shown(asked.lookup)) &&
+               answer(asked) == claimed_lit(claim_, p);
+    }
+
     /// How many comparisons find light at the pixel's centre, by the map as it was read back.
     int answer(const Asked& asked) const {
         return asked.lookup.in_map ? lit_comparisons(light_, light_.model(), asked.lookup)
@@ -190,7 +203,7 @@ private:
         const Texel& texel = asked.lookup.texel;
         return PixelLookup{.lookup = asked.lookup,
                            .stored = value_of_stored(light_.model(), light_.stored(texel)),
-                           .shown = shown_by(texel).triangle,
+                           .shown = shown_by(texel).value_or(no_triangle),
                            .lit = std::max(claimed_lit(claim_, p), 0),
                            .width = width_at(light_, texel, asked.lookup.depth),
                            .footprint = footprint(light_, claim_.traced.scene(), texel,
@@ -206,11 +219,55 @@ private:
         });
         texels_ = asked_.list(claim_.traced.tracer().threads());
         shown_.resize(texels_.size());
-        constexpr std::size_t together = std::size_t{1} << 17U; // so that few rays are held at once
-        for (std::size_t first = 0; first < texels_.size(); first += together)
-            show_texels(first, std::min(together, texels_.size() - first));
-        not_shown_ =
-            static_cast<std::size_t>(std::ranges::count(shown_, false, &LightView::Shown::shows));
+        light_.trace(texels_, [&](std::size_t i, std::uint32_t at_centre) {
+            shown_[i] = light_.shown(texels_[i], at_centre);
+            if (!shown_[i]) ++not_shown_;
+        });
+    }
+
+    /// Of a pixel's centre: where its claim is wrong, and follows from what is asked there.
+    std::optional<WrongAnswer> wrong_answer(PixelPlace p) const {
+        if (!claim_.differs(p) || !claim_.surface_as_true(p)) return std::nullopt;
+        const Asked asked = asked_at(p);
+        if (!asked.asks || !answers_so(p, asked)) return std::nullopt;
+        return WrongAnswer{claim_.traced.truth().triangle.at(p.x, p.y), asked.from_light,
+                           asked.lookup, held_by(asked.lookup.texel), claims_light(claim_, p)};
+    }
+
+    // Some rows at a time, so that few answers are held at once.
+    void name_wrong_answers() {
+        const Image<Visibility>& claim = claim_.frame.claim;
+        named_.resize(static_cast<std::size_t>(claim.height));
+        const int together = std::max(1, (1 << 17) / claim.width);
+        for (int first = 0; first < claim.height; first += together)
+            name_wrong_answers(first, std::min(together, claim.height - first));
+    }
+
+    void name_wrong_answers(int first, int rows) {
+        std::vector<std::vector<WrongAnswer>> of_row(static_cast<std::size_t>(rows));
+        parallel_for(rows, claim_.traced.tracer().threads(), [&](int row, int) {
+            for (int x = 0; x < claim_.frame.claim.width; ++x) {
+                const std::optional<WrongAnswer> wrong = wrong_answer({x, first + row});
+                if (!wrong) continue;
+                of_row[static_cast<std::size_t>(row)].push_back(*wrong);
+                named_[static_cast<std::size_t>(first + row)].push_back({x, {}});
+            }
+        });
+        std::vector<WrongAnswer> all;
+        for (const std::vector<WrongAnswer>& row : of_row)
+            all.insert(all.end(), row.begin(), row.end());
+        const std::vector<PixelCause> causes = causes_of(light_, claim_.traced.scene(), all);
+        std::size_t next = 0;
+        for (int row = 0; row < rows; ++row)
+            for (NamedCause& named : named_[static_cast<std::size_t>(first + row)])
+                named.cause = causes[next++];
+    }
+
+    std::optional<PixelCause> cause_named(PixelPlace p) const {
+        const std::vector<NamedCause>& row = named_[static_cast<std::size_t>(p.y)];
+        const auto found = std::ranges::lower_bound(row, p.x, {}, &NamedCause::x);
+        if (found == row.end() || found->x != p.x) return std::nullopt;
+        return found->cause;
     }
 
     void add_asked(const Lookup& lookup) {
@@ -223,33 +280,26 @@ private:
                            lookup.first.x + filter - 1);
     }
 
-    void show_texels(std::size_t first, std::size_t count) {
-        const std::span<const Texel> texels = std::span(texels_).subspan(first, count);
-        const std::vector<FromLight> at_centres = light_.trace(texels);
-        parallel_for_all(
-            count, claim_.traced.tracer().threads(),
-            [&](std::size_t i) { shown_[first + i] = light_.shown(texels[i], at_centres[i]); },
-            256);
-    }
-
     /// Whether what all texels hold that a pixel's centre asks is as predicted.
     bool are_shown(const Lookup& lookup) const {
         if (not_shown_ == 0) return true;
         bool all = true;
         visit_asked(light_.model(), lookup,
-                    [&](const Texel& texel) { all = all && shown_by(texel).shows; });
+                    [&](const Texel& texel) { all = all && shown_by(texel); });
         return all;
     }
 
-    LightView::Shown shown_by(const Texel& texel) const {
+    std::optional<std::uint32_t> shown_by(const Texel& texel) const {
         if (const std::optional<std::size_t> place = asked_.place(texel)) return shown_[*place];
-        return light_.shown(texel, light_.trace(std::span(&texel, 1)).front());
+        std::optional<std::uint32_t> shown;
+        light_.trace(std::span(&texel, 1), [&](std::size_t, std::uint32_t at_centre) {
+            shown = light_.shown(texel, at_centre);
+        });
+        return shown;
     }
 
-    PixelCause cause_at(PixelPlace p, std::uint32_t receiver, const Asked& asked) const {
-        return cause_of(light_, claim_.traced.scene(),
-                        {receiver, asked.from_light, asked.lookup, shown_by(asked.lookup.texel),
-                         claims_light(claim_, p)});
+    LightView::Shown held_by(const Texel& texel) const {
+        return light_.showing(texel, shown_by(texel).value_or(no_triangle));
     }
 
     /// The point of a triangle's plane at the pixel as the light pass has it: interpolated over the
@@ -384,20 +434,21 @@ private:
             if (!lit_range(light_, possible).holds(claimed_lit(claim_, p))) return false;
             bool shown = true;
             visit_asked(light_.model(), possible.lookup,
-                        [&](const Texel& texel) { shown = shown && shown_by(texel).shows; });
+                        [&](const Texel& texel) { shown = shown && shown_by(texel); });
             return shown;
         };
         const std::optional<PossibleLookup> found = find_possible_lookup(light_, point, answers_so);
         if (!found) return false;
         // The drawn surface may be lit where the true one is not.
-        const bool falsely_lit = !light_reaches(light_, exact, point.from_light, drawn);
+        const bool falsely_lit =
+            !light_reaches(light_, claim_.traced.scene(), exact, point.from_light, drawn);
         if (claim != Visibility::partly_lit && falsely_lit != (claim == Visibility::lit))
             return true;
         Lookup asked = exact;
         asked.first = found->lookup.first;
         asked.texel = own_texel(light_.model(), found->lookup, exact.texel);
-        cause = cause_of(light_, claim_.traced.scene(),
-                         {drawn, point.from_light, asked, shown_by(asked.texel), falsely_lit});
+        const WrongAnswer wrong{drawn, point.from_light, asked, held_by(asked.texel), falsely_lit};
+        cause = causes_of(light_, claim_.traced.scene(), std::span(&wrong, 1)).front();
         return true;
     }
 };

@@ -64,67 +64,66 @@ std::uint32_t ParallelView::caster_of(std::uint32_t triangle) const {
     return caster_at_[triangle];
 }
 
-AnyRay ParallelView::ray_at(double x, double y) const {
-    const Camera& from = camera(0);
-    const double half = from.tan_half_height;
-    return {from.eye + half * (2 * x / from.width - 1) * from.right +
-                half * (1 - 2 * y / from.height) * from.up,
-            from.forward, model().near, model().far};
+AnyRay ParallelView::ray_from(const glm::dvec3& origin, const LiftedLimits& lifted) const {
+    const glm::dvec3& forward = camera(0).forward;
+    if (lifted.range) return {origin, forward, -infinity, infinity};
+    return {origin, forward, model().near, model().far};
 }
 
-std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays) const {
+AnyRay ParallelView::ray_at(double x, double y, const LiftedLimits& lifted) const {
+    const Camera& from = camera(0);
+    const double half = from.tan_half_height;
+    return ray_from(from.eye + half * (2 * x / from.width - 1) * from.right +
+                        half * (1 - 2 * y / from.height) * from.up,
+                    lifted);
+}
+
+AnyRay ParallelView::ray_through(const glm::dvec3& from_light, const LiftedLimits& lifted) const {
+    const Camera& from = camera(0);
+    const glm::dvec3 along = glm::dot(from_light, from.forward) * from.forward;
+    return ray_from(from.eye + from_light - along, lifted);
+}
+
+std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays,
+                                         const LiftedLimits& lifted) const {
     std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
     if (!tracer_) return found;
-    const std::vector<MetTriangle> first =
-        first_met(*tracer_, rays, [&](std::uint32_t caster) { return drawn_[caster] != 0; });
+    const auto counts = [&](std::uint32_t caster) {
+        return lifted.culling ? is_drawn(casters_, caster, MapCulling::none) : drawn_[caster] != 0;
+    };
+    const std::vector<MetTriangle> first = first_met(*tracer_, rays, counts);
     for (std::size_t i = 0; i < first.size(); ++i)
         if (first[i].triangle != no_triangle) found[i] = {of_scene_[first[i].triangle], first[i].t};
     return found;
 }
 
-std::vector<FromLight> ParallelView::trace(std::span<const Texel> texels) const {
-    if (!tracer_) return std::vector<FromLight>(texels.size(), {no_triangle, infinity});
-    std::vector<AnyRay> rays(texels.size());
-    parallel_for_all(texels.size(), tracer_->threads(), [&](std::size_t i) {
-        rays[i] = ray_at(texels[i].x + 0.5, texels[i].y + 0.5);
+// As many at a time as first_met traces on the thread that asks.
+void ParallelView::trace(std::span<const Texel> texels, const FoundTriangle& found) const {
+    constexpr std::size_t together = 256;
+    const auto pieces = static_cast<int>((texels.size() + together - 1) / together);
+    parallel_for(pieces, tracer_ ? tracer_->threads() : 1, [&](int piece, int) {
+        const std::size_t first = static_cast<std::size_t>(piece) * together;
+        const std::span<const Texel> asked =
+            texels.subspan(first, std::min(together, texels.size() - first));
+        const std::vector<FromLight> met = trace_without({}, asked);
+        for (std::size_t i = 0; i < met.size(); ++i) found(first + i, met[i].triangle);
     });
-    return met(rays);
 }
 
-AnyRay ParallelView::ray_through(const glm::dvec3& from_light) const {
-    const Camera& from = camera(0);
-    const glm::dvec3 along = glm::dot(from_light, from.forward) * from.forward;
-    return {from.eye + from_light - along, from.forward, model().near, model().far};
+std::vector<FromLight> ParallelView::trace_without(const LiftedLimits& lifted,
+                                                   std::span<const Texel> texels) const {
+    std::vector<AnyRay> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels) rays.push_back(ray_at(texel.x + 0.5, texel.y + 0.5, lifted));
+    return met(rays, lifted);
 }
 
-FromLight ParallelView::trace_to(std::size_t /*face*/, const glm::dvec3& from_light) const {
-    const AnyRay ray = ray_through(from_light);
-    return met(std::span(&ray, 1)).front();
-}
-
-FromLight ParallelView::met_without(const LiftedLimits& lifted, AnyRay ray) const {
-    if (!tracer_) return {no_triangle, infinity};
-    if (lifted.range) {
-        ray.near = -infinity;
-        ray.far = infinity;
-    }
-    const auto counts = [&](std::uint32_t caster) {
-        return is_drawn(casters_, caster, lifted.culling ? MapCulling::none : model().culling);
-    };
-    const MetTriangle first = first_met(*tracer_, std::span(&ray, 1), counts).front();
-    if (first.triangle == no_triangle) return {no_triangle, infinity};
-    return {of_scene_[first.triangle], first.t};
-}
-
-FromLight ParallelView::trace_without(const LiftedLimits& lifted, std::size_t /*face*/,
-                                      const glm::dvec3& from_light) const {
-    return met_without(lifted, ray_through(from_light));
-}
-
-LightView::Shown ParallelView::shown_without(const LiftedLimits& lifted, const Texel& texel) const {
-    const FromLight found = met_without(lifted, ray_at(texel.x + 0.5, texel.y + 0.5));
-    if (found.triangle == no_triangle) return {true, no_triangle, infinity, infinity};
-    return showing(texel, caster_of(found.triangle));
+std::vector<FromLight> ParallelView::trace_to(std::span<const PointOnFace> points,
+                                              const LiftedLimits& lifted) const {
+    std::vector<AnyRay> rays;
+    rays.reserve(points.size());
+    for (const PointOnFace& point : points) rays.push_back(ray_through(point.from_light, lifted));
+    return met(rays, lifted);
 }
 
 ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster) const {
@@ -182,21 +181,20 @@ bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
            (drawn_[caster] != 0 || may_be_flipped(polygon, half_step_));
 }
 
-LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t caster) const {
-    const double depth = plane(texel, caster).depth;
-    return {true, of_scene_[caster], depth, moved_by(depth, offset(texel, caster).own)};
+LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t triangle) const {
+    if (triangle == no_triangle) return {};
+    const double depth = plane(texel, caster_of(triangle)).depth;
+    return {triangle, depth, moved_away(texel, triangle, depth)};
 }
 
-LightView::Shown ParallelView::shown_of(const Texel& texel, std::uint32_t triangle) const {
-    const std::uint32_t caster = caster_of(triangle);
-    if (!may_store(texel, caster)) return {};
-    return showing(texel, caster);
+bool ParallelView::may_show(const Texel& texel, std::uint32_t triangle) const {
+    return may_store(texel, caster_of(triangle));
 }
 
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what
 // is seen all around. What lies as near to the near or far plane as its depth is off may be
 // clipped, and what may be flipped, culled: neither hides anything.
-LightView::Shown ParallelView::shown_around(const Texel& texel) const {
+std::optional<std::uint32_t> ParallelView::shown_around(const Texel& texel) const {
     constexpr std::array steps{0.0, -1.0, 1.0, -0.5, 0.5};
     std::vector<AnyRay> rays;
     for (const double right : steps)
@@ -215,15 +213,14 @@ LightView::Shown ParallelView::shown_around(const Texel& texel) const {
                 !may_be_flipped(pictured_in_parallel(casters_, camera(0), caster), half_step_);
             if (hides) hidden_behind = depth + off + offset(texel, caster).most;
         }
-        if (hidden_behind == infinity && stored(texel) == 1)
-            return {true, no_triangle, infinity, infinity};
+        if (hidden_behind == infinity && stored(texel) == 1) return no_triangle;
         farthest = std::max(farthest, hidden_behind);
     }
-    if (stored(texel) > farthest) return {};
+    if (stored(texel) > farthest) return std::nullopt;
     const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
     for (const std::uint32_t caster : grid_.around(place, std::numbers::sqrt2 * half_step_))
-        if (may_draw(texel, caster) && may_store(texel, caster)) return showing(texel, caster);
-    return {};
+        if (may_draw(texel, caster) && may_store(texel, caster)) return of_scene_[caster];
+    return std::nullopt;
 }
 
 } // namespace shadowproof

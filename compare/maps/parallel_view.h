@@ -16,11 +16,12 @@ class ParallelView final : public LightView {
 public:
     ParallelView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads);
 
-    std::vector<FromLight> trace(std::span<const Texel> texels) const override;
-    FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
-    FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
-                            const glm::dvec3& from_light) const override;
-    Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const override;
+    void trace(std::span<const Texel> texels, const FoundTriangle& found) const override;
+    std::vector<FromLight> trace_without(const LiftedLimits& lifted,
+                                         std::span<const Texel> texels) const override;
+    std::vector<FromLight> trace_to(std::span<const PointOnFace> points,
+                                    const LiftedLimits& lifted) const override;
+    Shown showing(const Texel& texel, std::uint32_t triangle) const override;
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
@@ -41,10 +42,10 @@ private:
     double reach_ = 0;               ///< how far aside a caster may be drawn, texels
 
     std::uint32_t caster_of(std::uint32_t triangle) const;
-    AnyRay ray_at(double x, double y) const;
-    AnyRay ray_through(const glm::dvec3& from_light) const;
-    std::vector<FromLight> met(std::span<const AnyRay> rays) const;
-    FromLight met_without(const LiftedLimits& lifted, AnyRay ray) const;
+    AnyRay ray_from(const glm::dvec3& origin, const LiftedLimits& lifted) const;
+    AnyRay ray_at(double x, double y, const LiftedLimits& lifted = {}) const;
+    AnyRay ray_through(const glm::dvec3& from_light, const LiftedLimits& lifted) const;
+    std::vector<FromLight> met(std::span<const AnyRay> rays, const LiftedLimits& lifted = {}) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
     PolygonOffset offset(const Texel& texel, std::uint32_t caster) const;
@@ -52,9 +53,8 @@ private:
     double least_error(const Plane& plane) const;
     bool may_store(const Texel& texel, std::uint32_t caster) const;
     bool may_draw(const Texel& texel, std::uint32_t caster) const;
-    Shown showing(const Texel& texel, std::uint32_t caster) const;
-    Shown shown_of(const Texel& texel, std::uint32_t triangle) const override;
-    Shown shown_around(const Texel& texel) const override;
+    bool may_show(const Texel& texel, std::uint32_t triangle) const override;
+    std::optional<std::uint32_t> shown_around(const Texel& texel) const override;
 };
 
 } // namespace shadowproof

@@ -57,7 +57,9 @@ PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int
     for (std::size_t face = 0; face < map.model.faces(); ++face)
         faces_.push_back(casters_of(scene, map.model, face, of_scene_));
     for (const Scene& casters : faces_) {
-        drawings_.push_back(drawing_of(casters, depth_model_, map.model.far));
+        pictures_.push_back(depth_picture(casters, depth_model_,
+                                          drawing_of(casters, depth_model_, map.model.far),
+                                          map.model.far));
         std::vector<glm::dvec3>& columns = columns_.emplace_back();
         std::vector<glm::dvec3>& rows = rows_.emplace_back();
         for (int i = 0; i < map.model.size; ++i) {
@@ -71,61 +73,81 @@ PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int
     if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(faces_.front(), threads);
 }
 
-std::vector<FromLight> PerspectiveView::trace(std::span<const Texel> texels) const {
-    if (!tracer_) return std::vector<FromLight>(texels.size(), {no_triangle, infinity});
-    std::vector<FromLight> found(texels.size());
-    std::vector<glm::dvec3> rays(texels.size());
-    parallel_for_all(texels.size(), tracer_->threads(),
-                     [&](std::size_t i) { rays[i] = direction(texels[i]); });
-    const std::vector<SeenSurface> seen = see_rays(*tracer_, rays);
-    parallel_for_all(texels.size(), tracer_->threads(), [&](std::size_t i) {
-        found[i] = seen[i].triangle == no_triangle
-                       ? FromLight{no_triangle, infinity}
-                       : FromLight{of_scene_[seen[i].triangle], seen[i].depth};
-    });
+void PerspectiveView::trace(std::span<const Texel> texels, const FoundTriangle& found) const {
+    if (!tracer_) {
+        for (std::size_t i = 0; i < texels.size(); ++i) found(i, no_triangle);
+        return;
+    }
+    see_triangles(
+        *tracer_, range_of(faces_.front().camera), texels.size(),
+        [&](std::size_t i) { return direction(texels[i]); },
+        [&](std::size_t i, std::uint32_t seen) {
+            found(i, seen == no_triangle ? no_triangle : of_scene_[seen]);
+        });
+}
+
+std::vector<FromLight> PerspectiveView::trace_without(const LiftedLimits& lifted,
+                                                      std::span<const Texel> texels) const {
+    std::vector<glm::dvec3> rays;
+    rays.reserve(texels.size());
+    for (const Texel& texel : texels) rays.push_back(direction(texel));
+    return met(rays, lifted);
+}
+
+// A face's camera sees nothing behind it.
+std::vector<FromLight> PerspectiveView::trace_to(std::span<const PointOnFace> points,
+                                                 const LiftedLimits& lifted) const {
+    const auto depth_of = [&](const PointOnFace& point) {
+        return glm::dot(point.from_light, camera(point.face).forward);
+    };
+    std::vector<glm::dvec3> rays;
+    rays.reserve(points.size());
+    for (const PointOnFace& point : points) {
+        const double depth = depth_of(point);
+        rays.push_back(depth > 0 ? point.from_light / depth : camera(point.face).forward);
+    }
+    std::vector<FromLight> found = met(rays, lifted);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!(depth_of(points[i]) > 0)) found[i] = {no_triangle, infinity};
     return found;
 }
 
-FromLight PerspectiveView::trace_to(std::size_t face, const glm::dvec3& from_light) const {
-    const double depth = glm::dot(from_light, camera(face).forward);
-    if (!tracer_ || !(depth > 0)) return {no_triangle, infinity};
-    const glm::dvec3 ray = from_light / depth;
-    const SeenSurface seen = see_rays(*tracer_, std::span(&ray, 1)).front();
-    if (seen.triangle == no_triangle) return {no_triangle, infinity};
-    return {of_scene_[seen.triangle], seen.depth};
-}
-
-// The faces' scenes have wound their casters so that a side which is drawn is a front.
-FromLight PerspectiveView::met_without(const LiftedLimits& lifted, const glm::dvec3& ray) const {
-    if (!tracer_) return {no_triangle, infinity};
-    const AnyRay from_light{origin(), ray, lifted.range ? 0 : model().near,
-                            lifted.range ? infinity : model().far};
-    const auto counts = [&](std::uint32_t caster) {
-        return lifted.culling || model().culling == MapCulling::none ||
-               side(faces_.front(), caster, {origin(), 1}) > 0;
+// The tracer's scene has wound its casters so that a side which is drawn is a front, and sees no
+// other. Few rays are not worth what see_triangles sets up.
+std::vector<FromLight> PerspectiveView::met(std::span<const glm::dvec3> rays,
+                                            const LiftedLimits& lifted) const {
+    std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
+    if (!tracer_) return found;
+    const Scene& casters = faces_.front();
+    const SeenRange range = lifted.range ? SeenRange{} : range_of(casters.camera);
+    const bool culls = model().culling != MapCulling::none && !lifted.culling;
+    const auto any_ray = [&](std::size_t i) {
+        return AnyRay{origin(), rays[i], range.near, range.far};
     };
-    const MetTriangle first = first_met(*tracer_, std::span(&from_light, 1), counts).front();
-    if (first.triangle == no_triangle) return {no_triangle, infinity};
-    return {of_scene_[first.triangle], first.t};
-}
-
-FromLight PerspectiveView::trace_without(const LiftedLimits& lifted, std::size_t face,
-                                         const glm::dvec3& from_light) const {
-    const double depth = glm::dot(from_light, camera(face).forward);
-    if (!(depth > 0)) return {no_triangle, infinity};
-    return met_without(lifted, from_light / depth);
-}
-
-LightView::Shown PerspectiveView::shown_without(const LiftedLimits& lifted,
-                                                const Texel& texel) const {
-    const FromLight found = met_without(lifted, direction(texel));
-    if (found.triangle == no_triangle) return {true, no_triangle, infinity, infinity};
-    return showing(texel, caster_of(found.triangle));
+    const auto keep = [&](std::size_t i, std::uint32_t caster) {
+        if (caster == no_triangle) return;
+        const double depth = place_on_plane(any_ray(i), corners(casters, caster));
+        found[i] = {of_scene_[caster], depth};
+    };
+    constexpr std::size_t few = 64;
+    if (rays.size() > few && (culls || model().culling == MapCulling::none)) {
+        see_triangles(
+            *tracer_, range, rays.size(), [&](std::size_t i) { return rays[i]; }, keep);
+        return found;
+    }
+    std::vector<AnyRay> any_rays;
+    any_rays.reserve(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) any_rays.push_back(any_ray(i));
+    const auto counts = [&](std::uint32_t caster) {
+        return !culls || side(casters, caster, {origin(), 1}) > 0;
+    };
+    const std::vector<MetTriangle> first = first_met(*tracer_, any_rays, counts);
+    for (std::size_t i = 0; i < first.size(); ++i) keep(i, first[i].triangle);
+    return found;
 }
 
 PlaneAtPixel PerspectiveView::plane(const Texel& texel, std::uint32_t caster) const {
-    return {faces_[texel.face], depth_model_,    drawings_[texel.face], model().far, caster,
-            planes_[caster],    direction(texel)};
+    return {pictures_[texel.face], caster, planes_[caster], direction(texel)};
 }
 
 double PerspectiveView::value(const PlaneAtPixel& plane) const {
@@ -141,10 +163,10 @@ std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
 PolygonOffset PerspectiveView::offset(const Texel& texel, std::uint32_t caster) const {
     if (!model().has_offset()) return {};
     const Scene& scene = faces_[texel.face];
-    const WindowDepth window = window_depth_of(depth_model_);
+    const WindowDepth& window = pictures_[texel.face].window;
     const auto at = [&](int k) { return glm::dvec4(corner(scene, caster, k), 1); };
     std::vector<PicturePoint> polygon =
-        clipped_polygon(scene.camera, {at(0), at(1), at(2)}, drawings_[texel.face]);
+        clipped_polygon(scene.camera, {at(0), at(1), at(2)}, pictures_[texel.face].drawing);
     for (PicturePoint& point : polygon)
         point.depth_error += window_depth_roundings * v / std::abs(window.slope);
     return polygon_offset(polygon, {texel.x + 0.5, texel.y + 0.5}, model(), offset_unit(),
@@ -160,7 +182,7 @@ double PerspectiveView::moved_away(const Texel& texel, std::uint32_t triangle, d
 double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const {
     const PlaneAtPixel at = plane(texel, caster);
     if (!at.has_depth()) return infinity;
-    const WindowDepth window = window_depth_of(depth_model_);
+    const WindowDepth& window = pictures_[texel.face].window;
     return window.at(at.inverse_depth()) + std::abs(window.slope) * at.error() + half_step() +
            offset(texel, caster).most;
 }
@@ -168,7 +190,7 @@ double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const 
 // The sum of depth and offset rounds once more.
 bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel,
                                       std::uint32_t caster) const {
-    const WindowDepth window = window_depth_of(depth_model_);
+    const WindowDepth& window = pictures_[texel.face].window;
     const double depth = window.at(at.inverse_depth());
     const double off = std::abs(window.slope) * at.error() + half_step() + v;
     const PolygonOffset moved = offset(texel, caster);
@@ -199,7 +221,7 @@ bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
     };
     if (within(0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(), drawings_[texel.face]};
+    const CoveredPixel pixel{at.direction(), at.lateral(), pictures_[texel.face].drawing};
     return within(at.error_of_place(),
                   std::sqrt(3.0) *
                       interpolated_place_error(scene, caster, pixel, scene.camera.eye));
@@ -217,7 +239,7 @@ bool PerspectiveView::may_store(const PlaneAtPixel& at, const Texel& texel,
     if (model().value == MapValue::depth) {
         if (at.is_depth(read)) return true;
         if (model().format != MapFormat::d16) return false; // is_depth knows the others
-        const WindowDepth window = window_depth_of(depth_model_);
+        const WindowDepth& window = pictures_[texel.face].window;
         return std::abs(read - window.at(at.inverse_depth())) <=
                half_step() + std::abs(window.slope) * at.error();
     }
@@ -236,27 +258,21 @@ bool PerspectiveView::may_store(const PlaneAtPixel& at, const Texel& texel,
     };
     if (off_by(0, 0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(), drawings_[texel.face]};
+    const CoveredPixel pixel{at.direction(), at.lateral(), pictures_[texel.face].drawing};
     const double interpolated =
         std::sqrt(3.0) * interpolated_place_error(scene, caster, pixel, scene.camera.eye);
     return off_by(at.error_of_place(), std::sqrt(2.0) * at.spread(), interpolated);
 }
 
-LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t caster) const {
-    return showing(plane(texel, caster), texel, caster);
+LightView::Shown PerspectiveView::showing(const Texel& texel, std::uint32_t triangle) const {
+    if (triangle == no_triangle) return {};
+    const double exact = value(plane(texel, caster_of(triangle)));
+    return {triangle, exact, moved_away(texel, triangle, exact)};
 }
 
-LightView::Shown PerspectiveView::showing(const PlaneAtPixel& at, const Texel& texel,
-                                          std::uint32_t caster) const {
-    const double exact = value(at);
-    return {true, of_scene_[caster], exact, moved_away(texel, of_scene_[caster], exact)};
-}
-
-LightView::Shown PerspectiveView::shown_of(const Texel& texel, std::uint32_t triangle) const {
+bool PerspectiveView::may_show(const Texel& texel, std::uint32_t triangle) const {
     const std::uint32_t caster = caster_of(triangle);
-    const PlaneAtPixel at = plane(texel, caster);
-    if (!may_store(at, texel, caster)) return {};
-    return showing(at, texel, caster);
+    return may_store(plane(texel, caster), texel, caster);
 }
 
 bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen) const {
@@ -270,7 +286,7 @@ bool PerspectiveView::may_be_clipped(const Texel& texel, const SeenSurface& seen
 /// What may be left of a caster in a face's picture.
 std::vector<PicturePoint> PerspectiveView::pictured(std::size_t face, std::uint32_t caster) const {
     const Scene& scene = faces_[face];
-    const Drawing& drawing = drawings_[face];
+    const Drawing& drawing = pictures_[face].drawing;
     std::vector<ViewCorner> corners;
     for (int k = 0; k < 3; ++k)
         corners.push_back(viewed(scene.camera, glm::dvec4(corner(scene, caster, k), 1), drawing));
@@ -337,8 +353,8 @@ bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster
 // Next to an outline any triangle that may cover the centre may be stored, none farther than what
 // is seen all around. What lies as near to the near or far plane as its depth is off may be
 // clipped, and hides nothing.
-LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
-    if (!tracer_) return {};
+std::optional<std::uint32_t> PerspectiveView::shown_around(const Texel& texel) const {
+    if (!tracer_) return std::nullopt;
     const Scene& scene = faces_[texel.face];
     const glm::dvec3 centre = direction(texel);
     const double reach =
@@ -349,8 +365,7 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     double deepest_seen = 0; // as a window depth; with a polygon offset
     for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
         const bool clipped = may_be_clipped(texel, seen);
-        if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1)
-            return {true, no_triangle, infinity, infinity};
+        if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1) return no_triangle;
         if (model().has_offset())
             deepest_seen = std::max(deepest_seen, clipped || seen.triangle == no_triangle
                                                       ? infinity
@@ -383,11 +398,11 @@ LightView::Shown PerspectiveView::shown_around(const Texel& texel) const {
     for (const std::uint32_t caster : casters)
         if (may_cover(scene, caster, centre, reach_of_ray) &&
             may_show(caster, nearest_at_texel(caster)))
-            return showing(texel, caster);
+            return of_scene_[caster];
     for (const std::uint32_t caster : casters)
         if (clipping_may_draw(texel, caster, reach) && may_show(caster, nearest_corner(caster)))
-            return showing(texel, caster);
-    return {};
+            return of_scene_[caster];
+    return std::nullopt;
 }
 
 } // namespace shadowproof

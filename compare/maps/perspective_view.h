@@ -16,11 +16,12 @@ class PerspectiveView final : public LightView {
 public:
     PerspectiveView(const Scene& scene, const MapEvidence& map, int subpixel_bits, int threads);
 
-    std::vector<FromLight> trace(std::span<const Texel> texels) const override;
-    FromLight trace_to(std::size_t face, const glm::dvec3& from_light) const override;
-    FromLight trace_without(const LiftedLimits& lifted, std::size_t face,
-                            const glm::dvec3& from_light) const override;
-    Shown shown_without(const LiftedLimits& lifted, const Texel& texel) const override;
+    void trace(std::span<const Texel> texels, const FoundTriangle& found) const override;
+    std::vector<FromLight> trace_without(const LiftedLimits& lifted,
+                                         std::span<const Texel> texels) const override;
+    std::vector<FromLight> trace_to(std::span<const PointOnFace> points,
+                                    const LiftedLimits& lifted) const override;
+    Shown showing(const Texel& texel, std::uint32_t triangle) const override;
     double moved_away(const Texel& texel, std::uint32_t triangle, double depth) const override;
 
 private:
@@ -28,7 +29,7 @@ private:
     std::vector<Scene> faces_;             ///< one per face; casters alone
     std::vector<std::uint32_t> of_scene_;  ///< their triangles' indices in the scene
     std::vector<std::uint32_t> caster_at_; ///< the reverse: by triangle of the scene
-    std::vector<Drawing> drawings_;        ///< one per face
+    std::vector<DepthPicture> pictures_;   ///< one per face
     /// The directions through texels' centres are the sum of a column's and a row's.
     std::vector<std::vector<glm::dvec3>> columns_;
     std::vector<std::vector<glm::dvec3>> rows_;
@@ -37,7 +38,7 @@ private:
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
     mutable std::array<std::once_flag, 6> is_made_;
 
-    FromLight met_without(const LiftedLimits& lifted, const glm::dvec3& ray) const;
+    std::vector<FromLight> met(std::span<const glm::dvec3> rays, const LiftedLimits& lifted) const;
     glm::dvec3 direction(const Texel& texel) const {
         return columns_[texel.face][static_cast<std::size_t>(texel.x)] +
                rows_[texel.face][static_cast<std::size_t>(texel.y)];
@@ -54,10 +55,8 @@ private:
     const CasterGrid& grid(std::size_t face) const;
     bool may_be_clipped(const Texel& texel, const SeenSurface& seen) const;
     bool clipping_may_draw(const Texel& texel, std::uint32_t caster, double reach) const;
-    Shown showing(const Texel& texel, std::uint32_t caster) const;
-    Shown showing(const PlaneAtPixel& at, const Texel& texel, std::uint32_t caster) const;
-    Shown shown_of(const Texel& texel, std::uint32_t triangle) const override;
-    Shown shown_around(const Texel& texel) const override;
+    bool may_show(const Texel& texel, std::uint32_t triangle) const override;
+    std::optional<std::uint32_t> shown_around(const Texel& texel) const override;
 };
 
 } // namespace shadowproof

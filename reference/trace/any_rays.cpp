@@ -1,7 +1,7 @@
 #include "reference/trace/any_rays.h"
 
-#include "reference/exact/bounded.h"
 #include "reference/exact/norms.h"
+#include "reference/trace/lanes.h"
 #include "reference/trace/state.h"
 
 #include <algorithm>
@@ -45,53 +45,14 @@ glm::dvec3 enlargement_of(const glm::dvec3& reach, double share, const glm::dvec
     return share * (sizes + 0x1p-32 * largest(sizes));
 }
 
-/// The rays as boxes see them: a plane at b is met at t = (b - origin) * inverse, give or take
-/// margin. All components of directions are at least least_component.
-struct Slabs {
-    alignas(64) std::array<Lanes<double>, 3> inverse{};
-    alignas(64) std::array<Lanes<double>, 3> margin{};
-};
-
 Slabs slabs_of(const AnyRays& rays, const glm::dvec3& reach, double share) {
     Slabs slabs;
     for (std::uint32_t left = rays.lanes; left != 0; left &= left - 1) {
-        const auto l = static_cast<std::size_t>(__builtin_ctz(left));
-        const glm::dvec3 margin =
-            enlargement_of(reach, share, {rays.origin[0][l], rays.origin[1][l], rays.origin[2][l]});
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double d = rays.direction[axis][l];
-            const double inverse = std::abs(d) < least_component ? 1 / least_component : 1 / d;
-            slabs.inverse[axis][l] = inverse;
-            slabs.margin[axis][l] = margin[static_cast<int>(axis)] * std::abs(inverse);
-        }
+        const int lane = __builtin_ctz(left);
+        const AnyRay ray = rays.ray(lane);
+        set_slabs(slabs, lane, ray, enlargement_of(reach, share, ray.origin));
     }
     return slabs;
-}
-
-/// One bit per lane whose ray comes near the box. Plain loops over sixteen lanes, which compilers
-/// turn into vectors.
-std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Entry& box) {
-    alignas(64) Lanes<double> enter = rays.near;
-    alignas(64) Lanes<double> leave = rays.far;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double lower = box.lower[axis];
-        const double upper = box.upper[axis];
-        const Lanes<double>& origin = rays.origin[axis];
-        const Lanes<double>& inverse = slabs.inverse[axis];
-        const Lanes<double>& margin = slabs.margin[axis];
-        for (std::size_t l = 0; l < packet_size; ++l) {
-            const double a = (lower - origin[l]) * inverse[l];
-            const double b = (upper - origin[l]) * inverse[l];
-            const double first = (a < b ? a : b) - margin[l];
-            const double last = (a < b ? b : a) + margin[l];
-            enter[l] = first > enter[l] ? first : enter[l];
-            leave[l] = last < leave[l] ? last : leave[l];
-        }
-    }
-    std::uint32_t met = 0;
-    for (std::size_t l = 0; l < packet_size; ++l)
-        met |= static_cast<std::uint32_t>(enter[l] <= leave[l]) << l;
-    return met & rays.lanes;
 }
 
 } // namespace
@@ -168,79 +129,6 @@ bool meets_plane(const AnyRay& given, const Corners& t) {
                                 predicates.depth_against(ray, t, given.near).sign > 0;
     return is_beyond_near &&
            (std::isinf(given.far) || predicates.depth_against(ray, t, given.far).sign <= 0);
-}
-
-namespace {
-
-/// One bit per lane whose sign is certain.
-struct CertainSigns {
-    std::uint32_t above = 0;
-    std::uint32_t below = 0;
-};
-
-/// A sum, and how far it may be off.
-struct BoundedSum {
-    double value = 0;
-    double error = 0;
-};
-/// D . ((a - E) x e) of a lane. Each of the six products of three factors has its two differences
-/// rounded, two products, the difference of two of them, and two sums: 7 u; the eighth is for the
-/// bound's own rounding. Their sum is at most that of the components of D times that of a - E times
-/// the largest of e. `share`: the last, times 8 u. What is added for underflow is far above what it
-/// can take.
-BoundedSum edge_sum(const AnyRays& rays, std::size_t l, const glm::dvec3& a, const glm::dvec3& e,
-                    double share) {
-    const double wx = a.x - rays.origin[0][l];
-    const double wy = a.y - rays.origin[1][l];
-    const double wz = a.z - rays.origin[2][l];
-    const double dx = rays.direction[0][l];
-    const double dy = rays.direction[1][l];
-    const double dz = rays.direction[2][l];
-    const double d = std::abs(dx) + std::abs(dy) + std::abs(dz);
-    const double w = std::abs(wx) + std::abs(wy) + std::abs(wz);
-    return {dx * (wy * e.z - wz * e.y) + dy * (wz * e.x - wx * e.z) + dz * (wx * e.y - wy * e.x),
-            share * d * w + Bounded::underflow * (1 + d)};
-}
-
-/// The signs of D . ((a - E) x (b - a)), as Predicates::edge has them. Plain loops over sixteen
-/// lanes, which compilers turn into vectors.
-CertainSigns edge_signs(const AnyRays& rays, const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 e = b - a;
-    const double share = 8 * double_roundoff * largest(e);
-    CertainSigns signs;
-    // A product beyond the range of doubles leaves no finite value.
-    constexpr double most = std::numeric_limits<double>::max();
-    const auto decide = [&](std::size_t l, double value, double error) {
-        signs.above |= static_cast<std::uint32_t>(value > error && value <= most) << l;
-        signs.below |= static_cast<std::uint32_t>(value < -error && value >= -most) << l;
-    };
-    if ((rays.lanes & (rays.lanes - 1)) == 0) { // one ray
-        const auto only = static_cast<std::size_t>(__builtin_ctz(rays.lanes));
-        const BoundedSum sum = edge_sum(rays, only, a, e, share);
-        decide(only, sum.value, sum.error);
-        return signs;
-    }
-    alignas(64) Lanes<double> value;
-    alignas(64) Lanes<double> error;
-    for (std::size_t l = 0; l < packet_size; ++l) {
-        const BoundedSum sum = edge_sum(rays, l, a, e, share);
-        value[l] = sum.value;
-        error[l] = sum.error;
-    }
-    for (std::size_t l = 0; l < packet_size; ++l) decide(l, value[l], error[l]);
-    return signs;
-}
-
-} // namespace
-
-LanesBeside lanes_beside(const AnyRays& rays, const Corners& t) {
-    const CertainSigns ab = edge_signs(rays, t.a, t.b);
-    const CertainSigns bc = edge_signs(rays, t.b, t.c);
-    const std::uint32_t beside = (ab.above | bc.above) & (ab.below | bc.below);
-    if ((rays.lanes & ~beside) == 0) return {0, beside};
-    const CertainSigns ca = edge_signs(rays, t.c, t.a);
-    return {(ab.above & bc.above & ca.above) | (ab.below & bc.below & ca.below),
-            (ab.above | bc.above | ca.above) & (ab.below | bc.below | ca.below)};
 }
 
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u) {

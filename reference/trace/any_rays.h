@@ -63,13 +63,6 @@ bool meets(const AnyRay& ray, const Corners& t);
 /// Whether it meets the triangle's plane within its limits; the plane may not hold it.
 bool meets_plane(const AnyRay& ray, const Corners& t);
 
-/// What doubles tell of rays and a triangle, limits apart: one bit per lane.
-struct LanesBeside {
-    std::uint32_t through = 0; ///< the ray certainly passes through the triangle's inside
-    std::uint32_t beside = 0;  ///< it certainly does not meet the closed triangle
-};
-LanesBeside lanes_beside(const AnyRays& rays, const Corners& t);
-
 /// Sign of t(T) - t(U), the places at which the ray meets their planes; neither may hold it.
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u);
 

@@ -114,11 +114,10 @@ bool NearestArbiter::meet_there(int lane, const std::array<glm::dvec3, 3>& corne
 }
 
 bool NearestArbiter::within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const {
-    const Camera& camera = rays_.state->scene->camera;
     const Predicates& predicates = rays_.predicates;
-    return signs.at_least_zero(predicates.depth_against(ray, t, camera.near), 1) &&
-           (std::isinf(camera.far) ||
-            signs.at_least_zero(predicates.depth_against(ray, t, camera.far), -1));
+    return signs.at_least_zero(predicates.depth_against(ray, t, range_.near), 1) &&
+           (std::isinf(range_.far) ||
+            signs.at_least_zero(predicates.depth_against(ray, t, range_.far), -1));
 }
 
 void NearestArbiter::raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray,

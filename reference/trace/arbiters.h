@@ -33,15 +33,17 @@ struct PacketRays {
 /// Decides which triangle an eye ray meets first. Keeps references.
 class NearestArbiter final : public Arbiter {
 public:
-    NearestArbiter(PacketRays& rays, Lanes<Seen>& seen) : rays_(rays), seen_(seen) {}
+    NearestArbiter(PacketRays& rays, const SeenRange& range, Lanes<Seen>& seen)
+        : rays_(rays), range_(range), seen_(seen) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
 
 private:
     PacketRays& rays_;
+    SeenRange range_;
     Lanes<Seen>& seen_;
     Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
-    bool met_ = false; ///< the last tested triangle is met within [near, far]
+    bool met_ = false; ///< the last tested triangle is met within the range
 
     bool is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle, Signs& signs);
 

@@ -2,6 +2,7 @@
 
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
+#include "reference/trace/lanes.h"
 #include "scenes/roundoff.h"
 
 #include <algorithm>
@@ -54,11 +55,13 @@ public:
             const bool is_through = (sides.through >> lane & 1U) != 0;
             if (is_through ? !is_within && !meets_plane(ray, t) : !meets(ray, t)) continue;
             MetTriangle& nearest = found[static_cast<std::size_t>(lane)];
-            const int order = nearest.triangle == no_triangle
-                                  ? -1
-                                  : order_along(ray, t, corners(tracer_.scene(), nearest.triangle));
+            double& least_found = least_of_found_[static_cast<std::size_t>(lane)];
+            const bool is_first = nearest.triangle == no_triangle || most < least_found;
+            const int order =
+                is_first ? -1 : order_along(ray, t, corners(tracer_.scene(), nearest.triangle));
             if (order > 0 || (order == 0 && triangle > nearest.triangle)) continue;
             nearest = {triangle, std::clamp(place_on_plane(ray, t), least, most)};
+            least_found = least;
             rays.far[static_cast<std::size_t>(lane)] = std::min(ray.far, most);
         }
     }
@@ -69,6 +72,7 @@ public:
 private:
     const Tracer& tracer_;
     const std::function<bool(std::uint32_t)>& counts_;
+    Lanes<double> least_of_found_{}; ///< reach_along of the nearest so far
 };
 
 } // namespace

@@ -50,6 +50,10 @@ bool lies_in_plane(const Predicates& predicates, const Corners& t, const Corners
 
 } // namespace
 
+bool are_coplanar(const Corners& t, const Corners& u) {
+    return lies_in_plane(Predicates{}, u, t);
+}
+
 std::vector<std::uint32_t> Places::firsts() const {
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < first.size(); ++i)

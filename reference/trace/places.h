@@ -23,6 +23,9 @@ struct Places {
 /// Whether two triangles have the same corners, in any order.
 bool have_same_corners(const Corners& t, const Corners& u);
 
+/// Whether u lies in the plane of t, exactly; always where t has no area.
+bool are_coplanar(const Corners& t, const Corners& u);
+
 /// Triangles in one plane may have different numbers because of rounding, and those with almost no
 /// area always do. O(n) time.
 Places find_places(const Scene& scene, const Predicates& predicates, int threads);

@@ -140,23 +140,22 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
 namespace {
 
 /// Calls work(prober, packet, lanes, first) for sixteen rays at a time, on all threads; `first`:
-/// the index of the packet's first ray.
-template <class Work>
-void for_packets(const Tracer::State& state, std::span<const glm::dvec3> directions,
+/// the index of the packet's first ray. `direction`: of each ray, by its index.
+template <class Direction, class Work>
+void for_packets(const Tracer::State& state, std::size_t rays, const Direction& direction,
                  const Work& work) {
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
     constexpr std::size_t piece_size = std::size_t{64} * packet_size;
-    const auto pieces = static_cast<int>((directions.size() + piece_size - 1) / piece_size);
+    const auto pieces = static_cast<int>((rays + piece_size - 1) / piece_size);
     parallel_for(pieces, state.threads, [&](int piece, int thread) {
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
         if (!prober) prober = std::make_unique<Prober>(state);
         const std::size_t begin = static_cast<std::size_t>(piece) * piece_size;
-        const std::size_t end = std::min(directions.size(), begin + piece_size);
+        const std::size_t end = std::min(rays, begin + piece_size);
         for (std::size_t first = begin; first < end; first += packet_size) {
             const std::size_t count = std::min<std::size_t>(packet_size, end - first);
             Lanes<glm::dvec3> packet{};
-            std::copy_n(directions.begin() + static_cast<std::ptrdiff_t>(first), count,
-                        packet.begin());
+            for (std::size_t lane = 0; lane < count; ++lane) packet[lane] = direction(first + lane);
             work(*prober, packet, (1U << count) - 1, first);
         }
     });
@@ -166,36 +165,54 @@ void for_packets(const Tracer::State& state, std::span<const glm::dvec3> directi
 
 std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
     std::vector<RayTruth> truths(directions.size());
-    for_packets(tracer.state(), directions,
-                [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
-                    std::size_t first) {
-                    Lanes<Seen> seen;
-                    Lanes<Lighting> lighting;
-                    prober.see(packet, lanes, seen);
-                    prober.light(packet, lanes, seen, lighting);
-                    for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                        truths[first + lane] = {
-                            visibility_of(seen[lane], lighting[lane]),
-                            seen[lane].triangle,
-                            seen[lane].depth,
-                            lighting[lane].occluder,
-                            std::max(seen[lane].exactness, lighting[lane].exactness),
-                            lighting[lane].in_cone};
-                });
+    for_packets(
+        tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
+        [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+            std::size_t first) {
+            Lanes<Seen> seen;
+            Lanes<Lighting> lighting;
+            prober.see(packet, lanes, seen);
+            prober.light(packet, lanes, seen, lighting);
+            for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
+                truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
+                                        seen[lane].triangle,
+                                        seen[lane].depth,
+                                        lighting[lane].occluder,
+                                        std::max(seen[lane].exactness, lighting[lane].exactness),
+                                        lighting[lane].in_cone};
+        });
     return truths;
 }
 
 std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
     std::vector<SeenSurface> surfaces(directions.size());
-    for_packets(tracer.state(), directions,
+    for_packets(
+        tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
+        [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+            std::size_t first) {
+            Lanes<Seen> seen;
+            prober.see(packet, lanes, seen);
+            for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
+                surfaces[first + lane] = {seen[lane].triangle, seen[lane].depth};
+        });
+    return surfaces;
+}
+
+SeenRange range_of(const Camera& camera) {
+    return {camera.near, camera.far};
+}
+
+void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t rays,
+                   const std::function<glm::dvec3(std::size_t)>& direction,
+                   const std::function<void(std::size_t, std::uint32_t)>& found) {
+    for_packets(tracer.state(), rays, direction,
                 [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
                     std::size_t first) {
                     Lanes<Seen> seen;
-                    prober.see(packet, lanes, seen);
+                    prober.see_triangle(packet, lanes, range, seen);
                     for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                        surfaces[first + lane] = {seen[lane].triangle, seen[lane].depth};
+                        found(first + lane, seen[lane].triangle);
                 });
-    return surfaces;
 }
 
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {

@@ -8,6 +8,7 @@
 #include "scenes/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -83,6 +84,18 @@ struct SeenSurface {
     double depth = 0;
 };
 std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+/// View depths between which surfaces are seen.
+struct SeenRange {
+    double near = 0;
+    double far = std::numeric_limits<double>::infinity();
+};
+SeenRange range_of(const Camera& camera);
+
+/// The triangles that so many rays see, of which nothing is kept: `direction` gives each ray by its
+/// index, `found` takes what it sees, both on all threads.
+void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t rays,
+                   const std::function<glm::dvec3(std::size_t)>& direction,
+                   const std::function<void(std::size_t, std::uint32_t)>& found);
 
 /// Which sides of a triangle the eye and the light see, exactly: a sign of zero is neither.
 struct TriangleSides {

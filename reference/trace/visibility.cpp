@@ -132,13 +132,26 @@ void Prober::measure_depth(const glm::dvec3& direction, Seen& seen) {
 }
 
 void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes<Seen>& seen) {
-    const Camera& camera = state_->scene->camera;
+    see_triangle(directions, lanes, range_of(state_->scene->camera), seen);
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        if (seen[l].triangle == no_triangle) {
+            seen[l].depth = std::numeric_limits<double>::infinity();
+            return;
+        }
+        if (seen_.copies(seen[l].triangle) > 1) seen[l].exactness = Exactness::degenerate;
+        measure_depth(directions[l], seen[l]);
+    });
+}
+
+void Prober::see_triangle(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
+                          const SeenRange& range, Lanes<Seen>& seen) {
     const double scale = state_->from_eye.scale;
     HitLimits limits;
-    limits.lower_lo = std::isinf(camera.far) ? 0 : float_below(1 / (camera.far * scale));
-    limits.lower_hi = std::isinf(camera.far) ? 0 : float_above(1 / (camera.far * scale));
-    limits.upper_lo = float_below(1 / (camera.near * scale));
-    limits.upper_hi = float_above(1 / (camera.near * scale));
+    limits.lower_lo = std::isinf(range.far) ? 0 : float_below(1 / (range.far * scale));
+    limits.lower_hi = std::isinf(range.far) ? 0 : float_above(1 / (range.far * scale));
+    limits.upper_lo = float_below(1 / (range.near * scale));
+    limits.upper_hi = float_above(1 / (range.near * scale));
     RayPacket packet = empty_packet(filters_);
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
@@ -147,18 +160,12 @@ void Prober::see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes
         ++rays_;
     });
     PacketRays rays{state_, &directions, Predicates(filters_)};
-    NearestArbiter arbiter(rays, seen);
+    NearestArbiter arbiter(rays, range, seen);
     find_nearest(packet, seen_, arbiter);
     exact_decisions_ += rays.exact_decisions;
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         seen[l].triangle = packet.hit[l];
-        if (seen[l].triangle == no_triangle) {
-            seen[l].depth = std::numeric_limits<double>::infinity();
-            return;
-        }
-        if (seen_.copies(seen[l].triangle) > 1) seen[l].exactness = Exactness::degenerate;
-        measure_depth(directions[l], seen[l]);
     });
 }
 

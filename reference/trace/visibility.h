@@ -41,8 +41,12 @@ class Prober {
 public:
     explicit Prober(const Tracer::State& state, Filters filters = Filters::on);
 
-    /// The nearest triangle within [near, far] along each direction D (view depth 1).
+    /// The nearest triangle within [near, far] along each direction D (view depth 1), and its
+    /// depth.
     void see(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, Lanes<Seen>& seen);
+    /// The triangle alone, within any range.
+    void see_triangle(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
+                      const SeenRange& range, Lanes<Seen>& seen);
 
     /// Whether the light reaches the visible points.
     void light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, const Lanes<Seen>& seen,

@@ -7,6 +7,7 @@
 #include "tests/compare/traced_scene.h"
 #include "tests/scenes/bundled_names.h"
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,10 +40,10 @@ inline std::uint64_t texels_not_shown(const TracedScene& traced, const Frame& fr
     const std::unique_ptr<LightView> light =
         light_view(traced.scene, *frame.mapped, frame.depth_model.subpixel_bits, 0);
     const std::vector<Texel> texels = all_texels(frame.mapped->model);
-    const std::vector<FromLight> at_centres = light->trace(texels);
-    std::uint64_t wrong = 0;
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        wrong += light->shown(texels[i], at_centres[i]).shows ? 0 : 1;
+    std::atomic<std::uint64_t> wrong{0};
+    light->trace(texels, [&](std::size_t i, std::uint32_t at_centre) {
+        wrong += light->shown(texels[i], at_centre) ? 0 : 1;
+    });
     return wrong;
 }
 

@@ -1,12 +1,16 @@
 // Rays from anywhere: geometry whose answer is known by hand, and candidates against all triangles.
 #include "reference/trace/any_rays.h"
+#include "reference/trace/instruction_set.h"
+#include "reference/trace/lanes.h"
 #include "reference/trace/view.h"
+#include "scenes/error.h"
 #include "scenes/load/catalog.h"
 #include "tests/dice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <set>
 
@@ -49,7 +53,7 @@ TEST(AnyRays, the_nearer_plane_is_told) {
 
 /// Corners and rays on a coarse lattice touch edges and corners often; far from the origin their
 /// differences round; tiny ones underflow.
-TEST(AnyRays, what_doubles_are_certain_of_is_so) {
+void expect_certainties_to_be_so() {
     Dice dice(3);
     int through = 0;
     int beside = 0;
@@ -87,6 +91,24 @@ TEST(AnyRays, what_doubles_are_certain_of_is_so) {
     EXPECT_GT(through, 500);
     EXPECT_GT(beside, 5000);
     EXPECT_GT(uncertain, 5000);
+}
+
+TEST(AnyRays, what_doubles_are_certain_of_is_so_with_every_instruction_set) {
+    for (const char* set : {"sse2", "ssse3", "sse4", "avx2", "avx512"}) {
+        SCOPED_TRACE(set);
+        setenv("SHADOWPROOF_INSTRUCTION_SET", set, 1);
+        try {
+            choose_instruction_set();
+            expect_certainties_to_be_so();
+        } catch (const Error& error) {
+            EXPECT_STRNE(set, "sse2") << error.what(); // the processor lacks another
+        }
+    }
+    unsetenv("SHADOWPROOF_INSTRUCTION_SET");
+    choose_instruction_set();
+}
+
+TEST(AnyRays, through_a_triangles_inside_are_certain_and_on_its_edge_are_not) {
     AnyRays one;
     one.set(0, down(0.25, 0.25));
     EXPECT_EQ(lanes_beside(one, triangle).through & 1U, 1U);

@@ -1,10 +1,12 @@
 #include "reference/trace/places.h"
+#include "reference/trace/view.h"
 #include "scenes/load/catalog.h"
 #include "scenes/stress/parameter.h"
 #include "tests/reference/hard_scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -51,9 +53,15 @@ TEST(Places, triangles_have_one_plane_only_if_integers_say_so_and_one_place_if_t
                                     std::multiset<Point>(triangles[k].begin(), triangles[k].end());
             ASSERT_EQ(places.first[i] == places.first[k], same_place) << i << ", " << k;
             in_one_place += same_place ? 1 : 0;
+            const auto& u = triangles[k];
+            const bool coplanar = std::ranges::all_of(
+                u, [&](const Point& p) { return volume(t[0], t[1], t[2], p) == 0; });
+            ASSERT_EQ(are_coplanar(corners(scene, static_cast<std::uint32_t>(i)),
+                                   corners(scene, static_cast<std::uint32_t>(k))),
+                      coplanar);
             if (places.plane[i] != places.plane[k]) continue;
             ++in_one_plane;
-            for (const Point& p : triangles[k]) ASSERT_EQ(volume(t[0], t[1], t[2], p), 0);
+            ASSERT_TRUE(coplanar);
         }
     EXPECT_GT(in_one_plane, 100) << "seed " << seed;
     EXPECT_GT(in_one_place, 0) << "seed " << seed;
