@@ -55,9 +55,9 @@ bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double 
 // are, by v of its size each: in the slopes' terms both differences, quotient, product and
 // difference of the two (5 v), 1 / A alike in all terms; in A two differences and a product (3 v of
 // each of its terms), and their difference (v). An error that is alike in all terms tilts the plane
-// about the first corner, by that share of its rise to the pixel. The sums at the picture's corner
-// and at the pixel round products of slopes and places: three times each, and the first one's twice
-// more.
+// about the first corner, by that share of its rise to the pixel; all that is made with 1 / A is
+// off by the share, too. The sums at the picture's corner and at the pixel round products of slopes
+// and places: three times each, and the first one's twice more.
 struct Plane {
     double z01 = 0;
     double z20 = 0;
@@ -74,8 +74,11 @@ double error_from(const PicturePoint& first, const PicturePoint& second, const P
     const glm::dvec2 way = glm::abs(pixel - first.place);
     const double climb = std::max({std::abs(z01), std::abs(z20), glm::dot(slope, way)});
     const double terms_of_area = std::abs(d01.x * d20.y) + std::abs(d20.x * d01.y);
-    return 5 * v * glm::dot(terms / area, way) + v * (3 * terms_of_area / area + 2) * climb +
-           v * glm::dot(slope, 5.0 * glm::abs(first.place) + 3.0 * glm::abs(pixel));
+    const double share = v * (3 * terms_of_area / area + 2);
+    if (!(share < 1)) return std::numeric_limits<double>::infinity();
+    return (5 * v * glm::dot(terms / area, way) + share * climb +
+            v * glm::dot(slope, 5.0 * glm::abs(first.place) + 3.0 * glm::abs(pixel))) /
+           (1 - share);
 }
 
 /// Of the inverse depths' plane.
@@ -222,11 +225,12 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
                          });
 }
 
+/// Of a dark cap, in the order in which it is drawn: that of the light cap, reversed.
 std::array<glm::dvec4, 3> far_corners(const Scene& casters, const std::vector<glm::vec3>& far_ends,
                                       std::uint32_t triangle) {
     const glm::uvec3& corners = casters.triangles[triangle];
-    return {glm::dvec4(far_ends[corners.x], 1), glm::dvec4(far_ends[corners.y], 1),
-            glm::dvec4(far_ends[corners.z], 1)};
+    return {glm::dvec4(far_ends[corners.z], 1), glm::dvec4(far_ends[corners.y], 1),
+            glm::dvec4(far_ends[corners.x], 1)};
 }
 
 std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
@@ -317,13 +321,16 @@ double interpolated_place_error(const Scene& scene, std::uint32_t triangle,
 
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& face, const CoveredPixel& pixel) {
-    if (face.part == Crossing::Part::light_cap) return setup_error(casters, face.triangle, pixel);
     std::vector<PictureTriangle> triangles;
     const auto add = [&](const std::array<glm::dvec4, 3>& corners) {
         for (const PictureTriangle& triangle : set_up(casters.camera, corners, pixel))
             triangles.push_back(triangle);
     };
-    if (face.is_side())
+    if (face.part == Crossing::Part::light_cap) {
+        // Of a triangle that is counted flipped the cap is drawn as the triangle was before.
+        const auto at = [&](int k) { return glm::dvec4(corner(casters, face.triangle, k), 1); };
+        add(face.flipped ? std::array{at(1), at(0), at(2)} : std::array{at(0), at(1), at(2)});
+    } else if (face.is_side())
         for (const std::array<glm::dvec4, 3>& half :
              triangles_of_side(casters, far_ends, face.triangle, static_cast<int>(face.part)))
             add(half);

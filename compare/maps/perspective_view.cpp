@@ -24,7 +24,8 @@ namespace {
 constexpr double v = float_roundoff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The casters before the face's camera, each drawn from the sides that the model does not cull.
+/// The casters before the face's camera, as they are drawn: the order of a triangle's corners
+/// decides into which ones clipping divides it.
 Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
                  std::vector<std::uint32_t>& of_scene) {
     const std::vector<std::uint8_t> casts = casting_triangles(scene);
@@ -34,10 +35,7 @@ Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
     of_scene.clear();
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
         if (casts[triangle] == 0) continue;
-        const glm::uvec3 corners = scene.triangles[triangle];
-        casters.triangles.push_back(model.culling == MapCulling::front
-                                        ? glm::uvec3(corners.x, corners.z, corners.y)
-                                        : corners);
+        casters.triangles.push_back(scene.triangles[triangle]);
         of_scene.push_back(triangle);
     }
     casters.materials = {{.name = "caster", .double_sided = model.culling == MapCulling::none}};
@@ -45,6 +43,13 @@ Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
                        .triangle_count = static_cast<std::uint32_t>(casters.triangles.size())}};
     casters.lights = {chosen_light(scene)};
     casters.camera = map_camera(chosen_light(scene), model, face);
+    return casters;
+}
+
+/// As a tracer sees them, which leaves out backs: turned over where fronts are left out.
+Scene seen_from_light(Scene casters, MapCulling culling) {
+    if (culling == MapCulling::front)
+        for (glm::uvec3& corners : casters.triangles) std::swap(corners.y, corners.z);
     return casters;
 }
 
@@ -70,7 +75,8 @@ PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int
     caster_at_ = inverse_of(of_scene_, scene.triangles.size());
     for (std::uint32_t caster = 0; caster < of_scene_.size(); ++caster)
         planes_.push_back(plane_before_eye(faces_.front(), caster));
-    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(faces_.front(), threads);
+    seen_ = seen_from_light(faces_.front(), map.model.culling);
+    if (!of_scene_.empty()) tracer_ = std::make_unique<Tracer>(seen_, threads);
 }
 
 void PerspectiveView::trace(std::span<const Texel> texels, const FoundTriangle& found) const {
@@ -79,7 +85,7 @@ void PerspectiveView::trace(std::span<const Texel> texels, const FoundTriangle& 
         return;
     }
     see_triangles(
-        *tracer_, range_of(faces_.front().camera), texels.size(),
+        *tracer_, range_of(seen_.camera), texels.size(),
         [&](std::size_t i) { return direction(texels[i]); },
         [&](std::size_t i, std::uint32_t seen) {
             found(i, seen == no_triangle ? no_triangle : of_scene_[seen]);
@@ -112,21 +118,19 @@ std::vector<FromLight> PerspectiveView::trace_to(std::span<const PointOnFace> po
     return found;
 }
 
-// The tracer's scene has wound its casters so that a side which is drawn is a front, and sees no
-// other. Few rays are not worth what see_triangles sets up.
+// Few rays are not worth what see_triangles sets up.
 std::vector<FromLight> PerspectiveView::met(std::span<const glm::dvec3> rays,
                                             const LiftedLimits& lifted) const {
     std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
     if (!tracer_) return found;
-    const Scene& casters = faces_.front();
-    const SeenRange range = lifted.range ? SeenRange{} : range_of(casters.camera);
+    const SeenRange range = lifted.range ? SeenRange{} : range_of(seen_.camera);
     const bool culls = model().culling != MapCulling::none && !lifted.culling;
     const auto any_ray = [&](std::size_t i) {
         return AnyRay{origin(), rays[i], range.near, range.far};
     };
     const auto keep = [&](std::size_t i, std::uint32_t caster) {
         if (caster == no_triangle) return;
-        const double depth = place_on_plane(any_ray(i), corners(casters, caster));
+        const double depth = place_on_plane(any_ray(i), corners(seen_, caster));
         found[i] = {of_scene_[caster], depth};
     };
     constexpr std::size_t few = 64;
@@ -139,7 +143,7 @@ std::vector<FromLight> PerspectiveView::met(std::span<const glm::dvec3> rays,
     any_rays.reserve(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) any_rays.push_back(any_ray(i));
     const auto counts = [&](std::uint32_t caster) {
-        return !culls || side(casters, caster, {origin(), 1}) > 0;
+        return !culls || side(seen_, caster, {origin(), 1}) > 0;
     };
     const std::vector<MetTriangle> first = first_met(*tracer_, any_rays, counts);
     for (std::size_t i = 0; i < first.size(); ++i) keep(i, first[i].triangle);

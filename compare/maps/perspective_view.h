@@ -34,7 +34,8 @@ private:
     std::vector<std::vector<glm::dvec3>> columns_;
     std::vector<std::vector<glm::dvec3>> rows_;
     std::vector<glm::dvec3> planes_;          ///< theirs, before the eye that all faces share
-    std::unique_ptr<Tracer> tracer_;          ///< of the first face's scene; null without casters
+    Scene seen_;                              ///< the first face's, whose culled sides are backs
+    std::unique_ptr<Tracer> tracer_;          ///< of that; null without casters
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
     mutable std::array<std::once_flag, 6> is_made_;
 

@@ -1,0 +1,55 @@
+// Set-up of faces that a border of the picture cuts: which thin triangles are left depends on the
+// order of corners in which a face is drawn.
+#include "compare/driver/setup_error.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace shadowproof {
+namespace {
+
+/// A triangle whose corner `beside` lies just beside the picture's right border.
+class CutFace : public testing::Test {
+protected:
+    const CoveredPixel pixel{{0.3, 0, -1}, 1, {.near = 0.1}};
+
+    /// Drawn in this order.
+    static Scene drawn(const glm::uvec3& order) {
+        Scene scene;
+        scene.camera.eye = {0, 0, 5};
+        scene.camera.tan_half_height = 0.3;
+        scene.camera.width = scene.camera.height = 640;
+        scene.positions = {{1.5002F, 0.1F, 0}, {-1.1F, 0.9F, -2}, {-0.7F, -1.2F, -7}};
+        scene.triangles = {order};
+        scene.lights.emplace_back();
+        return scene;
+    }
+
+    double error_of(const glm::uvec3& order) const { return setup_error(drawn(order), 0, pixel); }
+
+    double error_of_cap(Crossing::Part part, bool flipped,
+                        const std::vector<glm::vec3>* far) const {
+        return setup_error(drawn({0, 1, 2}), far, {.part = part, .triangle = 0, .flipped = flipped},
+                           pixel);
+    }
+};
+
+TEST_F(CutFace, has_another_thin_triangle_in_another_order) {
+    EXPECT_NE(error_of({0, 1, 2}), error_of({2, 1, 0}));
+    EXPECT_NE(error_of({0, 1, 2}), error_of({1, 0, 2}));
+}
+
+TEST_F(CutFace, of_a_light_cap_is_drawn_as_the_triangle_was_before_it_was_flipped) {
+    const auto cap = Crossing::Part::light_cap;
+    EXPECT_EQ(error_of_cap(cap, false, nullptr), error_of({0, 1, 2}));
+    EXPECT_EQ(error_of_cap(cap, true, nullptr), error_of({1, 0, 2}));
+}
+
+TEST_F(CutFace, of_a_dark_cap_is_drawn_from_the_other_side) {
+    const std::vector<glm::vec3> far = drawn({}).positions;
+    EXPECT_EQ(error_of_cap(Crossing::Part::dark_cap, false, &far), error_of({2, 1, 0}));
+}
+
+} // namespace
+} // namespace shadowproof
