@@ -70,6 +70,11 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
     if (technique.needs_environment)
         throw Error(file, "has no environment, and " + name + " is for those that do",
                     "leave the technique out, or give the file an extras.shadowproof.environment");
+    if (technique.squares_thrice && scene.highlight.exponent() != 8)
+        throw Error(file,
+                    "has highlights of the exponent " + std::to_string(scene.highlight.exponent()) +
+                        ", and those of " + name + " have 8",
+                    "leave the technique out, or extras.shadowproof.highlight.exponent at 8");
     throw Error(file, "has an environment, which " + name + " does not reflect",
                 "name bump_reflective, or take extras.shadowproof.environment out of the file");
 }

@@ -37,6 +37,7 @@ struct Technique {
     /// The numbers in which it tells apart the depths of volumes and surfaces; null: it counts no
     /// volumes.
     DepthModel (*depth_model)(const Scene& scene) = nullptr;
+    bool squares_thrice = false;          ///< its highlights have the exponent 8 alone
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
     /// The flags that affect it, but not all techniques; without their dashes.
     std::vector<std::string_view> settings = {};
@@ -51,8 +52,9 @@ inline bool is_for(const Technique& technique, Light::Kind kind) {
 /// Whether a technique is for such a scene; if not, it is left out unless requested by name.
 inline bool suits(const Technique& technique, const Scene& scene) {
     if (!is_for(technique, chosen_light(scene).kind)) return false;
-    return !technique.needs_bump_maps ||
-           (is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value());
+    if (!technique.needs_bump_maps) return true;
+    return is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value() &&
+           !(technique.squares_thrice && scene.highlight.exponent() != 8);
 }
 
 inline bool heeds(const Technique& technique, std::string_view setting) {

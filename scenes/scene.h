@@ -7,6 +7,7 @@
 #include "scenes/cause.h"
 #include "scenes/cube_map.h"
 #include "scenes/texture.h"
+#include "scenes/surface/highlight.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -114,6 +115,7 @@ struct Scene {
     glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
     bool inverse_square = false;        ///< extras.shadowproof.inverseSquare: the light's intensity
                                         ///< and distance count
+    Highlight highlight{};              ///< extras.shadowproof.highlight
     std::optional<CubeFaces<glm::vec3>> environment; ///< what such a scene's surfaces reflect, all
                                                      ///< around in world axes, linear: the same
                                                      ///< texels go to OpenGL

@@ -192,6 +192,9 @@ void set_light(const GlFunctions& gl, const Program& program, const Scene& scene
     gl.ProgramUniform1f(program.name(), 19, static_cast<float>(cone.scale));
     const bool has_place = light.kind != Light::Kind::directional;
     gl.ProgramUniform1i(program.name(), 20, inverse_square && has_place ? 1 : 0);
+    gl.ProgramUniform1i(program.name(), 25, by_light(scene.highlight.shadow) ? 1 : 0);
+    gl.ProgramUniform1i(program.name(), 26, by_half_angle(scene.highlight.shadow) ? 1 : 0);
+    gl.ProgramUniform1i(program.name(), 27, scene.highlight.squarings);
 }
 
 void set_material(const GlFunctions& gl, const Program& program, const LightingPass& pass,

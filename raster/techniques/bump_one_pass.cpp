@@ -10,8 +10,8 @@ namespace {
 /// and a sign. Vectors are normalised by a cube map; interpolated normals of the normal map are not
 /// normalised again.
 ///
-/// The combiners multiply the highlight by the self-shadowing of L too, which the three passes and
-/// the truth do not.
+/// The combiners multiply the highlight by the self-shadowing of L and by that of H; the rule has
+/// L's alone. Three squarings make its eighth power, and no other.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::combiners,
                                .normalisation = Normalisation::cube_map,
@@ -36,6 +36,7 @@ Technique bump_one_pass_technique() {
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
+            .squares_thrice = true,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
             .run = run};
 }

@@ -11,7 +11,8 @@ namespace {
 /// Vectors are normalised by a cube map; interpolated normals of the normal map are not normalised
 /// again.
 ///
-/// The diffuse pass clamps at 1 what the truth first multiplies by a darker decal.
+/// The diffuse pass clamps at 1 what the truth first multiplies by a darker decal. The pass of the
+/// highlight looks up H alone: H's self-shadowing dims it, not L's, which the rule has.
 Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
     using Step = LightingStep;
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::three_passes,

@@ -154,9 +154,11 @@ void light_some(const LaneLight& light, LightingLanes& lanes, int i) {
     store(of_light, lanes.self_shadow_light, i);
     store(of_half, lanes.self_shadow_half, i);
     store(hn::Mul(of_light, hn::Max(dot(to_light, bumped), zero)), lanes.diffuse, i);
-    Number power = hn::Max(dot(half, bumped), zero);
-    for (int squaring = 0; squaring < 3; ++squaring) power = hn::Mul(power, power);
-    store(hn::Mul(of_half, power), lanes.specular, i);
+    Number specular = hn::Max(dot(half, bumped), zero);
+    for (int k = 0; k < light.highlight.squarings; ++k) specular = hn::Mul(specular, specular);
+    if (by_light(light.highlight.shadow)) specular = hn::Mul(of_light, specular);
+    if (by_half_angle(light.highlight.shadow)) specular = hn::Mul(of_half, specular);
+    store(specular, lanes.specular, i);
 }
 
 } // namespace

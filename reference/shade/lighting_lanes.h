@@ -4,6 +4,7 @@
 #pragma once
 
 #include "reference/trace/packet.h"
+#include "scenes/surface/highlight.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -29,6 +30,7 @@ struct LaneLight {
     double cos_outer = 0;
     double cone_scale = 0; ///< as SpotCone::scale
     bool inverse_square = false;
+    Highlight highlight{};
 };
 
 /// Unused lanes may hold any values.

@@ -21,6 +21,7 @@ LaneLight lane_light(const Tracer::State& state) {
         lanes.to = glm::dvec4(glm::normalize(glm::dvec3(state.light)), 0);
     lanes.axis = light.direction;
     lanes.inverse_square = state.scene->inverse_square;
+    lanes.highlight = state.scene->highlight;
     lanes.spot = light.kind == Light::Kind::spot;
     if (lanes.spot) {
         const SpotCone cone = spot_cone(light);

@@ -27,8 +27,9 @@
 //     cos outer), 0, 1) for a spot, as KHR_lights_punctual recommends; and, where the scene asks
 //     for the inverse square, times its intensity, over the squared distance if it has a place.
 //  7. Terms. selfShadow(v) = clamp(8 v . N, 0, 1).
-//     diffuse = selfShadow(L) max(0, L . N'), specular = selfShadow(H) max(0, H . N')^8, the power
-//     by three squarings.
+//     diffuse = selfShadow(L) max(0, L . N'), specular = selfShadow(L) max(0, H . N')^8, the power
+//     by three squarings: the light's self-shadowing in both. A scene may say otherwise: that of H,
+//     of both or of none in the highlight, and another power of two as the exponent.
 //  8. Decal: the material's colour times the sampled decal's rgb (without one: the colour alone).
 //     Gloss: the sampled decal's alpha where the material says so, else 1.
 //  9. Colour = (visibility light diffuse + ambient) decal

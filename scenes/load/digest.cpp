@@ -76,6 +76,8 @@ void add_lighting(Hash& hash, const Scene& scene) {
     for (const glm::dvec3& v : {scene.ambient, light.color}) hash.add(v);
     for (const double v : {light.intensity, light.inner_cone}) hash.add(v);
     hash.add(scene.inverse_square);
+    hash.add(scene.highlight.shadow);
+    hash.add(scene.highlight.squarings);
     if (scene.environment) add_environment(hash, scene);
 }
 

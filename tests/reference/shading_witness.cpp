@@ -221,9 +221,13 @@ glm::dvec3 color_at(const Scene& scene, const glm::dvec3& direction, std::uint32
     const bool self_shadow = fault != Fault::no_self_shadow;
     const double diffuse =
         (self_shadow ? clamp01(8 * dot(l, n)) : 1) * std::max(0.0, dot(l, bumped));
-    const double specular =
-        (self_shadow ? clamp01(8 * dot(h, n)) : 1) *
-        std::pow(std::max(0.0, dot(h, bumped)), fault == Fault::exponent_9 ? 9 : 8);
+    const HighlightShadow dims = scene.highlight.shadow;
+    double specular = std::pow(std::max(0.0, dot(h, bumped)),
+                               fault == Fault::exponent_9 ? 9 : scene.highlight.exponent());
+    if (self_shadow && (dims == HighlightShadow::light || dims == HighlightShadow::both))
+        specular *= clamp01(8 * dot(l, n));
+    if (self_shadow && (dims == HighlightShadow::half_angle || dims == HighlightShadow::both))
+        specular *= clamp01(8 * dot(h, n));
 
     Numbers decal{1, 1, 1, 1};
     if (material.decal != no_texture) {

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace shadowproof {
 
@@ -22,9 +23,14 @@ enum class Steps : std::uint8_t {
 /// Which of the technique's differences from the truth are applied.
 struct Ways {
     Steps steps = Steps::none;
-    bool light_dims_highlight = false; ///< the highlight is multiplied by selfShadow(L)
+    /// Whose self-shadowing dims the highlight, where that is not as the scene has it.
+    std::optional<HighlightShadow> highlight_shadow{};
     bool clamps_early = false;         ///< colours and registers before the last are clamped
     ByteErrors bytes = llvmpipe_bytes; ///< of the colour buffer
+
+    HighlightShadow shadow(const LightingInputs& in) const {
+        return highlight_shadow.value_or(in.highlight.shadow);
+    }
 };
 
 /// `error`: how many steps a kept value may be off; half a step for the nearest.
@@ -68,9 +74,11 @@ Interval along_normal(const VectorRange& a) {
 Terms terms_of(const LightingInputs& in, const Ways& ways) {
     const Interval light_shadow = self_shadow(along_normal(in.light));
     const Interval diffuse = light_shadow * not_negative(dot(in.light, in.bump));
-    const Interval power = squared(squared(squared(not_negative(dot(in.half, in.bump)))));
-    Interval specular = self_shadow(along_normal(in.half)) * power;
-    if (ways.light_dims_highlight) specular = light_shadow * specular;
+    Interval specular = not_negative(dot(in.half, in.bump));
+    for (int k = 0; k < in.highlight.squarings; ++k) specular = squared(specular);
+    const HighlightShadow shadow = ways.shadow(in);
+    if (by_half_angle(shadow)) specular = self_shadow(along_normal(in.half)) * specular;
+    if (by_light(shadow)) specular = light_shadow * specular;
     return {rounded(diffuse), rounded(specular)};
 }
 
@@ -153,12 +161,13 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
     const Interval light_shadow = shadow(along_normal(light));
     // 1
     const Interval diffuse = q(not_negative(l_bump) * light_shadow);
-    const Interval dimmed = q((ways.light_dims_highlight ? light_shadow : around(1)) * gloss);
+    const HighlightShadow dims = ways.shadow(in);
+    const Interval dimmed = q((by_light(dims) ? light_shadow : around(1)) * gloss);
     const Interval power2 = q(squared(not_negative(h_bump)));
     // 2 and 3
     const Interval power4 = q(squared(not_negative(power2)));
     const Interval power8 = q(squared(not_negative(power4)));
-    const Interval half_shadow = shadow(along_normal(half));
+    const Interval half_shadow = by_half_angle(dims) ? shadow(along_normal(half)) : around(1);
     const Interval highlight = q(half_shadow * not_negative(power8));
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
@@ -200,7 +209,9 @@ Ways ways_of(const ColorModel& model) {
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
     if (arithmetic == ColorModel::Arithmetic::floating) return {};
     return {.steps = Steps::nearest,
-            .light_dims_highlight = arithmetic == ColorModel::Arithmetic::combiners,
+            .highlight_shadow = arithmetic == ColorModel::Arithmetic::combiners
+                                    ? HighlightShadow::both
+                                    : HighlightShadow::half_angle,
             .clamps_early = true,
             .bytes = model.bytes};
 }
@@ -268,7 +279,7 @@ ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
     inputs.bump = {around(length * middle(truth.bump.box))};
     weigh(ColorTerm::bump_length, inputs, {});
     weigh(ColorTerm::steps, truth, {.steps = own.steps, .bytes = own.bytes});
-    weigh(ColorTerm::self_shadow, truth, {.light_dims_highlight = own.light_dims_highlight});
+    weigh(ColorTerm::self_shadow, truth, {.highlight_shadow = own.highlight_shadow});
     weigh(ColorTerm::clamping, truth, {.clamps_early = own.clamps_early});
     const Intervals centre = color_of(arithmetic, claimed, {});
     const Intervals around_it = color_of(arithmetic, freed, {});

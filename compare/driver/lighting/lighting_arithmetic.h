@@ -12,7 +12,7 @@ enum class ColorTerm : std::uint8_t {
     bump_form,     ///< direction of perturbed normals that are stored and filtered in another form
     bump_length,   ///< length of perturbed normals that filtering leaves shorter or longer than 1
     steps,         ///< rounding to 8 bits per channel
-    self_shadow,   ///< the highlight is dimmed where the light grazes the surface
+    self_shadow,   ///< the highlight is dimmed by the self-shadowing of another vector
     clamping,      ///< values above 1 are clamped before the decal
     interpolation, ///< snapping, and rounding of interpolated values
 };

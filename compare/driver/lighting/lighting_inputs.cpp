@@ -172,6 +172,7 @@ LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point
     inputs.reflection = around(shading.reflection_color);
     inputs.specular = material.specular;
     inputs.ambient = scene.ambient;
+    inputs.highlight = scene.highlight;
     inputs.lit = shading.lit;
     return inputs;
 }

@@ -28,6 +28,7 @@ struct LightingInputs {
     Intervals reflection; ///< of the environment; 0 unless the model reflects it
     glm::dvec3 specular;  ///< colour
     glm::dvec3 ambient;
+    Highlight highlight; ///< as the scene has it
     bool lit = false;
 };
 

@@ -185,6 +185,7 @@ void add_surroundings(LightingInputs& inputs, const Scene& scene, const InputPoi
             reflection_range(scene, material, out_of(frame, inputs.bump), at, inputs.gloss);
     inputs.specular = material.specular;
     inputs.ambient = scene.ambient;
+    inputs.highlight = scene.highlight;
     inputs.lit = point.shading.lit;
 }
 

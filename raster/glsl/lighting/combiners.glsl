@@ -75,7 +75,7 @@ vec3 final_stage(Registers r) {
 }
 
 // The colour from vectors in tangent space. tex0.a, which dims rough texels of smaller mipmap
-// levels, is 1 at level 0. The highlight is multiplied by the self-shadowing of L too, as on the
+// levels, is 1 at level 0. The highlight is multiplied by the self-shadowing of L and of H, as on the
 // slides.
 vec3 combined(vec3 normal, vec3 l, vec3 h, vec4 decal, vec3 light, vec3 specular, vec3 ambient) {
     Registers r;

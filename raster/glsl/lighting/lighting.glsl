@@ -26,6 +26,9 @@ layout(location = 20) uniform bool inverse_square;
 layout(location = 22) uniform float slope_range;
 layout(location = 23) uniform vec3 ambient_color;
 layout(location = 24) uniform vec3 reflectance;
+layout(location = 25) uniform bool highlight_by_light; // whose self-shadowing dims the highlight
+layout(location = 26) uniform bool highlight_by_half_angle;
+layout(location = 27) uniform int highlight_squarings;
 
 const int bump_height_field = 1;
 const int bump_normal_map = 2;
@@ -124,10 +127,11 @@ float self_shadow(float cosine) {
     return clamp(8 * cosine, 0, 1);
 }
 
+// The power whose exponent is 2 to the number of squarings.
 float specular_power(float cosine) {
-    float square = cosine * cosine;
-    float fourth = square * square;
-    return fourth * fourth;
+    float power = cosine;
+    for (int i = 0; i < highlight_squarings; ++i) power *= power;
+    return power;
 }
 
 // L, V and H, as exactly normalised as normalised() does it.
@@ -157,13 +161,14 @@ vec3 arriving_light() {
 float diffuse_term(float l_normal, float l_perturbed) {
     return self_shadow(l_normal) * max(0, l_perturbed);
 }
-float specular_term(float h_normal, float h_perturbed) {
-    return self_shadow(h_normal) * specular_power(max(0, h_perturbed));
+float highlight_shadow(float l_normal, float h_normal) {
+    return (highlight_by_light ? self_shadow(l_normal) : 1) *
+           (highlight_by_half_angle ? self_shadow(h_normal) : 1);
 }
 
 vec3 lit_color(vec3 light, float l_normal, float l_perturbed, float h_normal, float h_perturbed) {
     float diffuse = diffuse_term(l_normal, l_perturbed);
-    float specular = specular_term(h_normal, h_perturbed);
+    float specular = highlight_shadow(l_normal, h_normal) * specular_power(max(0, h_perturbed));
     vec4 decal = decal();
     return light * (diffuse * decal.rgb + specular * decal.a * specular_color);
 }

@@ -82,8 +82,8 @@ Stage grazing_light() {
 }
 
 /// Light from the opposite side, as low as the eye: the half-angle vector stands upright, so H . N'
-/// is near 1 where L . N is hardly above 0. selfShadow(L) has no part in the specular term; a
-/// technique that multiplies by it dims these highlights.
+/// is near 1 where L . N is hardly above 0. selfShadow(L) dims these highlights; a technique that
+/// multiplies by selfShadow(H) in its place leaves them bright.
 Stage terminator_highlight() {
     Stage stage = lit_from_the_left("terminator_highlight",
                                     "Highlights where the light hardly reaches: it stands low "

@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace shadowproof::gltf {
@@ -169,11 +172,35 @@ void note_unevaluated(const MaterialSource& source, std::vector<std::string>& no
                                     source.place.pointer(), lighting));
 }
 
+void read_highlight(const Document& document, const json& look, Highlight& highlight) {
+    const json& given = find(look, {"extras", "shadowproof", "highlight"});
+    const Place place = document.root() / "extras" / "shadowproof" / "highlight";
+    if (const json& name = find(given, {"shadow"}); !name.is_null()) {
+        const auto* const found =
+            std::ranges::find(all_highlight_shadows, name.get<std::string>(),
+                              [](HighlightShadow shadow) { return name_of(shadow); });
+        if (found == all_highlight_shadows.end())
+            (place / "shadow")
+                .refuse(fmt::format("is \"{}\"", name.get<std::string>()),
+                        "choose light, half_angle, both or none");
+        highlight.shadow = *found;
+    }
+    if (const json& exponent = find(given, {"exponent"}); !exponent.is_null()) {
+        const auto value = exponent.get<unsigned>();
+        if (!std::has_single_bit(value))
+            (place / "exponent")
+                .refuse(fmt::format("is {}, which no squaring makes", value),
+                        fmt::format("take a power of two, up to {}", 1U << largest_squarings));
+        highlight.squarings = std::countr_zero(value);
+    }
+}
+
 void read_scene_extras(const Document& document, const json& look, Scene& scene) {
     const Place place = document.root() / "extras" / "shadowproof" / "ambient";
     if (const json& ambient = find(look, {"extras", "shadowproof", "ambient"}); !ambient.is_null())
         scene.ambient = read_color(place, ambient);
     scene.inverse_square = find(look, {"extras", "shadowproof", "inverseSquare"}) == true;
+    read_highlight(document, look, scene.highlight);
 }
 
 void read_environment(const Document& document, const json& look, TextureReader& textures,

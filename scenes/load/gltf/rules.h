@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenes/limits.h"
+#include "scenes/surface/highlight.h"
 
 #include <array>
 #include <cstdint>
@@ -146,6 +147,8 @@ inline constexpr std::array rules{
 inline constexpr std::array rules_of_lighting{
     numbers("extras?/shadowproof/ambient", 3),
     Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},
+    Rule{"extras?/shadowproof/highlight/shadow"},
+    whole("extras?/shadowproof/highlight/exponent", 1, 1U << largest_squarings),
     index("extras?/shadowproof/environment/faces!/*", "/textures"),
     numbers("materials/*/pbrMetallicRoughness/baseColorFactor", 4),
     index("materials/*/pbrMetallicRoughness/baseColorTexture/index!", "/textures"),

@@ -215,9 +215,62 @@ TEST(Colors, that_floats_do_not_hold_are_predicted) {
     }
 }
 
-TEST(Colors, one_pass_dims_highlights_near_the_terminator_and_three_passes_do_not) {
-    EXPECT_GT(colors_of("terminator_highlight", "bump_one_pass").beyond, 1000U);
-    EXPECT_EQ(colors_of("terminator_highlight", "bump_three_pass").beyond, 0U);
+/// The three passes dim highlights by the half-angle vector's self-shadowing in place of the
+/// light's, the one pass by both.
+TEST(Colors, three_passes_leave_highlights_bright_near_the_terminator_and_one_pass_dims_them) {
+    EXPECT_GT(colors_of("terminator_highlight", "bump_three_pass").beyond, 1000U);
+    EXPECT_EQ(colors_of("terminator_highlight", "bump_one_pass").beyond, 0U);
+}
+
+/// Whichever reading a file asks for, what has it is right, and what has not is `shading` at most.
+TEST(Colors, under_each_reading_of_the_rule_are_right_where_a_technique_has_that_reading) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const HighlightShadow shadow : all_highlight_shadows)
+        for (const int squarings : {0, 3, largest_squarings}) {
+            SCOPED_TRACE(std::string(name_of(shadow)) + ", " + std::to_string(squarings));
+            SceneRequest request;
+            request.width = request.height = 96;
+            Scene given = load_scene("terminator_highlight", request);
+            given.highlight = {shadow, squarings};
+            const TracedScene scene(std::move(given));
+            const auto colors = [&](const char* name) {
+                return check_colors(scene.tracer, scene.truth,
+                                    render(*find_technique(name), scene.scene, scene.plan, gpu));
+            };
+            for (const char* name : {"bump_tangent_space", "bump_eye_space"}) {
+                const ColorCheck floats = colors(name);
+                EXPECT_EQ(floats.unpredicted + floats.beyond, 0U) << name;
+            }
+            const ColorCheck three = colors("bump_three_pass");
+            EXPECT_EQ(three.unpredicted, 0U);
+            if (shadow == HighlightShadow::half_angle) {
+                EXPECT_EQ(three.beyond, 0U);
+            }
+            if (squarings == 3) {
+                const ColorCheck one = colors("bump_one_pass");
+                EXPECT_EQ(one.unpredicted, 0U);
+                if (shadow == HighlightShadow::half_angle) {
+                    EXPECT_GT(one.beyond, 100U);
+                }
+            } else {
+                EXPECT_FALSE(suits(*find_technique("bump_one_pass"), scene.scene));
+            }
+        }
+}
+
+/// A technique that drew by another reading, or with another exponent, than the file asks for.
+TEST(Colors, of_another_reading_than_the_files_are_unexplained) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("terminator_highlight", 96);
+    for (const Highlight other :
+         {Highlight{HighlightShadow::half_angle, 3}, Highlight{HighlightShadow::none, 3},
+          Highlight{HighlightShadow::light, 2}, Highlight{HighlightShadow::light, 4}}) {
+        Scene drawn = scene.scene;
+        drawn.highlight = other;
+        const Frame frame = render(*find_technique("bump_tangent_space"), drawn, scene.plan, gpu);
+        EXPECT_GT(check_colors(scene.tracer, scene.truth, frame).unpredicted, 100U)
+            << name_of(other.shadow) << ", " << other.exponent();
+    }
 }
 
 TEST(Colors, three_passes_clamp_bright_light_before_the_decal_and_one_pass_hardly_does) {
@@ -226,10 +279,10 @@ TEST(Colors, three_passes_clamp_bright_light_before_the_decal_and_one_pass_hardl
     EXPECT_GT(three.beyond, 100 * one.beyond);
 }
 
-TEST(Colors, a_pixel_of_the_terminator_owes_most_of_its_difference_to_the_dimmed_highlight) {
+TEST(Colors, a_pixel_of_the_terminator_owes_most_of_its_difference_to_the_undimmed_highlight) {
     Gpu gpu(GlPlatform::osmesa);
     const TracedScene& scene = traced("terminator_highlight", 256);
-    const Frame frame = render(*find_technique("bump_one_pass"), scene.scene, scene.plan, gpu);
+    const Frame frame = render(*find_technique("bump_three_pass"), scene.scene, scene.plan, gpu);
     const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
     const ColorAccount account =
         account_for_color(scene.tracer, scene.truth, frame, colors.largest_x, colors.largest_y);

@@ -63,6 +63,7 @@ json everything() {
                                      {"specular", {1, 1, 0}}}}}}});
     gltf["extras"]["shadowproof"] = {{"ambient", {0, 0, 1}},
                                      {"inverseSquare", true},
+                                     {"highlight", {{"shadow", "both"}, {"exponent", 16}}},
                                      {"environment", {{"faces", {0, 0, 0, 1, 1, 1}}}}};
     gltf["materials"][0]["extras"]["shadowproof"]["reflectance"] = {1, 0, 1};
     json second = gltf["meshes"][0]["primitives"][0];

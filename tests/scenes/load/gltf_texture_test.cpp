@@ -95,6 +95,8 @@ TEST(extras, say_specular_colour_gloss_ambient_and_falloff) {
     EXPECT_FALSE(plain.materials[0].gloss_in_alpha);
     EXPECT_EQ(plain.ambient, glm::dvec3(0));
     EXPECT_FALSE(plain.inverse_square);
+    EXPECT_EQ(plain.highlight, Highlight{});
+    EXPECT_EQ(plain.highlight.exponent(), 8);
     gltf["extras"]["shadowproof"] = {{"ambient", {0.1, 0.2, 0.3}}, {"inverseSquare", true}};
     gltf["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
     gltf["materials"][0]["extras"]["shadowproof"] = {{"specular", {0.4, 0.5, 0.6}},
@@ -104,6 +106,24 @@ TEST(extras, say_specular_colour_gloss_ambient_and_falloff) {
     EXPECT_TRUE(scene.materials[0].gloss_in_alpha);
     EXPECT_EQ(scene.ambient, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_TRUE(scene.inverse_square);
+}
+
+TEST(extras, say_how_highlights_are_dimmed_and_their_exponent) {
+    json gltf = textured_gltf();
+    json& highlight = gltf["extras"]["shadowproof"]["highlight"];
+    for (const HighlightShadow shadow : all_highlight_shadows)
+        for (int squarings = 0; squarings <= largest_squarings; ++squarings) {
+            highlight = {{"shadow", name_of(shadow)}, {"exponent", 1 << squarings}};
+            EXPECT_EQ(load(gltf).highlight, (Highlight{shadow, squarings}));
+        }
+    highlight = {{"exponent", 9}};
+    EXPECT_NE(refusal(gltf).find("/extras/shadowproof/highlight/exponent: is 9"),
+              std::string::npos);
+    highlight = {{"exponent", 256}};
+    EXPECT_NE(refusal(gltf).find("/extras/shadowproof/highlight/exponent"), std::string::npos);
+    highlight = {{"shadow", "sun"}};
+    EXPECT_NE(refusal(gltf).find("/extras/shadowproof/highlight/shadow: is \"sun\""),
+              std::string::npos);
 }
 
 /// Six faces of 2 x 2 texels, of one gray each.
