@@ -1,5 +1,7 @@
 #include "raster/render.h"
 
+#include "raster/maps/map_shadows.h"
+#include "raster/volumes/stencil.h"
 #include "scenes/error.h"
 
 #include <algorithm>
@@ -81,11 +83,25 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 
 } // namespace
 
+Frame draw_with(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan) {
+    if (technique.map != nullptr) {
+        MapRecipe recipe = technique.map();
+        if (technique.lighting != nullptr) recipe.lighting = technique.lighting(plan);
+        return draw_map_shadows(gpu, scene, plan, recipe);
+    }
+    if (technique.recipe == nullptr) return technique.run(gpu, scene, plan);
+    StencilRecipe recipe = technique.recipe(scene, plan);
+    if (technique.lighting != nullptr) recipe.lighting = technique.lighting(plan);
+    Frame frame = draw_stencil_shadows(gpu, scene, recipe);
+    if (technique.remark != nullptr) technique.remark(gpu, technique, scene, plan, frame);
+    return frame;
+}
+
 Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
     if (!suits(technique, scene)) refuse_scene(technique, scene);
     require_drawable(gpu.driver());
     gpu.make_current();
-    Frame frame = technique.run(gpu, scene, plan);
+    Frame frame = draw_with(gpu, technique, scene, plan);
     require_picture(frame, scene, technique.name);
     return frame;
 }

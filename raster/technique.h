@@ -17,6 +17,9 @@
 namespace shadowproof {
 
 class Gpu;
+struct LightingRecipe;
+struct MapRecipe;
+struct StencilRecipe;
 
 struct Technique {
     std::string_view name;    ///< "zfail_reversed"
@@ -41,6 +44,16 @@ struct Technique {
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
     /// The flags that affect it, but not all techniques; without their dashes.
     std::vector<std::string_view> settings = {};
+    /// How it counts, if it is one of stencil shadow volumes.
+    StencilRecipe (*recipe)(const Scene& scene, const Plan& plan) = nullptr;
+    bool counts_in_sum = false;   ///< not in a stencil, by which bumps could be lit
+    MapRecipe (*map)() = nullptr; ///< if it draws a shadow map
+    /// How it lights bumps; null: it shows visibility alone.
+    LightingRecipe (*lighting)(const Plan& plan) = nullptr;
+    /// Tells more of a frame that its recipe drew: what it leaves out, what that saves.
+    void (*remark)(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan,
+                   Frame& frame) = nullptr;
+    /// Draws or traces a scene, where there is no recipe.
     Frame (*run)(Gpu& gpu, const Scene& scene, const Plan& plan) = nullptr;
 };
 
@@ -65,7 +78,13 @@ inline bool heeds(const Technique& technique, std::string_view setting) {
 /// All techniques in the order of the registry, techniques.inc.
 std::span<const Technique> all_techniques();
 
-/// Null where no technique has that name.
+/// One that lights bumps, joined by + with one that counts volumes in a stencil, or asks a map that
+/// is not filtered, is a technique too: "bump_three_pass+zpass". Null where no technique has that
+/// name.
 const Technique* find_technique(std::string_view name);
+
+/// The names of those that may stand before a +, and behind it.
+std::vector<std::string_view> lighting_techniques();
+std::vector<std::string_view> shadowing_techniques();
 
 } // namespace shadowproof

@@ -33,6 +33,7 @@ ColorTerm heaviest(const ColorTerms& weights) {
 /// Sums over a row, so that they come out the same for any number of threads.
 struct RowSums {
     double squares = 0;
+    double squares_elsewhere = 0; ///< where surface or visibility are not the truth's
     std::uint64_t interpolated = 0;
     std::uint64_t unpredicted = 0;
     std::array<std::uint64_t, all_color_terms.size()> beyond_by{};
@@ -45,8 +46,40 @@ bool is_unpredicted(ColorVerdict verdict) {
     return verdict == ColorVerdict::unpredicted || verdict == ColorVerdict::unexplained;
 }
 
-RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& shader,
-                  ColorCheck& check, Image<float>& widths) {
+/// What is truly seen at each pixel.
+struct TruePicture {
+    const Camera& camera;
+    const GroundTruth& truth;
+
+    bool is_background(int x, int y) const { return truth.triangle.at(x, y) == no_triangle; }
+    SeenPoint seen(int x, int y) const {
+        return {ray_direction(camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
+                truth.visibility.at(x, y) == Visibility::lit};
+    }
+};
+
+/// Of the pixels of a row whose colour is only held against what they show, the squared differences
+/// from the true colours.
+double squares_elsewhere(const ColorJudge& judge, const TruePicture& picture, int y,
+                         RayShader& shader, const ColorCheck& check) {
+    double squares = 0;
+    for (int x = 0; x < check.verdict.width; ++x) {
+        if (check.verdict.at(x, y) != ColorVerdict::as_shown) continue;
+        glm::dvec3 right(0);
+        if (!picture.is_background(x, y)) {
+            const SeenPoint seen = picture.seen(x, y);
+            Shading shading;
+            shader.shade({&seen, 1}, {&shading, 1});
+            right = showable(check.model, shading.color());
+        }
+        const glm::dvec3 off = 255.0 * (judge.claim(x, y) - right);
+        squares += glm::dot(off, off);
+    }
+    return squares;
+}
+
+RowSums check_row(const ColorJudge& judge, const TruePicture& picture, int y, Scrutiny scrutiny,
+                  RayShader& shader, ColorCheck& check, Image<float>& widths) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
     RowSums sums;
@@ -84,6 +117,7 @@ RowSums check_row(const ColorJudge& judge, int y, Scrutiny scrutiny, RayShader& 
             ++sums.beyond_by[static_cast<std::size_t>(term)];
         }
     }
+    sums.squares_elsewhere = squares_elsewhere(judge, picture, y, shader, check);
     return sums;
 }
 
@@ -133,6 +167,7 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     const int width = frame.color.width;
     const int height = frame.color.height;
     const ColorJudge judge(tracer, truth, frame);
+    const TruePicture picture{tracer.scene().camera, truth};
     ColorCheck check;
     check.model = frame.color_model;
     check.error = Image<float>(width, height);
@@ -149,20 +184,23 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
             if (!shader) shader = std::make_unique<RayShader>(tracer);
             const int y = first + i;
             rows[static_cast<std::size_t>(y)] =
-                check_row(judge, y, scrutiny, *shader, check, widths);
+                check_row(judge, picture, y, scrutiny, *shader, check, widths);
         });
         for (int i = 0; i < count; ++i)
             unpredicted += rows[static_cast<std::size_t>(first + i)].unpredicted;
     }
     count(check, widths);
     double squares = 0;
+    double all_squares = 0;
     for (const RowSums& row : rows) {
         squares += row.squares;
+        all_squares += row.squares + row.squares_elsewhere;
         check.interpolated += row.interpolated;
         for (std::size_t i = 0; i < row.beyond_by.size(); ++i)
             check.beyond_by[i] += row.beyond_by[i];
     }
     if (check.judged > 0) check.rmse = std::sqrt(squares / (3 * static_cast<double>(check.judged)));
+    check.picture_rmse = std::sqrt(all_squares / (3.0 * width * height));
     return check;
 }
 
@@ -173,9 +211,8 @@ ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, c
     ColorAccount account;
     account.claim = judge.claim(x, y);
     RayShader shader(tracer);
-    if (truth.triangle.at(x, y) != no_triangle) {
-        const SeenPoint seen{ray_direction(tracer.scene().camera, x + 0.5, y + 0.5),
-                             truth.triangle.at(x, y), truth.visibility.at(x, y) == Visibility::lit};
+    if (const TruePicture picture{tracer.scene().camera, truth}; !picture.is_background(x, y)) {
+        const SeenPoint seen = picture.seen(x, y);
         shader.shade({&seen, 1}, {&account.truth, 1});
     }
     account.showable = showable(model, account.truth.color());

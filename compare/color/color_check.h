@@ -41,6 +41,7 @@ struct ColorCheck {
     int largest_x = 0;              ///< its pixel: column; the first in rows from the top
     int largest_y = 0;              ///< and row
     double rmse = 0;                ///< over the channels of all judged pixels
+    double picture_rmse = 0;        ///< over those of all pixels: what wrong visibility costs, too
     double percentile999 = 0;       ///< 99.9 % of the judged pixels' errors are no larger
     std::uint64_t beyond = 0;       ///< pixels of that verdict
     std::uint64_t unpredicted = 0;  ///< pixels of that verdict, and those that are unexplained

@@ -5,6 +5,7 @@
 #include "scenes/load/catalog.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -100,6 +101,10 @@ std::string as_text() {
         add("cost", fmt::format("{:.2f} x zfail_reversed", technique.cost));
         add("source", technique.source);
     }
+    text +=
+        "  Any that lights bumps may be joined by + with any that counts volumes in a stencil,\n"
+        "  or asks a map that is not filtered: bump_one_pass+zpass_capped lights as the first\n"
+        "  where the second finds no shadow.\n";
     text += "\nCauses\n";
     for (const CauseWords& words : all_causes)
         text += fmt::format("  {:<{}}{}\n", words.name, width, words.meaning);

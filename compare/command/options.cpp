@@ -5,6 +5,7 @@
 #include "scenes/load/common/nearest_name.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -68,8 +69,11 @@ const Technique* parse_technique(const std::string& name) {
     for (const Technique& each : all_techniques()) names.emplace_back(each.name);
     if (technique == nullptr)
         throw CLI::ValidationError("--technique",
-                                   fmt::format("there is no technique '{}'{}; there are {}", name,
-                                               did_you_mean(name, names), technique_names()));
+                                   fmt::format("there is no technique '{}'{}; there are {}; and "
+                                               "each of {}, joined by + with one of {}",
+                                               name, did_you_mean(name, names), technique_names(),
+                                               fmt::join(lighting_techniques(), ", "),
+                                               fmt::join(shadowing_techniques(), ", ")));
     return technique;
 }
 

@@ -49,7 +49,7 @@ std::string no_longer_provoked_words(const SceneResult& scene);
 /// system and URL takes.
 std::string folder_of(const SceneResult& scene);
 
-/// "colour off by 1.04/255 at most (rmse 0.31, 99.9 % within 0.92)"
+/// "colour off by 1.04/255 at most (rmse 0.31, 99.9 % within 0.92; of the whole picture rmse 4.5)"
 std::string words_of(const ColorCheck& colors);
 
 /// Names of files that every report has, besides manifest.json.

@@ -34,6 +34,7 @@ Json color_of(const ColorCheck& colors) {
     Json json{{"judged", colors.judged},
               {"largest", colors.largest},
               {"rmse", colors.rmse},
+              {"picture_rmse", colors.picture_rmse},
               {"p999", colors.percentile999},
               {"beyond", colors.beyond},
               {"unpredicted", colors.unpredicted},

@@ -156,6 +156,7 @@ void color(const JsonPlace& place) {
                    {"largest", number},
                    {"largest_at", place_in_picture, Need::optional},
                    {"rmse", number},
+                   {"picture_rmse", number, Need::optional},
                    {"p999", number},
                    {"beyond", count},
                    {"beyond_by", beyond_by, Need::optional},

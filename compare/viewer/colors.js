@@ -40,13 +40,15 @@ function boundWords({ bound_width: width, interpolated, beyond_by: by }) {
 function colorLine(scene, cell) {
   const { color } = cell;
   if (!color) return null;
-  const { largest, largest_at: at, rmse, p999 } = color;
+  const { largest, largest_at: at, rmse, p999, picture_rmse: whole } = color;
   return element('p', { class: 'colors' }, element('b', {}, 'Colours: '),
     !at ? 'none is held against the truth, as surface or visibility are nowhere that; '
         : [`off by at most ${largest.toFixed(2)}/255 at `,
            element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
                    `(${at.x}, ${at.y})`),
            `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}; `],
+    whole === undefined ? ''
+      : `of the whole picture, wrong shadows included, rmse ${whole.toFixed(2)}; `,
     at ? boundWords(color) : '', `${modelWords(color)}.`);
 }
 

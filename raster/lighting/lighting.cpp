@@ -245,6 +245,9 @@ LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipT
     const std::array stages{shader_file("lit.vert"), ShaderText{step.fragment.file, fragment}};
     LightingProgram made{link(gl, stages), step.where, step.blend};
     set_transform(gl, made.program, transform);
+    const TwoFloats eye = split(scene.camera.eye);
+    gl.ProgramUniform3fv(made.program.name(), 28, 1, glm::value_ptr(eye.high));
+    gl.ProgramUniform3fv(made.program.name(), 29, 1, glm::value_ptr(eye.low));
     const glm::mat3 rounded(axes);
     gl.ProgramUniformMatrix3fv(made.program.name(), 5, 1, GL_FALSE, glm::value_ptr(rounded));
     set_light(gl, made.program, scene, axes);

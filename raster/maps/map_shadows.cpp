@@ -4,6 +4,8 @@
 #include "raster/maps/offset_unit.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace shadowproof {
@@ -98,6 +100,25 @@ void draw_into_stencil(const GlFunctions& gl, const Program& shadow, const Targe
     check(gl, "drawing a map's shadows into the stencil");
 }
 
+/// Keeps in the stencil, as 1, what the claim does not show as lit, so that lighting leaves it out.
+void keep_claim_in_stencil(const GlFunctions& gl, const Program& program, const Target& target) {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.lighting.name());
+    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilMask(~0U);
+    constexpr GLint nothing = 0;
+    gl.ClearNamedFramebufferiv(target.lighting.name(), GL_STENCIL, 0, &nothing);
+    gl.StencilFunc(GL_ALWAYS, 1, ~0U);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    gl.Disable(GL_CULL_FACE);
+    gl.UseProgram(program.name());
+    gl.BindTextureUnit(0, target.claim.name());
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.Enable(GL_DEPTH_TEST);
+    check(gl, "keeping a map's claim in the stencil");
+}
+
 /// What is drawn with, made once.
 struct Frames {
     const GlFunctions& gl;
@@ -110,6 +131,9 @@ struct Frames {
     Program light;    ///< asks the map, or the stencil
     bool in_stencil = false;
     VisibleDepths visible;
+    const Scene& drawn;
+    Program not_lit{};
+    std::optional<LightingPass> lighting{};
 
     Frames(Gpu& gpu, const Scene& scene, const MapModel& model, const MapRecipe& recipe)
         : gl(gpu.gl()), depth_model(eye_depth_model(scene)),
@@ -117,7 +141,8 @@ struct Frames {
           geometry(upload(gl, scene, {})),
           map(make_map_pass(gl, scene, geometry, model, recipe.making)),
           in_stencil(recipe.in_stencil), visible{static_cast<float>(scene.camera.near),
-                                                 static_cast<float>(scene.camera.far)} {
+                                                 static_cast<float>(scene.camera.far)},
+          drawn(scene) {
         surface = link_projection(gl, "surface.frag", clip_transform(scene, depth_model), geometry);
         const auto link_pass = [&](std::string_view shader) {
             return link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
@@ -126,6 +151,14 @@ struct Frames {
         light = link_pass(in_stencil ? "light.frag" : light_shader(model));
         if (in_stencil) shadow = link_pass("map_stencil_spot.frag");
         set_test(gl, in_stencil ? shadow : light, scene, model);
+        if (recipe.lighting) {
+            add_color(gl, target,
+                      recipe.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
+            const std::array stages{shader_file("whole_picture.vert"), shader_file("not_lit.frag")};
+            not_lit = link(gl, stages);
+            lighting =
+                make_lighting_pass(gl, scene, clip_transform(scene, depth_model), *recipe.lighting);
+        }
         check(gl, "making the passes");
     }
 
@@ -141,6 +174,11 @@ struct Frames {
         gl.BindTextureUnit(2, 0);
         gl.BindTextureUnit(3, 0);
         clock.end("classes");
+        if (!lighting) return;
+        keep_claim_in_stencil(gl, not_lit, target);
+        draw_lighting(gl, *lighting, drawn, target);
+        gl.BindVertexArray(geometry.vertices.name());
+        clock.end("lighting");
     }
 };
 
@@ -148,12 +186,18 @@ struct Frames {
 
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
     const MapModel model = with_settings(recipe.model, plan.asked.map, scene);
+    assert(!recipe.lighting || model.filter == 0);
     Frames frames(gpu, scene, model, recipe);
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
     compile_all(gl, draw);
     const FrameTime time = quickest_frame(gl, true, draw); // results tell the map's own time
     Frame frame = read_back(gl, frames.target, Counter::none);
+    if (recipe.lighting) {
+        frame.color = read_color(gl, frames.target);
+        frame.color_model = recipe.lighting->model;
+        frame.color_model.bytes = gpu.byte_errors();
+    }
     frame.family = "map";
     frame.mapped =
         MapEvidence{.model = model,

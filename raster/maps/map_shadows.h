@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/gl/context.h"
+#include "raster/lighting/lighting.h"
 #include "raster/maps/map_pass.h"
 #include "scenes/cause.h"
 #include "scenes/frame.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +24,8 @@ struct MapRecipe {
     /// What the map shows to be shadowed is drawn into the stencil buffer first, from which the
     /// light pass reads it. Spots alone.
     bool in_stencil = false;
+    /// Colours in addition to the claim: only of bump-lit scenes, and where no block is filtered.
+    std::optional<LightingRecipe> lighting{};
 };
 
 /// A spot's map as in the source documents: window depths of 24 bits.

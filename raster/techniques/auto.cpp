@@ -1,3 +1,4 @@
+#include "raster/render.h"
 #include "raster/technique.h"
 #include "raster/volumes/stencil.h"
 #include "scenes/mesh/topology.h"
@@ -93,36 +94,48 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
 
 /// zfail_reversed without what this scene does not need of it: caster by caster, its volume, a cap,
 /// or the search behind the surface.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+StencilRecipe recipe_by(const Scene& scene, const Plan& plan,
+                        const std::vector<CasterPlan>& plans) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.extruder = by_half_edges;
+    made.sides = VolumeFaces::Sides::half_edges;
+    made.counting.dark_cap = true;
+    made.counting.casters = counted_as(scene, plans);
+    if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
+        // Faces past the far plane are not counted.
+        made.counting.test = Counting::Test::depth_pass;
+        made.depth_model.projection = DepthModel::Projection::finite_reversed;
+        made.depth_model.far = finite_far(scene);
+    }
+    made.hidden_caps = certain_surfaces(scene, made.depth_model.finite());
+    return made;
+}
+
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    return recipe_by(scene, plan, plan_casters(scene));
+}
+
+/// Plans once more, to tell how long that takes, and draws the scene without a plan.
+void remark(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan,
+            Frame& frame) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const std::vector<CasterPlan> plans = plan_casters(scene);
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.extruder = by_half_edges;
-    recipe.sides = VolumeFaces::Sides::half_edges;
-    recipe.counting.dark_cap = true;
-    recipe.counting.casters = counted_as(scene, plans);
-    if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
-        // Faces past the far plane are not counted.
-        recipe.counting.test = Counting::Test::depth_pass;
-        recipe.depth_model.projection = DepthModel::Projection::finite_reversed;
-        recipe.depth_model.far = finite_far(scene);
-    }
-    recipe.hidden_caps = certain_surfaces(scene, recipe.depth_model.finite());
+    const StencilRecipe planned = recipe_by(scene, plan, plans);
     const Clock::duration planning = Clock::now() - start;
-    Frame frame = draw_stencil_shadows(gpu, scene, recipe);
-    frame.left_out = left_out(scene, plans, recipe.hidden_caps);
+    frame.left_out = left_out(scene, plans, planned.hidden_caps);
 
     const Technique* whole = find_technique("zfail_reversed");
     assert(whole != nullptr);
-    const Frame spent = whole->run(gpu, scene, plan);
+    Technique lit = *whole;
+    lit.lighting = technique.lighting;
+    const Frame spent = draw_with(gpu, lit, scene, plan);
     frame.counted->saved = {
         .against = std::string(whole->name),
         .milliseconds = spent.milliseconds - frame.milliseconds,
         .volume_fragments = static_cast<std::int64_t>(spent.counted->volume_fragments) -
                             static_cast<std::int64_t>(frame.counted->volume_fragments),
         .plan_milliseconds = std::chrono::duration<double, std::milli>(planning).count()};
-    return frame;
 }
 
 } // namespace
@@ -135,7 +148,8 @@ Technique auto_technique() {
             .cost = 0.81,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe,
+            .remark = remark};
 }
 
 } // namespace shadowproof

@@ -9,12 +9,11 @@ namespace {
 /// a height field's slopes, N' = N + h_u (N x P_v) + h_v (P_u x N), or by a normal map's normal,
 /// transformed to eye space. Ambient light everywhere, the rest where the stencil of zfail_reversed
 /// is zero.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
-                       .model =
-                           with_settings({.axes = ColorModel::Axes::eye}, plan.asked.lighting)};
-    return draw_stencil_shadows(gpu, scene, recipe);
+LightingRecipe lighting(const Plan& plan) {
+    LightingRecipe made{.steps = add_lit_to_ambient(shader_file("bump_eye_space.frag")),
+                        .model =
+                            with_settings({.axes = ColorModel::Axes::eye}, plan.asked.lighting)};
+    return made;
 }
 
 } // namespace
@@ -29,7 +28,8 @@ Technique bump_eye_space_technique() {
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
-            .run = run};
+            .recipe = zfail_reversed_recipe,
+            .lighting = lighting};
 }
 
 } // namespace shadowproof

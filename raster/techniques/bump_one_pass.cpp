@@ -12,16 +12,15 @@ namespace {
 ///
 /// The combiners multiply the highlight by the self-shadowing of L and by that of H; the rule has
 /// L's alone. Three squarings make its eighth power, and no other.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+LightingRecipe lighting(const Plan& plan) {
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::combiners,
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map};
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.steps = {{.fragment = shader_file("ambient.frag")},
-                                 {.fragment = shader_file("bump_combiners.frag"),
-                                  .where = LightingStep::Where::lit}},
-                       .model = with_settings(model, plan.asked.lighting)};
-    return draw_stencil_shadows(gpu, scene, recipe);
+    LightingRecipe made{.steps = {{.fragment = shader_file("ambient.frag")},
+                                  {.fragment = shader_file("bump_combiners.frag"),
+                                   .where = LightingStep::Where::lit}},
+                        .model = with_settings(model, plan.asked.lighting)};
+    return made;
 }
 
 } // namespace
@@ -38,7 +37,8 @@ Technique bump_one_pass_technique() {
             .depth_model = reversed_depths,
             .squares_thrice = true,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
-            .run = run};
+            .recipe = zfail_reversed_recipe,
+            .lighting = lighting};
 }
 
 } // namespace shadowproof

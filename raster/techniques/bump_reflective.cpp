@@ -8,12 +8,11 @@ namespace {
 /// As bump_tangent_space and, added to it whether lit or not, the reflection of the scene's
 /// environment: the perturbed normal transformed to world space, the eye's direction mirrored at
 /// it, and a dependent lookup, all per pixel.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
-                       .model = with_settings({.reflects = true}, plan.asked.lighting)};
-    recipe.lighting->steps.push_back(add_reflection(shader_file("bump_reflection.frag")));
-    return draw_stencil_shadows(gpu, scene, recipe);
+LightingRecipe lighting(const Plan& plan) {
+    LightingRecipe made{.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
+                        .model = with_settings({.reflects = true}, plan.asked.lighting)};
+    made.steps.push_back(add_reflection(shader_file("bump_reflection.frag")));
+    return made;
 }
 
 } // namespace
@@ -29,7 +28,8 @@ Technique bump_reflective_technique() {
             .needs_environment = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
-            .run = run};
+            .recipe = zfail_reversed_recipe,
+            .lighting = lighting};
 }
 
 } // namespace shadowproof

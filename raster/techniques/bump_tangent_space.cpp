@@ -13,11 +13,10 @@ namespace {
 /// two quantities that are linear over a triangle is not linear, so that is right only where the
 /// triangle's three frames are equal. Here the frame and the vectors are interpolated, not
 /// normalised, and multiplied per pixel.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
-                       .model = with_settings({}, plan.asked.lighting)};
-    return draw_stencil_shadows(gpu, scene, recipe);
+LightingRecipe lighting(const Plan& plan) {
+    LightingRecipe made{.steps = add_lit_to_ambient(shader_file("bump_tangent_space.frag")),
+                        .model = with_settings({}, plan.asked.lighting)};
+    return made;
 }
 
 } // namespace
@@ -32,7 +31,8 @@ Technique bump_tangent_space_technique() {
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
-            .run = run};
+            .recipe = zfail_reversed_recipe,
+            .lighting = lighting};
 }
 
 } // namespace shadowproof

@@ -13,13 +13,12 @@ namespace {
 ///
 /// The diffuse pass clamps at 1 what the truth first multiplies by a darker decal. The pass of the
 /// highlight looks up H alone: H's self-shadowing dims it, not L's, which the rule has.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+LightingRecipe lighting(const Plan& plan) {
     using Step = LightingStep;
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::three_passes,
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map};
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.lighting = {
+    LightingRecipe made{
         .steps = {{.fragment = shader_file("ambient_alone.frag")},
                   {.fragment = shader_file("bump_diffuse.frag"), .where = Step::Where::lit},
                   {.fragment = shader_file("decal.frag"), .blend = Step::Blend::multiply},
@@ -27,7 +26,7 @@ Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
                    .where = Step::Where::lit,
                    .blend = Step::Blend::add}},
         .model = with_settings(model, plan.asked.lighting)};
-    return draw_stencil_shadows(gpu, scene, recipe);
+    return made;
 }
 
 } // namespace
@@ -43,7 +42,8 @@ Technique bump_three_pass_technique() {
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
-            .run = run};
+            .recipe = zfail_reversed_recipe,
+            .lighting = lighting};
 }
 
 } // namespace shadowproof

@@ -7,10 +7,10 @@ namespace {
 
 /// zpass with a counter of one bit: each face inverts the stencil. Right where volumes do not
 /// overlap.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    StencilRecipe recipe = zpass_recipe(scene);
-    recipe.counting.operation = Counting::Operation::invert;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe made = zpass_recipe(scene);
+    made.counting.operation = Counting::Operation::invert;
+    return made;
 }
 
 } // namespace
@@ -25,7 +25,7 @@ Technique invert_technique() {
                          Cause::open_mesh, Cause::light_inside},
             .by_nature = {Cause::parity},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

@@ -8,11 +8,9 @@ namespace {
 /// Counts volume faces behind the visible surface, so an eye in shadow is no special case, but the
 /// far plane clips: s(surface) - s(far plane). It clips the whole dark cap, which is therefore not
 /// drawn.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    return draw_stencil_shadows(
-        gpu, scene,
-        {.counting = {.test = Counting::Test::depth_fail, .dark_cap = false},
-         .depth_model = finite_depths(scene)});
+StencilRecipe recipe(const Scene& scene, const Plan& /*plan*/) {
+    return {.counting = {.test = Counting::Test::depth_fail, .dark_cap = false},
+            .depth_model = finite_depths(scene)};
 }
 
 } // namespace
@@ -26,7 +24,7 @@ Technique zfail_technique() {
             .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::light_inside},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

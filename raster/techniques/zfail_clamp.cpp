@@ -7,10 +7,10 @@ namespace {
 
 /// Counts volume faces behind the visible surface; depth clamping keeps faces past the far plane,
 /// so the whole volume is counted. Where no volume reaches that plane, nothing is clamped.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
     DepthModel depth_model = finite_depths(scene);
     depth_model.clamp = plan.volume_meets_far;
-    return draw_stencil_shadows(gpu, scene, zfail_recipe(plan, depth_model));
+    return zfail_recipe(plan, depth_model);
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique zfail_clamp_technique() {
             .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

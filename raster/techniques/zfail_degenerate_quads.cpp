@@ -7,10 +7,10 @@ namespace {
 
 /// zfail_reversed with volumes prepared for any light position: a quad per edge, which the vertex
 /// shader extrudes where one of the edge's triangles faces the light and the other does not.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.making = VolumeMaking::degenerate_quads;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.making = VolumeMaking::degenerate_quads;
+    return made;
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique zfail_degenerate_quads_technique() {
             .cost = 1.42,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

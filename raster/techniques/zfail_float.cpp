@@ -8,11 +8,11 @@ namespace {
 /// zfail_reversed with a counter that no scene overflows: faces are summed in a colour of 32-bit
 /// floating point, which holds all integers of 24 bits. Blending applies to what passes the depth
 /// test, so the test passes what lies behind the surface.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.counter = Counter::sum;
-    recipe.counting.bits = 24;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.counter = Counter::sum;
+    made.counting.bits = 24;
+    return made;
 }
 
 } // namespace
@@ -26,7 +26,8 @@ Technique zfail_float_technique() {
             .cost = 1.09,
             .fails_at = {Cause::precision, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe,
+            .counts_in_sum = true};
 }
 
 } // namespace shadowproof

@@ -6,10 +6,10 @@ namespace shadowproof {
 namespace {
 
 /// zfail_reversed with volumes made by a geometry shader, which knows a triangle's neighbours.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.making = VolumeMaking::geometry_shader;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.making = VolumeMaking::geometry_shader;
+    return made;
 }
 
 } // namespace
@@ -22,7 +22,7 @@ Technique zfail_geometry_shader_technique() {
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

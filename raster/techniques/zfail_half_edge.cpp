@@ -7,13 +7,13 @@ namespace {
 
 /// zfail_reversed with volumes from a half-edge mesh: each edge once, with both its triangles. Open
 /// casters are closed first, as the source requires, by triangles that only cast.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.extruder = by_half_edges;
-    recipe.sides = VolumeFaces::Sides::half_edges;
-    recipe.counting.dark_cap = plan.dark_cap || plan.hole_filling;
-    recipe.counting.holes_filled = plan.hole_filling;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.extruder = by_half_edges;
+    made.sides = VolumeFaces::Sides::half_edges;
+    made.counting.dark_cap = plan.dark_cap || plan.hole_filling;
+    made.counting.holes_filled = plan.hole_filling;
+    return made;
 }
 
 } // namespace
@@ -26,7 +26,7 @@ Technique zfail_half_edge_technique() {
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

@@ -7,8 +7,8 @@ namespace {
 
 /// Counts volume faces behind the visible surface; the far plane is at infinity, where the dark cap
 /// is just not clipped.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_stencil_shadows(gpu, scene, zfail_recipe(plan, infinite_depths(scene)));
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    return zfail_recipe(plan, infinite_depths(scene));
 }
 
 } // namespace
@@ -21,7 +21,7 @@ Technique zfail_infinite_technique() {
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = infinite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

@@ -6,10 +6,10 @@ namespace shadowproof {
 namespace {
 
 /// zfail_reversed without dark caps: volumes are open at infinity.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.counting.dark_cap = false;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.counting.dark_cap = false;
+    return made;
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique zfail_no_dark_cap_technique() {
             .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::cap},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

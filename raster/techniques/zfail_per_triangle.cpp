@@ -10,14 +10,14 @@ namespace {
 /// drawn. Triangles that face away from the light are flipped where the light-facing ones alone
 /// would not cast all shadows. So any polygon soup casts its shadows, except a closed shell that
 /// crosses itself.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.extruder = by_triangles;
-    recipe.counting.flips = {.around_light = true,
-                             .averted = Counting::Flips::Averted::of_faulty_shells};
-    recipe.sides = VolumeFaces::Sides::all;
-    recipe.flipped = triangles_to_flip(scene);
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.extruder = by_triangles;
+    made.counting.flips = {.around_light = true,
+                           .averted = Counting::Flips::Averted::of_faulty_shells};
+    made.sides = VolumeFaces::Sides::all;
+    made.flipped = triangles_to_flip(scene);
+    return made;
 }
 
 } // namespace
@@ -30,7 +30,7 @@ Technique zfail_per_triangle_technique() {
             .cost = 8.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

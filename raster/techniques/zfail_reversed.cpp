@@ -8,9 +8,9 @@ namespace {
 /// zfail_infinite with more precise depths: n/t in floating point, so that distant depths are near
 /// zero, where floats are dense; and vertices made relative to the eye before the matrix rounds
 /// them.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    return made;
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique zfail_reversed_technique() {
             .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

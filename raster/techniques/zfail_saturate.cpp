@@ -7,10 +7,10 @@ namespace {
 
 /// zfail_reversed with a counter that stops at 0 and 255 instead of wrapping: a decrement at 0,
 /// before its increment, is lost.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.counting.operation = Counting::Operation::saturate;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.counting.operation = Counting::Operation::saturate;
+    return made;
 }
 
 } // namespace
@@ -24,7 +24,7 @@ Technique zfail_saturate_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .by_nature = {Cause::counter},
             .depth_model = reversed_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

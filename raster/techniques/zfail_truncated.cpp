@@ -8,11 +8,11 @@ namespace {
 
 /// zfail_reversed with finite volumes: extruded by half the diagonal of the scene's bounding box,
 /// or as far as was asked for, and capped there.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zfail_reversed_recipe(scene, plan);
-    recipe.counting.dark_cap = true; // at the finite end
-    recipe.counting.extrusion = finite_extrusion(scene, plan.asked.volumes);
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zfail_reversed_recipe(scene, plan);
+    made.counting.dark_cap = true; // at the finite end
+    made.counting.extrusion = finite_extrusion(scene, plan.asked.volumes);
+    return made;
 }
 
 } // namespace
@@ -26,7 +26,7 @@ Technique zfail_truncated_technique() {
             .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = reversed_depths,
             .settings = {"extrusion"},
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

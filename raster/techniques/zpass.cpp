@@ -8,8 +8,8 @@ namespace {
 /// Counts volume faces in front of the visible surface: s(surface) - s(near plane), which is wrong
 /// where the near plane lies inside a volume. The dark cap is never in front of anything; the light
 /// cap only where its own surface is culled, being seen from behind.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    return draw_stencil_shadows(gpu, scene, zpass_recipe(scene));
+StencilRecipe recipe(const Scene& scene, const Plan& /*plan*/) {
+    return zpass_recipe(scene);
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique zpass_technique() {
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
                          Cause::open_mesh, Cause::light_inside},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

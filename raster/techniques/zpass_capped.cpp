@@ -8,14 +8,14 @@ namespace {
 
 /// zpass with volumes capped on the near plane; the caps are drawn at depths reserved in front of
 /// the scene. They count the faces between eye and near plane, which are clipped.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = zpass_recipe(scene);
-    recipe.counting.start = Counting::Start::near_plane;
-    recipe.counting.flips = {.around_light = true};
-    recipe.flipped = plan.around_light;
-    recipe.near_plane = NearPlane::capped;
-    recipe.depth_model.front = ledge;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& plan) {
+    StencilRecipe made = zpass_recipe(scene);
+    made.counting.start = Counting::Start::near_plane;
+    made.counting.flips = {.around_light = true};
+    made.flipped = plan.around_light;
+    made.near_plane = NearPlane::capped;
+    made.depth_model.front = ledge;
+    return made;
 }
 
 } // namespace
@@ -28,7 +28,7 @@ Technique zpass_capped_technique() {
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

@@ -7,10 +7,10 @@ namespace {
 
 /// zpass with the stencil cleared to the number of volumes around the eye: right as long as the
 /// near plane lies in the same ones.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& /*plan*/) {
-    StencilRecipe recipe = zpass_recipe(scene);
-    recipe.counting.start = Counting::Start::eye;
-    return draw_stencil_shadows(gpu, scene, recipe);
+StencilRecipe recipe(const Scene& scene, const Plan& /*plan*/) {
+    StencilRecipe made = zpass_recipe(scene);
+    made.counting.start = Counting::Start::eye;
+    return made;
 }
 
 } // namespace
@@ -24,7 +24,7 @@ Technique zpass_eye_count_technique() {
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::light_inside},
             .depth_model = finite_depths,
-            .run = run};
+            .recipe = recipe};
 }
 
 } // namespace shadowproof

@@ -302,8 +302,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     assert(recipe.counter == Counter::stencil ||
            (recipe.counting.operation == Counting::Operation::wrap &&
             recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
-    assert(!recipe.lighting ||
-           (recipe.counter == Counter::stencil && recipe.depth_model.eye_relative));
+    assert(!recipe.lighting || recipe.counter == Counter::stencil);
     Frames frames(gpu, scene, recipe);
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };

@@ -29,8 +29,7 @@ struct StencilRecipe {
     std::vector<std::uint8_t> hidden_caps{};
     NearPlane near_plane = NearPlane::lost;
     Counter counter = Counter::stencil; ///< a sum requires Counting::bits 24 and wrapping
-    /// Colours in addition to the claim: only of bump-lit scenes, with a stencil, and relative to
-    /// the eye.
+    /// Colours in addition to the claim: only of bump-lit scenes, and with a stencil.
     std::optional<LightingRecipe> lighting{};
 };
 

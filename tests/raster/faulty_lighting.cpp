@@ -1,6 +1,7 @@
 #include "tests/raster/faulty_lighting.h"
 
 #include "raster/gl/shader.h"
+#include "raster/render.h"
 #include "raster/volumes/stencil.h"
 
 #include <algorithm>
@@ -120,7 +121,8 @@ std::span<const LightingFault> lighting_faults() {
 Frame draw_faulty(Gpu& gpu, const Scene& scene, const Plan& plan, const LightingFault& fault) {
     Scene drawn = scene;
     if (fault.in_scene != nullptr) fault.in_scene(drawn);
-    if (fault.right == nullptr) return find_technique(fault.technique)->run(gpu, drawn, plan);
+    if (fault.right == nullptr)
+        return draw_with(gpu, *find_technique(fault.technique), drawn, plan);
     const bool eye = fault.technique == std::string("bump_eye_space");
     const bool reflects = fault.technique == std::string("bump_reflective");
     const std::string file =

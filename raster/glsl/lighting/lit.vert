@@ -9,8 +9,10 @@ layout(location = 3) in vec2 decal_at;
 layout(location = 4) in vec2 bump_at;
 
 layout(location = 0) uniform mat4 clip_from_relative;
-layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye
+layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or the world's
 layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
+layout(location = 28) uniform vec3 eye_high;
+layout(location = 29) uniform vec3 eye_low;
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
@@ -32,7 +34,8 @@ invariant gl_Position;
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
-    surface.from_eye = lit_from_world * relative;
+    precise vec3 from_eye = (position - eye_high) - eye_low;
+    surface.from_eye = lit_from_world * from_eye;
     surface.to_light = lit_from_world * -away;
     surface.normal = lit_from_world * normal;
     surface.tangent = lit_from_world * tangent.xyz;

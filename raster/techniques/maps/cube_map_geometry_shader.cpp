@@ -7,8 +7,8 @@ namespace {
 
 /// As cube_map_six_pass, but the casters are drawn once: a geometry shader sends each triangle to
 /// all six faces.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = {}, .making = MapMaking::geometry_shader});
+MapRecipe map() {
+    return {.model = {}, .making = MapMaking::geometry_shader};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique cube_map_geometry_shader_technique() {
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::point, Light::Kind::spot},
             .settings = map_settings(),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

@@ -9,8 +9,8 @@ namespace {
 
 /// As cube_map_six_pass, but the comparisons with 4 x 4 texels around the point are averaged.
 /// Beyond a face its border is repeated, as the document's GL_CLAMP_TO_EDGE does.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = {.filter = 4}});
+MapRecipe map() {
+    return {.model = {.filter = 4}};
 }
 
 } // namespace
@@ -27,7 +27,7 @@ Technique cube_map_pcf_technique() {
             .lights = {Light::Kind::point, Light::Kind::spot},
             .settings = joined<std::string_view>(map_settings(),
                                                  {"map-filter", "map-average", "map-edges"}),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

@@ -7,8 +7,8 @@ namespace {
 
 /// The casters are drawn six times, once from the light along each axis, and a point is shadowed
 /// where its texel is nearer to the light by more than the bias.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {});
+MapRecipe map() {
+    return {};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique cube_map_six_pass_technique() {
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::point, Light::Kind::spot},
             .settings = map_settings(),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

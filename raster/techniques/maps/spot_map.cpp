@@ -7,8 +7,8 @@ namespace {
 
 /// The light's depths in one square that holds the cone, looked up at the point projected into it:
 /// s/r, t/r.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = spot_model()});
+MapRecipe map() {
+    return {.model = spot_model()};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique spot_map_technique() {
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},
             .settings = map_settings(),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

@@ -7,8 +7,8 @@ namespace {
 
 /// A spot's map for hardware that compares no depths: its texels are bytes of a colour, the step of
 /// a ramp texture in which a depth lies, and a second texture gives the point's own step.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = ramp_model()});
+MapRecipe map() {
+    return {.model = ramp_model()};
 }
 
 } // namespace
@@ -24,7 +24,7 @@ Technique spot_map_dual_texture_technique() {
             .lights = {Light::Kind::spot},
             .settings = without(map_settings(),
                                 {"map-slope-bias", "map-offset-units", "map-value", "map-format"}),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

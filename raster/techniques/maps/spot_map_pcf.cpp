@@ -9,10 +9,10 @@ namespace {
 
 /// As spot_map, but the comparisons with 4 x 4 texels around the point are averaged: its claim is a
 /// share of light.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
+MapRecipe map() {
     MapModel model = spot_model();
     model.filter = 4;
-    return draw_map_shadows(gpu, scene, plan, {.model = model});
+    return {.model = model};
 }
 
 } // namespace
@@ -27,7 +27,7 @@ Technique spot_map_pcf_technique() {
             .by_nature = joined(map_failings_by_nature(), {Cause::filter}),
             .lights = {Light::Kind::spot},
             .settings = joined<std::string_view>(map_settings(), {"map-filter", "map-average"}),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

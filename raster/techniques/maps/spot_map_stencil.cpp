@@ -7,8 +7,8 @@ namespace {
 
 /// As spot_map, but the answer of the map is drawn into the stencil buffer, and the light is drawn
 /// where that is zero, as it is with shadow volumes.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = spot_model(), .in_stencil = true});
+MapRecipe map() {
+    return {.model = spot_model(), .in_stencil = true};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique spot_map_stencil_technique() {
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::spot},
             .settings = map_settings(),
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

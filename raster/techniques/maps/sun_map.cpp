@@ -7,8 +7,8 @@ namespace {
 
 /// The light's depths in one square, drawn in parallel along the light, that is fitted to all that
 /// casts or receives.
-Frame run(Gpu& gpu, const Scene& scene, const Plan& plan) {
-    return draw_map_shadows(gpu, scene, plan, {.model = sun_model()});
+MapRecipe map() {
+    return {.model = sun_model()};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ Technique sun_map_technique() {
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::directional},
             .settings = without(map_settings(), {"map-value"}), // nothing has a distance from it
-            .run = run};
+            .map = map};
 }
 
 } // namespace shadowproof

@@ -23,6 +23,7 @@ export const faults = [
   { name: 'highlight_by_other_shadow', file: glsl, right: 'highlight_by_light ? self_shadow(l_normal)', wrong: 'highlight_by_light ? self_shadow(h_normal)' },
   { name: 'highlight_not_dimmed', file: glsl, right: 'highlight_by_light ? self_shadow(l_normal)', wrong: 'highlight_by_light ? 1' },
   { name: 'highlight_dimmed_by_both', file: glsl, right: 'highlight_by_half_angle ? self_shadow', wrong: 'true ? self_shadow' },
+  { name: 'eye_at_the_origin', file: 'raster/glsl/lighting/lit.vert', right: 'lit_from_world * from_eye', wrong: 'lit_from_world * relative' },
   { name: 'three_pass_highlight_not_dimmed', file: 'raster/glsl/lighting/bump_specular.frag', right: 'self_shadow(h.z) *', wrong: '1.0 *' },
   { name: 'gloss_ignored', file: glsl, right: 'gloss_in_alpha ? decal.a : 1', wrong: '1' },
   { name: 'gloss_always', file: glsl, right: 'gloss_in_alpha ? decal.a : 1', wrong: 'decal.a', why: 'No bundled decal has an alpha that is not gloss.' },
