@@ -1,7 +1,7 @@
 #include "raster/technique.h"
 
+#include "raster/joined.h"
 #include "raster/maps/map_shadows.h"
-#include "raster/techniques/joined.h"
 
 #include <algorithm>
 #include <array>

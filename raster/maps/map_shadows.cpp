@@ -2,9 +2,9 @@
 
 #include "raster/gl/stage_clock.h"
 #include "raster/maps/offset_unit.h"
+#include "raster/passes/claim_in_stencil.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -100,25 +100,6 @@ void draw_into_stencil(const GlFunctions& gl, const Program& shadow, const Targe
     check(gl, "drawing a map's shadows into the stencil");
 }
 
-/// Keeps in the stencil, as 1, what the claim does not show as lit, so that lighting leaves it out.
-void keep_claim_in_stencil(const GlFunctions& gl, const Program& program, const Target& target) {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.lighting.name());
-    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    gl.Disable(GL_DEPTH_TEST);
-    gl.Enable(GL_STENCIL_TEST);
-    gl.StencilMask(~0U);
-    constexpr GLint nothing = 0;
-    gl.ClearNamedFramebufferiv(target.lighting.name(), GL_STENCIL, 0, &nothing);
-    gl.StencilFunc(GL_ALWAYS, 1, ~0U);
-    gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    gl.Disable(GL_CULL_FACE);
-    gl.UseProgram(program.name());
-    gl.BindTextureUnit(0, target.claim.name());
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    gl.Enable(GL_DEPTH_TEST);
-    check(gl, "keeping a map's claim in the stencil");
-}
-
 /// What is drawn with, made once.
 struct Frames {
     const GlFunctions& gl;
@@ -154,8 +135,7 @@ struct Frames {
         if (recipe.lighting) {
             add_color(gl, target,
                       recipe.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
-            const std::array stages{shader_file("whole_picture.vert"), shader_file("not_lit.frag")};
-            not_lit = link(gl, stages);
+            not_lit = link_not_lit(gl);
             lighting =
                 make_lighting_pass(gl, scene, clip_transform(scene, depth_model), *recipe.lighting);
         }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "reference/trace/packet.h"
-#include "scenes/surface/highlight.h"
+#include "scenes/scene.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

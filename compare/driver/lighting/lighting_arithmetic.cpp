@@ -95,7 +95,7 @@ Intervals in_floats(const LightingInputs& in, const Ways& ways) {
     return color;
 }
 
-/// Three passes over a frame buffer of 8 bits (raster/techniques/bump_three_pass.cpp).
+/// Three passes over a frame buffer of 8 bits (raster/techniques/bumps/bump_three_pass.cpp).
 Intervals in_passes(const LightingInputs& in, const Ways& ways) {
     const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
     const ByteErrors& bytes = ways.bytes;

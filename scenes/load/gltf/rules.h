@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenes/limits.h"
-#include "scenes/surface/highlight.h"
+#include "scenes/scene.h"
 
 #include <array>
 #include <cstdint>

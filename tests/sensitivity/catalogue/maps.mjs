@@ -112,7 +112,7 @@ export const faults = [
   // The answers, kept in the stencil.
   ...[
     { name: 'of_what_is_lit', file: inStencil, right: 'if (!is_shadowed(', wrong: 'if (is_shadowed(' },
-    { name: 'not_written', file: shadows, right: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);\n    gl.Disable(GL_CULL_FACE);\n    gl.BindFramebuffer', wrong: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);\n    gl.Disable(GL_CULL_FACE);\n    gl.BindFramebuffer' },
+    { name: 'not_written', file: shadows, right: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);', wrong: 'gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);' },
     { name: 'written_as_zero', file: shadows, right: 'gl.StencilFunc(GL_ALWAYS, 1, ~0U);', wrong: 'gl.StencilFunc(GL_ALWAYS, 0, ~0U);' },
     { name: 'masked', file: shadows, right: 'gl.StencilMask(~0U);', wrong: 'gl.StencilMask(0);' },
     { name: 'not_asked', file: shadows, right: 'in_stencil ? Counter::stencil : Counter::none', wrong: 'Counter::none' },

@@ -1,4 +1,4 @@
-#include "raster/techniques/joined.h"
+#include "raster/joined.h"
 
 #include <algorithm>
 
