@@ -44,10 +44,11 @@ SHADOWPROOF_SEND_ALL(BoundWidth, median, percentile999, widest)
 template <class Archive>
 void serialize(Archive& archive, ColorCheck& check) {
     auto& [model, ERROR, VERDICT, judged, largest, largest_x, largest_y, rmse, picture_rmse,
-           percentile999, beyond, unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x,
-           first_unpredicted_y] = check;
+           percentile999, beyond, unpredicted, moved, interpolated, bound_width, beyond_by,
+           first_unpredicted_x, first_unpredicted_y] = check;
     archive(model, judged, largest, largest_x, largest_y, rmse, picture_rmse, percentile999, beyond,
-            unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x, first_unpredicted_y);
+            unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x,
+            first_unpredicted_y);
 }
 
 SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words, pictures)
