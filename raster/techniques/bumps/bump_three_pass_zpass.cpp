@@ -13,7 +13,7 @@ Technique bump_three_pass_zpass_technique() {
     technique.summary = "zpass, and bumps lit in three passes of 8 bits a channel";
     technique.source = "Kilgard 2001, bumps and stencilled shadow volumes together";
     technique.needs = "bump maps, and a near plane outside every shadow volume";
-    technique.cost = 4.8;
+    technique.cost = 4.6;
     return technique;
 }
 
