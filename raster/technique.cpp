@@ -4,7 +4,7 @@
 #include "raster/maps/map_shadows.h"
 
 #include <algorithm>
-#include <array>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,13 +14,19 @@ namespace shadowproof {
 
 // Each file of techniques/ defines one.
 #define SHADOWPROOF_TECHNIQUE(name) Technique name##_technique();
+#define SHADOWPROOF_JOINED(lighting, shadowing, cost)
 #include "raster/techniques.inc"
+#undef SHADOWPROOF_JOINED
 #undef SHADOWPROOF_TECHNIQUE
 
 std::span<const Technique> all_techniques() {
-    static const std::array techniques{
+    static std::deque<Joined> joined; // whose words stay where they are
+    static const std::vector<Technique> techniques{
 #define SHADOWPROOF_TECHNIQUE(name) name##_technique(),
+#define SHADOWPROOF_JOINED(lighting, shadowing, cost)                                              \
+    joined.emplace_back(lighting##_technique(), shadowing##_technique(), cost).technique(),
 #include "raster/techniques.inc"
+#undef SHADOWPROOF_JOINED
 #undef SHADOWPROOF_TECHNIQUE
     };
     return techniques;
@@ -34,41 +40,15 @@ const Technique* registered(std::string_view name) {
     return found == techniques.end() ? nullptr : &*found;
 }
 
-bool is_joined(const Technique& technique) {
-    return technique.name.find('+') != std::string_view::npos;
-}
 bool lights(const Technique& technique) {
-    return technique.lighting != nullptr && !is_joined(technique);
+    return technique.lighting != nullptr && technique.name.find('+') == std::string_view::npos;
 }
-/// Whether it finds each pixel lit or not, and nothing in between.
+/// Whether it finds each pixel lit or not, and nothing in between, and leaves colours to others.
 bool shadows(const Technique& technique) {
+    if (technique.lighting != nullptr) return false;
     if (technique.map != nullptr) return technique.map().model.filter == 0;
-    return technique.recipe != nullptr && technique.lighting == nullptr && !technique.counts_in_sum;
+    return technique.recipe != nullptr && !technique.counts_in_sum;
 }
-
-/// A technique whose words are its own.
-struct Joined {
-    std::string name;
-    std::string summary;
-    std::string source;
-    std::string needs;
-    Technique technique;
-
-    Joined(const Technique& lighting, const Technique& shadowing)
-        : name(std::string(lighting.name) + "+" + std::string(shadowing.name)),
-          summary(std::string(shadowing.name) + ", and bumps lit as by " +
-                  std::string(lighting.name)),
-          source(std::string(lighting.source) + "; " + std::string(shadowing.source)),
-          needs(std::string(shadowing.needs) + "; " + std::string(lighting.needs)),
-          technique(joined_technique(lighting, shadowing)) {
-        technique.name = name;
-        technique.summary = summary;
-        technique.source = source;
-        technique.needs = needs;
-    }
-    Joined(const Joined&) = delete;
-    Joined& operator=(const Joined&) = delete;
-};
 
 /// Kept once it is asked for, so that its words stay.
 const Technique* joined_by_name(std::string_view name) {
@@ -83,7 +63,7 @@ const Technique* joined_by_name(std::string_view name) {
     const std::lock_guard lock(mutex);
     std::unique_ptr<Joined>& kept = known[std::string(name)];
     if (!kept) kept = std::make_unique<Joined>(*lighting, *shadowing);
-    return &kept->technique;
+    return &kept->technique();
 }
 
 template <class Is>

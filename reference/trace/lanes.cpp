@@ -4,33 +4,14 @@
 #include "reference/exact/norms.h"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/lanes.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
-
-// What all instruction sets share; the file is read once for each.
-#ifndef SHADOWPROOF_LANES_SHARED
-#define SHADOWPROOF_LANES_SHARED
-namespace shadowproof {
-
-/// One bit per lane whose sign is certain.
-struct CertainSigns {
-    std::uint32_t above = 0;
-    std::uint32_t below = 0;
-};
-
-/// An edge from a, as far as all lanes share it.
-struct SharedEdge {
-    glm::dvec3 a{0, 0, 0};
-    glm::dvec3 e{0, 0, 0};
-    double share = 0; ///< of the products of sizes, by how much the sum may be off
-};
-
-} // namespace shadowproof
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
@@ -92,17 +73,20 @@ std::uint32_t near_box(const AnyRays& rays, const Slabs& slabs, const Entry& box
 // factors has its two differences rounded, two products, the difference of two of them, and two
 // sums: 7 u; the eighth is for the bound's own rounding. Their sum is at most that of the
 // components of D times that of a - E times the largest of e. What is added for underflow is far
-// above what it can take. A product beyond the range of doubles leaves no finite value.
-CertainSigns edge_signs(const AnyRays& rays, const SharedEdge& edge) {
-    const Vector ex = hn::Set(doubles, edge.e.x);
-    const Vector ey = hn::Set(doubles, edge.e.y);
-    const Vector ez = hn::Set(doubles, edge.e.z);
+// above what it can take. A product beyond the range of doubles leaves no finite value. `share`: of
+// the products of sizes. One bit per lane: above, and below.
+std::pair<std::uint32_t, std::uint32_t> edge_signs(const AnyRays& rays, const glm::dvec3& a,
+                                                   const glm::dvec3& e, double share) {
+    const Vector ex = hn::Set(doubles, e.x);
+    const Vector ey = hn::Set(doubles, e.y);
+    const Vector ez = hn::Set(doubles, e.z);
     const Vector most = hn::Set(doubles, std::numeric_limits<double>::max());
-    CertainSigns signs;
+    std::uint32_t above = 0;
+    std::uint32_t below = 0;
     for (int i = 0; i < packet_size; i += step()) {
-        const Vector wx = hn::Sub(hn::Set(doubles, edge.a.x), load(rays.origin[0], i));
-        const Vector wy = hn::Sub(hn::Set(doubles, edge.a.y), load(rays.origin[1], i));
-        const Vector wz = hn::Sub(hn::Set(doubles, edge.a.z), load(rays.origin[2], i));
+        const Vector wx = hn::Sub(hn::Set(doubles, a.x), load(rays.origin[0], i));
+        const Vector wy = hn::Sub(hn::Set(doubles, a.y), load(rays.origin[1], i));
+        const Vector wz = hn::Sub(hn::Set(doubles, a.z), load(rays.origin[2], i));
         const Vector dx = load(rays.direction[0], i);
         const Vector dy = load(rays.direction[1], i);
         const Vector dz = load(rays.direction[2], i);
@@ -115,13 +99,12 @@ CertainSigns edge_signs(const AnyRays& rays, const SharedEdge& edge) {
             hn::Add(hn::Add(hn::Mul(dx, minor(wy, ez, wz, ey)), hn::Mul(dy, minor(wz, ex, wx, ez))),
                     hn::Mul(dz, minor(wx, ey, wy, ex)));
         const Vector error =
-            hn::Add(hn::Mul(hn::Mul(hn::Set(doubles, edge.share), d), w),
+            hn::Add(hn::Mul(hn::Mul(hn::Set(doubles, share), d), w),
                     hn::Mul(hn::Set(doubles, Bounded::underflow), hn::Add(hn::Set(doubles, 1), d)));
-        signs.above |= bits_of(hn::And(hn::Gt(value, error), hn::Le(value, most)), i);
-        signs.below |=
-            bits_of(hn::And(hn::Lt(value, hn::Neg(error)), hn::Ge(value, hn::Neg(most))), i);
+        above |= bits_of(hn::And(hn::Gt(value, error), hn::Le(value, most)), i);
+        below |= bits_of(hn::And(hn::Lt(value, hn::Neg(error)), hn::Ge(value, hn::Neg(most))), i);
     }
-    return signs;
+    return {above, below};
 }
 
 } // namespace
@@ -136,13 +119,16 @@ namespace {
 HWY_EXPORT(near_box);
 HWY_EXPORT(edge_signs);
 
-SharedEdge shared_edge(const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec3 e = b - a;
-    return {a, e, 8 * double_roundoff * largest(e)};
-}
-
+/// One bit per lane whose sign is certain.
+struct CertainSigns {
+    std::uint32_t above = 0;
+    std::uint32_t below = 0;
+};
 CertainSigns signs_at(const AnyRays& rays, const glm::dvec3& a, const glm::dvec3& b) {
-    return HWY_DYNAMIC_DISPATCH(edge_signs)(rays, shared_edge(a, b));
+    const glm::dvec3 e = b - a;
+    const auto [above, below] =
+        HWY_DYNAMIC_DISPATCH(edge_signs)(rays, a, e, 8 * double_roundoff * largest(e));
+    return {above, below};
 }
 
 } // namespace
