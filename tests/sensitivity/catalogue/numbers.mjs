@@ -2,9 +2,9 @@
 export const passes = 'raster/passes/passes.cpp';
 const projection = 'clip_from_view(scene.camera, depth_model)';
 export const camera = (change) => ({ file: passes, right: projection, wrong: `[&] { Camera c = scene.camera; ${change}; return clip_from_view(c, depth_model); }()` });
-const drawn = { file: 'raster/render.cpp', right: 'technique.run(gpu, scene, plan)' };
+const drawn = { file: 'raster/render.cpp', right: 'draw_with(gpu, technique, scene, plan)' };
 const extent = 'double size = 0; for (const glm::vec3& p : s.positions) size = std::max(size, glm::length(glm::dvec3(p) - glm::dvec3(s.positions[0])));';
-export const other = (change) => ({ ...drawn, wrong: `[&] { Scene s = scene; ${extent} static_cast<void>(size); ${change}; return technique.run(gpu, s, plan); }()` });
+export const other = (change) => ({ ...drawn, wrong: `[&] { Scene s = scene; ${extent} static_cast<void>(size); ${change}; return draw_with(gpu, technique, s, plan); }()` });
 const light = 's.lights[s.light]';
 export const moved = (size) => other(`${light}.kind == Light::Kind::directional ? ${light}.direction = glm::normalize(${light}.direction + glm::dvec3(0, ${size}, 0)) : ${light}.position += glm::dvec3(${size} * size, 0, 0)`);
 export const shift = (x, y) => ({ file: passes, right: 'transform.light = split(light);', wrong: `transform.light = split(light); for (int k = 0; k < 4; ++k) { transform.clip_from_relative[k][0] += static_cast<float>(2.0 * ${x} / scene.camera.width) * transform.clip_from_relative[k][3]; transform.clip_from_relative[k][1] += static_cast<float>(2.0 * ${y} / scene.camera.height) * transform.clip_from_relative[k][3]; }` });
