@@ -80,8 +80,9 @@ struct LightingPass {
 /// A GL_RGB8 array texture with one layer per face.
 Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube);
 
-/// The scene must have an environment where the recipe's model reflects. Throws Error where a texture is larger than the driver takes, and where
-/// a bump map cannot be converted to the form of the recipe's model.
+/// The scene must have an environment where the recipe's model reflects. Throws Error where a
+/// texture is larger than the driver takes, and where a bump map cannot be converted to the form of
+/// the recipe's model.
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe);
 

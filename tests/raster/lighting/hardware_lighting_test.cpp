@@ -187,8 +187,8 @@ TEST_F(HardwareLighting, in_three_passes_loses_no_more_than_the_bytes) {
     EXPECT_GT(compared, frame.color.pixels.size() / 4);
 }
 
-/// The one pass multiplies the highlight by selfShadow(L) as well, the three do not: where that is below 1
-/// and there is a highlight, they differ by more than their bytes do elsewhere.
+/// The one pass multiplies the highlight by selfShadow(L) as well, the three do not: where that is
+/// below 1 and there is a highlight, they differ by more than their bytes do elsewhere.
 TEST_F(HardwareLighting, in_one_pass_dims_highlights_near_the_terminator) {
     constexpr LightingSettings exact{.normalisation = Normalisation::exact};
     double near_terminator = 0;
