@@ -16,7 +16,7 @@ test('list names every scene, technique and cause, alike as text and as JSON', (
   for (const { name } of [...json.scenes, ...json.techniques, ...json.causes])
     assert.ok(text.includes(`  ${name} `), name);
   for (const { name, cost } of json.techniques)
-    assert.match(text, new RegExp(`\\n  ${name} [^]*?\\n +cost: ${cost.toFixed(2)} x zfail_reversed\\n`));
+    assert.match(text, new RegExp(`\\n  ${name.replace('+', '\\+')} [^]*?\\n +cost: ${cost.toFixed(2)} x zfail_reversed\\n`));
 });
 
 test('list states to which depth the numbers of a technique suffice, for which picture', () => {
