@@ -87,7 +87,8 @@ PixelRecord record_pixel(const TracedScene& traced, int x, int y) {
         record.faces_light = sides_of(tracer, record.seen).faces_light();
     const RayTruth truth_again = trace_ray(tracer, record.direction);
     record.in_cone = truth_again.in_cone;
-    record.occluder = truth_again.occluder;
+    if (record.visibility == Visibility::shadowed)
+        record.occluder = occluder_of(tracer, record.direction);
     record.far = traced.far();
     record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
     record.depth_margin = depth_margin(record.ledger, record.seen);

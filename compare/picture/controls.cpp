@@ -80,17 +80,15 @@ void add_moved_lights(const TracedScene& traced, double distance, std::vector<Co
                                 traced.tracer().threads())});
 }
 
-/// The triangle that is met first from the light of those that shadow the middle one of the
-/// shadowed pixels.
+/// The lowest-numbered triangle of those that shadow the middle one of the shadowed pixels.
 void add_lost_triangle(const TracedScene& traced, const ShadowedPixels& shadowed,
                        std::vector<Control>& controls) {
     const Scene& scene = traced.scene();
     const std::size_t pixel = shadowed.pixels[shadowed.pixels.size() / 2];
     const auto width = static_cast<std::size_t>(scene.camera.width);
-    const RayTruth truth = trace_ray(
+    const std::uint32_t lost = occluder_of(
         traced.tracer(), ray_direction(scene.camera, static_cast<double>(pixel % width) + 0.5,
                                        static_cast<double>(pixel / width) + 0.5));
-    const std::uint32_t lost = truth.occluder;
     if (lost == no_triangle) return;
     controls.push_back(
         {"triangle_missing",

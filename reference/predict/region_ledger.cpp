@@ -252,9 +252,9 @@ void RegionLedger::number_vertices(const PlaneOf& plane_of) {
 void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
     const Tracer::State& state = tracer_.state();
     const std::array<glm::dvec3, 4> walls = walls_of(corners);
-    const auto may_meet = [&](const Entry& entry) {
-        const glm::dvec3 lower(entry.lower[0], entry.lower[1], entry.lower[2]);
-        const glm::dvec3 upper(entry.upper[0], entry.upper[1], entry.upper[2]);
+    const auto may_meet = [&](const Box& box) {
+        const glm::dvec3 lower(box.lower);
+        const glm::dvec3 upper(box.upper);
         const glm::dvec3 centre = 0.5 * (lower + upper) - state.eye;
         const glm::dvec3 half = 0.5 * (upper - lower);
         return std::all_of(walls.begin(), walls.end(), [&](const glm::dvec3& wall) {
@@ -264,19 +264,12 @@ void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
             return glm::dot(wall, centre) - reach <= 0x1p-40 * size;
         });
     };
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const Entry& entry = state.hierarchy.entries[stack.back()];
-        stack.pop_back();
-        if (!may_meet(entry)) continue;
-        for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
-        if (entry.count > 0) continue;
-        const Cluster& cluster = state.hierarchy.clusters[entry.first];
-        for (std::uint32_t i = 0; i < cluster.count; ++i)
-            for (std::uint32_t triangle = cluster.triangles[i]; triangle != no_triangle;
+    state.clusters.for_each_in(may_meet, [&](const Cluster& cluster) {
+        for (const std::uint32_t first : cluster.triangles)
+            for (std::uint32_t triangle = first; triangle != no_triangle;
                  triangle = state.places.next[triangle])
                 gather_cap(triangle, corners);
-    }
+    });
 }
 
 void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners) {

@@ -3,9 +3,11 @@
 #include "reference/exact/norms.h"
 #include "reference/trace/lanes.h"
 #include "reference/trace/state.h"
+#include "reference/trace/walk_lines.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 namespace shadowproof {
 
@@ -31,13 +33,8 @@ AnyRay AnyRays::ray(int lane) const {
 namespace {
 
 /// The largest coordinate on each axis.
-glm::dvec3 reach_of(const Hierarchy& hierarchy) {
-    const Entry& root = hierarchy.entries.front();
-    glm::dvec3 reach{0, 0, 0};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        reach[static_cast<int>(axis)] =
-            std::max(std::abs(double{root.lower[axis]}), std::abs(double{root.upper[axis]}));
-    return reach;
+glm::dvec3 reach_of(const Clusters& clusters) {
+    return glm::max(glm::abs(glm::dvec3(clusters.box.lower)), glm::abs(glm::dvec3(clusters.box.upper)));
 }
 
 glm::dvec3 enlargement_of(const glm::dvec3& reach, double share, const glm::dvec3& origin) {
@@ -58,43 +55,101 @@ Slabs slabs_of(const AnyRays& rays, const glm::dvec3& reach, double share) {
 } // namespace
 
 glm::dvec3 enlargement(const Tracer& tracer, double share, const glm::dvec3& origin) {
-    return enlargement_of(reach_of(tracer.state().hierarchy), share, origin);
+    return enlargement_of(reach_of(tracer.state().clusters), share, origin);
 }
+
+namespace {
+
+/// The rays as the walk has them, and back.
+struct Walked {
+    WalkLines lines;
+    Lanes<double> stretch{}; ///< s over t
+    Lanes<double> start{};   ///< s at which the walk's ray begins
+    double room = 0;         ///< how far rays may be from the walk's
+};
+
+/// Components below least_component may be anything up to it; at s, which is at most |p| + 2 in
+/// the scene's box, that weighs as much, and so does rounding.
+void set_line(Walked& walked, int lane, const AnyRay& ray, const WalkFrame& frame,
+              const glm::dvec3& enlargement) {
+    const auto l = static_cast<std::size_t>(lane);
+    const glm::dvec3 p = (ray.origin - frame.center) * frame.scale;
+    const glm::dvec3 d = ray.direction * frame.scale;
+    const double size = largest(d);
+    const bool known = size > 0x1p-1000 && size < 0x1p1000 && largest(p) < 0x1p1000;
+    const double stretch = known ? std::exp2(std::ilogb(size)) : 1;
+    double error = 0x1p-50;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        walked.lines.p[k][l] = known ? p[axis] : 0;
+        walked.lines.w[k][l] = known ? d[axis] / stretch : 1;
+        if (std::abs(ray.direction[axis]) < least_component)
+            error = std::max(error, 0x1p-50 + 2 * least_component * frame.scale / stretch);
+    }
+    walked.stretch[l] = stretch;
+    const auto moved = [&](double t, double by) { return t * stretch + by * (1 + std::abs(t * stretch)); };
+    walked.lines.begin[l] = moved(ray.near, -0x1p-20);
+    walked.lines.end[l] = moved(ray.far, 0x1p-20);
+    const double room = largest(enlargement) * frame.scale + (largest(p) + 2) * error;
+    walked.room = std::max(walked.room, known ? room : std::numeric_limits<double>::infinity());
+}
+
+/// A search for nearby triangles under way.
+struct NearbySearch {
+    const Clusters& clusters;
+    const Places& places;
+    const Slabs& slabs;
+    const Walked& walked;
+    AnyRays& rays;
+    NearbyTriangles& found;
+
+    void meet(std::uint32_t number) const {
+        const std::uint32_t lanes = lanes_near(rays, slabs, clusters.boxes[number]);
+        if (lanes == 0) return;
+        for (const std::uint32_t first : clusters.all[number].triangles) {
+            if (first == no_triangle) return;
+            for (std::uint32_t i = first; i != no_triangle && (lanes & rays.lanes) != 0;
+                 i = places.next[i])
+                found.visit(rays, i, lanes & rays.lanes);
+        }
+    }
+
+    static void visit(void* visitor, std::uint32_t cluster, int first, int count, float* far) {
+        const auto& search = *static_cast<const NearbySearch*>(visitor);
+        search.meet(cluster);
+        for (int i = 0; i < count; ++i) {
+            const auto l = static_cast<std::size_t>(first + i);
+            const bool goes_on = (search.rays.lanes >> l & 1U) != 0;
+            const double s =
+                goes_on ? search.rays.far[l] * search.walked.stretch[l] - search.walked.start[l] : 0;
+            const auto limit = static_cast<float>(std::max(s, 0.0)) * (1 + 0x1p-20F) + 0x1p-20F;
+            if (limit < far[i]) far[i] = limit;
+        }
+    }
+};
+
+} // namespace
 
 void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriangles& found) {
     if (rays.lanes == 0) return;
-    const Hierarchy& hierarchy = tracer.state().hierarchy;
-    const Places& places = tracer.state().places;
-    const Slabs slabs = slabs_of(rays, reach_of(hierarchy), share);
-    const AnyRay first = rays.ray(__builtin_ctz(rays.lanes));
-    const auto along = [&](const Entry& box) {
-        double sum = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            sum += (double{box.lower[axis]} + box.upper[axis]) *
-                   first.direction[static_cast<int>(axis)];
-        return sum;
-    };
-    // Two children an entry: one waits on each level.
-    std::array<std::uint32_t, 2 * deepest_level> waiting{};
-    std::size_t count = 0;
-    waiting[count++] = 0;
-    while (count > 0 && rays.lanes != 0) {
-        const Entry& entry = hierarchy.entries[waiting[--count]];
-        const std::uint32_t lanes = lanes_near(rays, slabs, entry);
-        if (lanes == 0) continue;
-        if (entry.count > 0) {
-            for (std::uint32_t i = 0; i < entry.count; ++i) waiting[count++] = entry.first + i;
-            // What is near may lower the rays' limits: the farther one waits longer.
-            if (entry.count == 2 && along(hierarchy.entries[waiting[count - 1]]) >
-                                        along(hierarchy.entries[waiting[count - 2]]))
-                std::swap(waiting[count - 1], waiting[count - 2]);
-            continue;
-        }
-        const Cluster& cluster = hierarchy.clusters[entry.first];
-        for (std::uint32_t i = 0; i < cluster.count && (lanes & rays.lanes) != 0; ++i)
-            for (std::uint32_t triangle = cluster.triangles[i]; triangle != no_triangle;
-                 triangle = places.next[triangle])
-                found.visit(rays, triangle, lanes & rays.lanes);
+    const Clusters& clusters = tracer.state().clusters;
+    const BoxTrees& trees = *tracer.state().trees;
+    const glm::dvec3 reach = reach_of(clusters);
+    const Slabs slabs = slabs_of(rays, reach, share);
+    Walked walked;
+    for (std::uint32_t left = rays.lanes; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const AnyRay ray = rays.ray(lane);
+        set_line(walked, lane, ray, trees.frame(), enlargement_of(reach, share, ray.origin));
+    }
+    NearbySearch search{clusters, tracer.state().places, slabs, walked, rays, found};
+    if (const BoxTree* tree = trees.with_room(walked.room)) {
+        WalkRays walk;
+        walk.lanes = rays.lanes;
+        cut_to_scene(walked.lines, walk, walked.start);
+        tree->find_all(walk, NearbySearch::visit, &search);
+    } else {
+        for (std::uint32_t i = 0; i < clusters.all.size() && rays.lanes != 0; ++i) search.meet(i);
     }
 }
 

@@ -42,55 +42,134 @@ private:
     }
 };
 
-void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
-    Signs signs;
-    const bool nearer = is_nearer(packet, lane, triangle, signs);
-    rays_.exact_decisions += signs.exact_decisions();
-    Seen& seen = seen_[static_cast<std::size_t>(lane)];
-    // A miss that was decided exactly is recorded too; but a tie counts only where the triangle
-    // is met.
-    seen.exactness = std::max(seen.exactness, met_ ? signs.exactness()
-                                                   : std::min(signs.exactness(), Exactness::exact));
-    if (!nearer) return;
-    packet.hit[static_cast<std::size_t>(lane)] = triangle;
-    // Depth in double, widened to certain floats.
-    const EyeRay ray = rays_.ray(lane);
-    const Corners t = rays_.triangle(triangle);
-    raise_to_depth(packet, lane, ray, t);
+/// The place of a met triangle in the view's scale: 1/s, within bounds.
+std::pair<float, float> inverse_depth(const PacketRays& rays, const EyeRay& ray, const Corners& t) {
+    const PlaneEdges edges(t);
+    const glm::dvec3 normal = glm::cross(edges.ab, edges.ac);
+    const glm::dvec3 to_plane = edges.a - ray.eye;
+    // As in view.cpp: 8 u l^2 per component, 50 u m l^2 for the dot product.
+    const double numerator = glm::dot(to_plane, normal);
+    const double numerator_error = 50 * u * largest(to_plane) * edges.product;
+    const double denominator = glm::dot(ray.direction, normal);
+    const double denominator_error = 50 * u * largest(ray.direction) * edges.product;
+    const double scale = rays.state->from_eye.scale;
+    // The plane is too near the eye to tell: it may be nearer than any.
+    if (!(std::abs(numerator) > 4 * numerator_error))
+        return {0.0F, std::numeric_limits<float>::infinity()};
+    // 1/s = denominator / (numerator scale). The numerator may be smaller by a quarter, which
+    // makes its relative error and the denominator's share up to 4/3 as large: 1.5 covers that
+    // and second order, 4 u the roundings.
+    const double inverse = denominator / (numerator * scale);
+    const double error = std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) + 4 * u) +
+                         1.5 * denominator_error / std::abs(numerator * scale);
+    return {std::max(float_below(inverse - error), 0.0F), float_above(inverse + error)};
 }
 
-bool NearestArbiter::is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle,
-                               Signs& signs) {
+void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+    std::optional<Candidate> candidate = met(lane, triangle);
+    if (!candidate) return;
+    const auto [lo, hi] = inverse_depth(rays_, rays_.ray(lane), rays_.triangle(triangle));
+    const float unit = packet.unit[static_cast<std::size_t>(lane)];
+    candidate->hi = hi * unit;
+    add(packet, *candidate, lo * unit);
+}
+
+void NearestArbiter::compare(RayPacket& packet, int lane, std::uint32_t triangle, float lo,
+                             float hi) {
+    add(packet, {.lane = lane, .triangle = triangle, .hi = hi}, lo);
+}
+
+void NearestArbiter::add(RayPacket& packet, const Candidate& candidate, float lo) {
+    float& best = packet.best_lo[static_cast<std::size_t>(candidate.lane)];
+    best = std::max(best, lo);
+    candidates_.push_back(candidate);
+    if (candidates_.size() < many_) return;
+    std::erase_if(candidates_, [&](const Candidate& c) {
+        return c.hi < packet.best_lo[static_cast<std::size_t>(c.lane)];
+    });
+    many_ = std::max(many_, 2 * candidates_.size());
+}
+
+/// Nothing where the ray does not meet the triangle within the range.
+std::optional<NearestArbiter::Candidate> NearestArbiter::met(int lane, std::uint32_t triangle) {
     const EyeRay ray = rays_.ray(lane);
     const Corners t = rays_.triangle(triangle);
     const int orientation = rays_.state->from_eye.side[triangle];
     const std::array<glm::dvec3, 3> corners{t.a, t.b, t.c};
-    std::array<bool, 3> through{}; // the lines of which edges
-    met_ = false;
+    Candidate candidate{.lane = lane, .triangle = triangle};
+    Signs signs;
     // The edges' planes of an oriented triangle add up to its normal, so that no ray away from
     // it has all three signs right.
     for (std::size_t k = 0; k < 3; ++k) {
         const Decision side = edge(ray, lane, corners[k], corners[(k + 1) % 3]);
-        if (!signs.at_least_zero(side, orientation)) return false;
-        through[k] = side.sign == 0;
+        if (!signs.at_least_zero(side, orientation)) return std::nullopt;
+        candidate.through[k] = side.sign == 0;
     }
     // The eye is not in the triangle's plane, so the planes of two edges meet in a line.
     for (std::size_t k = 0; k < 3; ++k)
-        if (through[k] && through[(k + 1) % 3])
+        if (candidate.through[k] && candidate.through[(k + 1) % 3])
             vertex_[static_cast<std::size_t>(lane)] = corners[(k + 1) % 3];
+    if (!within_planes(ray, t, signs)) return std::nullopt;
+    candidate.exactness = signs.exactness();
+    candidate.exact_decisions = signs.exact_decisions();
+    return candidate;
+}
 
-    const std::uint32_t best = packet.hit[static_cast<std::size_t>(lane)];
-    if (best != no_triangle && meet_there(lane, corners, through, best)) {
-        signs.at_least_zero({0, Exactness::degenerate}, 1);
-        met_ = true;
-        return triangle < best;
+void NearestArbiter::settle(RayPacket& packet) {
+    if (candidates_.empty()) return;
+    // Of those that floats met, the hit is kept apart.
+    std::uint32_t lanes = 0;
+    for (const Candidate& candidate : candidates_) lanes |= 1U << candidate.lane;
+    for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const auto l = static_cast<std::size_t>(lane);
+        if (packet.hit[l] != no_triangle)
+            candidates_.push_back(
+                {.lane = lane, .triangle = packet.hit[l], .hi = packet.hit_hi[l]});
     }
-    met_ = within_planes(ray, t, signs);
-    if (!met_) return false;
-    if (best == no_triangle) return true;
-    const Decision order = rays_.predicates.depth_order(ray, t, rays_.triangle(best));
-    signs.at_least_zero(order, 1);
-    return order.sign < 0 || (order.sign == 0 && triangle < best);
+    std::erase_if(candidates_, [&](const Candidate& c) {
+        return c.hi < packet.best_lo[static_cast<std::size_t>(c.lane)];
+    });
+    std::ranges::sort(candidates_, [](const Candidate& a, const Candidate& b) {
+        return a.lane != b.lane ? a.lane < b.lane : a.triangle < b.triangle;
+    });
+    const auto again = std::ranges::unique(candidates_, [](const Candidate& a, const Candidate& b) {
+        return a.lane == b.lane && a.triangle == b.triangle;
+    });
+    candidates_.erase(again.begin(), again.end());
+    for (auto first = candidates_.begin(); first != candidates_.end();) {
+        const auto end = std::find_if(first, candidates_.end(), [&](const Candidate& c) {
+            return c.lane != first->lane;
+        });
+        settle_lane(packet, std::span(first, end));
+        first = end;
+    }
+}
+
+/// `candidates`: in ascending order, at least one.
+void NearestArbiter::settle_lane(RayPacket& packet, std::span<const Candidate> candidates) {
+    const int lane = candidates.front().lane;
+    Seen& seen = seen_[static_cast<std::size_t>(lane)];
+    std::uint32_t best = no_triangle;
+    Signs signs;
+    for (const Candidate& candidate : candidates) {
+        seen.exactness = std::max(seen.exactness, candidate.exactness);
+        rays_.exact_decisions += candidate.exact_decisions;
+        if (best == no_triangle) {
+            best = candidate.triangle;
+        } else if (meet_there(candidate, best)) {
+            signs.at_least_zero({0, Exactness::degenerate}, 1);
+        } else {
+            const Decision order =
+                rays_.predicates.depth_order(rays_.ray(lane), rays_.triangle(candidate.triangle),
+                                             rays_.triangle(best));
+            signs.at_least_zero(order, 1);
+            if (order.sign < 0) best = candidate.triangle;
+        }
+    }
+    seen.exactness = std::max(seen.exactness, signs.exactness());
+    rays_.exact_decisions += signs.exact_decisions();
+    packet.hit[static_cast<std::size_t>(lane)] = best;
 }
 
 Decision NearestArbiter::edge(const EyeRay& ray, int lane, const glm::dvec3& a,
@@ -100,16 +179,17 @@ Decision NearestArbiter::edge(const EyeRay& ray, int lane, const glm::dvec3& a,
     return rays_.predicates.edge(ray, a, b);
 }
 
-bool NearestArbiter::meet_there(int lane, const std::array<glm::dvec3, 3>& corners,
-                                const std::array<bool, 3>& through, std::uint32_t best) const {
-    const Corners other = rays_.triangle(best);
+bool NearestArbiter::meet_there(const Candidate& candidate, std::uint32_t other_triangle) const {
+    const Corners other = rays_.triangle(other_triangle);
+    const Corners t = rays_.triangle(candidate.triangle);
+    const std::array<glm::dvec3, 3> corners{t.a, t.b, t.c};
     const auto shares = [&](const glm::dvec3& p) {
         return p == other.a || p == other.b || p == other.c;
     };
-    const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(lane)];
+    const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(candidate.lane)];
     if (vertex && shares(*vertex) && std::ranges::count(corners, *vertex) > 0) return true;
     for (std::size_t k = 0; k < 3; ++k)
-        if (through[k] && shares(corners[k]) && shares(corners[(k + 1) % 3])) return true;
+        if (candidate.through[k] && shares(corners[k]) && shares(corners[(k + 1) % 3])) return true;
     return false;
 }
 
@@ -120,58 +200,76 @@ bool NearestArbiter::within_planes(const EyeRay& ray, const Corners& t, Signs& s
             signs.at_least_zero(predicates.depth_against(ray, t, range_.far), -1));
 }
 
-void NearestArbiter::raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray,
-                                    const Corners& t) const {
-    const PlaneEdges edges(t);
-    const glm::dvec3 normal = glm::cross(edges.ab, edges.ac);
-    const glm::dvec3 to_plane = edges.a - ray.eye;
-    // As in view.cpp: 8 u l^2 per component, 50 u m l^2 for the dot product.
-    const double numerator = glm::dot(to_plane, normal);
-    const double numerator_error = 50 * u * largest(to_plane) * edges.product;
-    const double denominator = glm::dot(ray.direction, normal);
-    const double denominator_error = 50 * u * largest(ray.direction) * edges.product;
-    const double scale = rays_.state->from_eye.scale;
-    // The plane is too near the eye to tell: all further candidates must be compared exactly.
-    if (!(std::abs(numerator) > 4 * numerator_error)) {
-        packet.lower_hi[static_cast<std::size_t>(lane)] = std::numeric_limits<float>::infinity();
-        return;
-    }
-    // 1/s = denominator / (numerator scale). The numerator may be smaller by a quarter, which
-    // makes its relative error and the denominator's share up to 4/3 as large: 1.5 covers that
-    // and second order, 4 u the roundings.
-    const double inverse = denominator / (numerator * scale);
-    const double error = std::abs(inverse) * (1.5 * numerator_error / std::abs(numerator) + 4 * u) +
-                         1.5 * denominator_error / std::abs(numerator * scale);
-    raise_lower_limit(packet, lane, std::max(float_below(inverse - error), 0.0F),
-                      float_above(inverse + error));
-}
+namespace {
 
-void AnyArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
-    const auto l = static_cast<std::size_t>(lane);
+Between between(const PacketRays& rays, int lane, std::uint32_t seen, std::uint32_t triangle) {
+    const EyeRay ray = rays.ray(lane);
+    const RayPoint q{.kind = RayPoint::Kind::surface, .surface = rays.triangle(seen)};
+    const Predicates& predicates = rays.predicates;
+    const Corners t = rays.triangle(triangle);
+    const int orientation = rays.state->from_light.side[triangle];
     Signs signs;
-    const RayPoint point{.kind = RayPoint::Kind::surface,
-                         .surface = rays_.triangle(seen_[l].triangle)};
-    const bool blocked = is_between(rays_.ray(lane), point, triangle, signs);
-    rays_.exact_decisions += signs.exact_decisions();
-    lighting_[l].exactness =
-        std::max(lighting_[l].exactness,
-                 touched_ ? signs.exactness() : std::min(signs.exactness(), Exactness::exact));
-    if (!blocked) return;
-    packet.hit[l] = triangle;
-    finish_lane(packet, lane);
+    Between found;
+    const Decision beyond = predicates.side_of_point(ray, q, t);
+    found.touched = signs.at_least_zero(beyond, orientation) &&
+                    signs.at_least_zero(predicates.shadow_edge(ray, q, t.a, t.b), orientation) &&
+                    signs.at_least_zero(predicates.shadow_edge(ray, q, t.b, t.c), orientation) &&
+                    signs.at_least_zero(predicates.shadow_edge(ray, q, t.c, t.a), orientation);
+    found.blocks = found.touched && beyond.sign != 0;
+    found.exactness = signs.exactness();
+    found.exact_decisions = signs.exact_decisions();
+    return found;
 }
 
-bool AnyArbiter::is_between(const EyeRay& ray, const RayPoint& q, std::uint32_t triangle,
-                            Signs& signs) {
-    const Predicates& predicates = rays_.predicates;
-    const Corners t = rays_.triangle(triangle);
-    const int orientation = rays_.state->from_light.side[triangle];
-    const Decision beyond = predicates.side_of_point(ray, q, t);
-    touched_ = signs.at_least_zero(beyond, orientation) &&
-               signs.at_least_zero(predicates.shadow_edge(ray, q, t.a, t.b), orientation) &&
-               signs.at_least_zero(predicates.shadow_edge(ray, q, t.b, t.c), orientation) &&
-               signs.at_least_zero(predicates.shadow_edge(ray, q, t.c, t.a), orientation);
-    return touched_ && beyond.sign != 0;
+} // namespace
+
+void AnyArbiter::decide(RayPacket& /*packet*/, int lane, std::uint32_t triangle) {
+    candidates_.push_back({lane, triangle});
+    if (candidates_.size() >= many_) leave_out_what_is_beside();
+}
+
+void AnyArbiter::leave_out_what_is_beside() {
+    Lanes<std::uint32_t> blocking{};
+    blocking.fill(no_triangle);
+    for (Candidate& candidate : candidates_) {
+        const auto l = static_cast<std::size_t>(candidate.lane);
+        if (candidate.triangle > blocking[l]) continue;
+        if (!candidate.between)
+            candidate.between = between(rays_, candidate.lane, seen_[l].triangle, candidate.triangle);
+        if (candidate.between->blocks) blocking[l] = candidate.triangle;
+    }
+    std::erase_if(candidates_, [&](const Candidate& c) {
+        return c.triangle > blocking[static_cast<std::size_t>(c.lane)] || !c.between->touched;
+    });
+    many_ = std::max(many_, 2 * candidates_.size());
+}
+
+void AnyArbiter::settle(RayPacket& packet) {
+    std::ranges::sort(candidates_, [](const Candidate& a, const Candidate& b) {
+        return a.lane != b.lane ? a.lane < b.lane : a.triangle < b.triangle;
+    });
+    const auto again = std::ranges::unique(candidates_, [](const Candidate& a, const Candidate& b) {
+        return a.lane == b.lane && a.triangle == b.triangle;
+    });
+    candidates_.erase(again.begin(), again.end());
+    for (Candidate& candidate : candidates_) {
+        const auto l = static_cast<std::size_t>(candidate.lane);
+        if ((packet.active >> l & 1U) == 0) continue;
+        if (!candidate.between)
+            candidate.between = between(rays_, candidate.lane, seen_[l].triangle, candidate.triangle);
+        if (!candidate.between->touched) continue;
+        rays_.exact_decisions += candidate.between->exact_decisions;
+        lighting_[l].exactness = std::max(lighting_[l].exactness, candidate.between->exactness);
+        if (!candidate.between->blocks) continue;
+        packet.hit[l] = candidate.triangle;
+        packet.active &= ~(1U << l);
+    }
+}
+
+void LowestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+    const auto l = static_cast<std::size_t>(lane);
+    if (triangle < packet.hit[l] && between(rays_, lane, seen_[l].triangle, triangle).blocks)
+        packet.hit[l] = triangle;
 }
 
 void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
@@ -187,7 +285,6 @@ void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
         signs.above_zero(predicates.shadow_edge_untied(ray, q, t.a, t.b), orientation) &&
         signs.above_zero(predicates.shadow_edge_untied(ray, q, t.b, t.c), orientation) &&
         signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation);
-    rays_.exact_decisions += signs.exact_decisions();
     if (between) packet.crossed[l] += records_.copies(triangle);
 }
 

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace shadowproof {
 
@@ -30,51 +32,95 @@ struct PacketRays {
     Corners triangle(std::uint32_t index) const { return corners(*state->scene, index); }
 };
 
-/// Decides which triangle an eye ray meets first. Keeps references.
+/// Whether a triangle lies between a visible point and the light, exactly.
+struct Between {
+    bool touched = false; ///< no sign was strictly against it
+    bool blocks = false;
+    Exactness exactness = Exactness::filtered;
+    std::uint64_t exact_decisions = 0;
+};
+
+/// Decides which triangle an eye ray meets first. What is recorded of it (exactness, number of exact
+/// signs) follows from the triangles that are truly met, where floats cannot tell that another is
+/// nearer: so it does not depend on the order in which they are found. Keeps references.
 class NearestArbiter final : public Arbiter {
 public:
     NearestArbiter(PacketRays& rays, const SeenRange& range, Lanes<Seen>& seen)
         : rays_(rays), range_(range), seen_(seen) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void compare(RayPacket& packet, int lane, std::uint32_t triangle, float lo, float hi) override;
+    void settle(RayPacket& packet) override;
 
 private:
+    /// A triangle that is met and may be the nearest.
+    struct Candidate {
+        int lane = 0;
+        std::uint32_t triangle = no_triangle;
+        float hi = 0; ///< of 1/s
+        Exactness exactness = Exactness::filtered;
+        std::uint64_t exact_decisions = 0;
+        std::array<bool, 3> through{}; ///< the ray runs through the lines of these edges
+    };
+
     PacketRays& rays_;
     SeenRange range_;
     Lanes<Seen>& seen_;
     Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
-    bool met_ = false; ///< the last tested triangle is met within the range
+    std::vector<Candidate> candidates_;
+    std::size_t many_ = 256; ///< of them: time to leave out those that are none any more
 
-    bool is_nearer(const RayPacket& packet, int lane, std::uint32_t triangle, Signs& signs);
+    void add(RayPacket& packet, const Candidate& candidate, float lo);
+    std::optional<Candidate> met(int lane, std::uint32_t triangle);
+    void settle_lane(RayPacket& packet, std::span<const Candidate> candidates);
 
     /// Predicates::edge; edges at a vertex that the ray runs through are all met.
     Decision edge(const EyeRay& ray, int lane, const glm::dvec3& a, const glm::dvec3& b) const;
 
     /// Whether the ray meets both triangles in one point because they share it: the vertex that it
     /// runs through, or an edge.
-    bool meet_there(int lane, const std::array<glm::dvec3, 3>& corners,
-                    const std::array<bool, 3>& through, std::uint32_t best) const;
+    bool meet_there(const Candidate& candidate, std::uint32_t other) const;
 
     bool within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const;
-
-    void raise_to_depth(RayPacket& packet, int lane, const EyeRay& ray, const Corners& t) const;
 };
 
-/// Decides whether a triangle lies between a visible point and the light. Keeps references.
+/// Decides whether a triangle lies between a visible point and the light: last, as floats may find
+/// another that certainly does; then in ascending order. So nothing that is recorded depends on the
+/// order in which triangles are found. Keeps references.
 class AnyArbiter final : public Arbiter {
 public:
     AnyArbiter(PacketRays& rays, const Lanes<Seen>& seen, Lanes<Lighting>& lighting)
         : rays_(rays), seen_(seen), lighting_(lighting) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void settle(RayPacket& packet) override;
+
+private:
+    struct Candidate {
+        int lane = 0;
+        std::uint32_t triangle = no_triangle;
+        std::optional<Between> between{}; ///< once decided
+    };
+
+    PacketRays& rays_;
+    const Lanes<Seen>& seen_;
+    Lanes<Lighting>& lighting_;
+    std::vector<Candidate> candidates_;
+    std::size_t many_ = 256; ///< of them: time to decide, and leave out what is beside
+
+    void leave_out_what_is_beside();
+};
+
+/// Finds the lowest-numbered triangle between a visible point and the light. Keeps references.
+class LowestArbiter final : public Arbiter {
+public:
+    LowestArbiter(PacketRays& rays, const Lanes<Seen>& seen) : rays_(rays), seen_(seen) {}
+
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
 
 private:
     PacketRays& rays_;
     const Lanes<Seen>& seen_;
-    Lanes<Lighting>& lighting_;
-    bool touched_ = false; ///< no sign was strictly against it
-
-    bool is_between(const EyeRay& ray, const RayPoint& q, std::uint32_t triangle, Signs& signs);
 };
 
 /// Decides which triangles lie between a point of a ray and the light, with ties broken. Keeps

@@ -47,7 +47,7 @@ Vector smaller(Vector a, Vector b) {
     return hn::IfThenElse(hn::Lt(a, b), a, b);
 }
 
-std::uint32_t near_box(const AnyRays& rays, const Slabs& slabs, const Entry& box) {
+std::uint32_t near_box(const AnyRays& rays, const Slabs& slabs, const Box& box) {
     std::uint32_t met = 0;
     for (int i = 0; i < packet_size; i += step()) {
         Vector enter = load(rays.near, i);
@@ -59,8 +59,8 @@ std::uint32_t near_box(const AnyRays& rays, const Slabs& slabs, const Entry& box
             const auto met_at = [&](double plane) {
                 return hn::Mul(hn::Sub(hn::Set(doubles, plane), origin), inverse);
             };
-            const Vector a = met_at(double{box.lower[axis]});
-            const Vector b = met_at(double{box.upper[axis]});
+            const Vector a = met_at(double{box.lower[static_cast<int>(axis)]});
+            const Vector b = met_at(double{box.upper[static_cast<int>(axis)]});
             enter = larger(hn::Sub(smaller(a, b), margin), enter);
             leave = smaller(hn::Add(larger(a, b), margin), leave);
         }
@@ -143,7 +143,7 @@ void set_slabs(Slabs& slabs, int lane, const AnyRay& ray, const glm::dvec3& enla
     }
 }
 
-std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Entry& box) {
+std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Box& box) {
     return HWY_DYNAMIC_DISPATCH(near_box)(rays, slabs, box) & rays.lanes;
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "reference/trace/any_rays.h"
-#include "reference/trace/embree.h"
+#include "reference/trace/clusters.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -22,7 +22,7 @@ struct Slabs {
 void set_slabs(Slabs& slabs, int lane, const AnyRay& ray, const glm::dvec3& enlargement);
 
 /// One bit per lane whose ray comes near the box, within its limits.
-std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Entry& box);
+std::uint32_t lanes_near(const AnyRays& rays, const Slabs& slabs, const Box& box);
 
 /// What doubles tell of rays and a triangle, limits apart: one bit per lane.
 struct LanesBeside {

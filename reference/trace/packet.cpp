@@ -1,6 +1,7 @@
 #include "reference/trace/packet.h"
 
 #include "reference/exact/norms.h"
+#include "reference/trace/rays.h"
 
 #include <algorithm>
 #include <bit>
@@ -22,7 +23,7 @@ using Ids = hn::RebindToUnsigned<Floats>;
 using Vector = hn::Vec<Floats>;
 using Mask = hn::Mask<Floats>;
 
-enum class Query : std::uint8_t { nearest, any, count };
+enum class Query : std::uint8_t { nearest, any, lowest, count };
 
 constexpr Floats floats;
 constexpr Ids ids;
@@ -38,129 +39,15 @@ std::uint32_t bits_of(Mask mask, int first_lane) {
            << static_cast<unsigned>(first_lane);
 }
 
+Mask mask_of(std::uint32_t lanes, int first_lane) {
+    const std::uint32_t here = lanes >> static_cast<unsigned>(first_lane);
+    alignas(8) const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(here),
+                                                       static_cast<std::uint8_t>(here >> 8U)};
+    return hn::LoadMaskBits(floats, bytes.data());
+}
+
 Vector load(const Lanes<float>& values, int i) {
     return hn::Load(floats, values.data() + i);
-}
-
-// The float ray must meet every box, enlarged by pad, that the exact ray meets. A hit lies within
-// the scene, so s |w| <= 1 there (scaled coordinates, |w| the exact ray's). Each component of w is
-// off by a relative 2^-24, which meets_box allows for, and by `error`: s error <= error / |w| <=
-// error of pad, as |w| >= 1; twice that, because |w| is itself off. Components below 2^-31 |w| are
-// made +0: another 2^-31 of pad, which leaves 2^-31 of the 2^-30 given, so that a box really met
-// reaches that far to either side of the plane through the origin, and 2^100 for 1/w then lies
-// beyond every s. Where nothing is known of the direction, any will do: a pad of 4 lets all boxes
-// (at most 1 away) hold the ray's start, and every triangle is decided exactly.
-void prepare(RayPacket& packet) {
-    const Vector one = hn::Set(floats, 1);
-    const Vector infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
-    Vector pad = hn::Set(floats, 0x1p-30F);
-    for (int i = 0; i < packet_size; i += step()) {
-        Vector x = load(packet.x, i);
-        Vector y = load(packet.y, i);
-        Vector z = load(packet.z, i);
-        const Vector size = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-        const Vector still = hn::Mul(size, hn::Set(floats, 0x1p-31F));
-        const auto set_axis = [&](Vector w, Lanes<float>& component, Lanes<float>& reciprocal) {
-            const Mask moves = hn::Ge(hn::Abs(w), still);
-            hn::Store(hn::IfThenElseZero(moves, w), floats, component.data() + i);
-            hn::Store(hn::IfThenElse(moves, hn::Div(one, w), hn::Set(floats, 0x1p100F)), floats,
-                      reciprocal.data() + i);
-        };
-        set_axis(x, packet.x, packet.rx);
-        set_axis(y, packet.y, packet.ry);
-        set_axis(z, packet.z, packet.rz);
-        const Vector error = load(packet.error, i);
-        pad = hn::Max(pad, hn::MulAdd(error, hn::Set(floats, 2), hn::Set(floats, 0x1p-30F)));
-        hn::Store(
-            hn::IfThenElse(hn::Gt(error, hn::Set(floats, packet.trusted_error)), infinite, size),
-            floats, packet.magnitude.data() + i);
-        const Vector unit = load(packet.unit, i);
-        for (Lanes<float>* limit :
-             {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
-            hn::Store(hn::Mul(load(*limit, i), unit), floats, limit->data() + i);
-        const Vector awake = load(packet.farthest, i);
-        const Vector farthest =
-            hn::Mul(hn::Div(one, load(packet.lower_lo, i)), hn::Set(floats, 1 + 0x1p-20F));
-        hn::Store(hn::IfThenElse(hn::Lt(awake, hn::Zero(floats)), awake, farthest), floats,
-                  packet.farthest.data() + i);
-    }
-    packet.pad = std::min(4.0F, hn::GetLane(hn::MaxOfLanes(floats, pad)));
-}
-
-// Parallel rays. u and v are off by 2^-24 of rounding to float, and by `error` as w is: the pad has
-// twice that, error over w's third component, and 2^-21 where |u| <= 2 (2^-23 twice, and the 2^-50
-// that the boxes, of at most 1, may be too small); further out no box lies. Of an unknown direction
-// all boxes are met.
-void prepare_parallel(RayPacket& packet) {
-    const Vector infinite = hn::Set(floats, std::numeric_limits<float>::infinity());
-    Vector pad = hn::Set(floats, 0x1p-21F);
-    for (int i = 0; i < packet_size; i += step()) {
-        const Vector x = load(packet.x, i);
-        const Vector y = load(packet.y, i);
-        const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
-        const Vector z = hn::IfThenElse(awake, load(packet.z, i), hn::Set(floats, 1));
-        const Vector unit = load(packet.unit, i);
-        const Vector error = load(packet.error, i);
-        pad = hn::Max(pad,
-                      hn::MulAdd(hn::Div(error, z), hn::Set(floats, 2), hn::Set(floats, 0x1p-21F)));
-        hn::Store(hn::Div(x, z), floats, packet.rx.data() + i);
-        hn::Store(hn::Div(y, z), floats, packet.ry.data() + i);
-        hn::Store(load(packet.lower_lo, i), floats, packet.rz.data() + i);
-        const Vector size = hn::Max(hn::Max(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
-        hn::Store(
-            hn::IfThenElse(hn::Gt(error, hn::Set(floats, packet.trusted_error)), infinite, size),
-            floats, packet.magnitude.data() + i);
-        for (Lanes<float>* limit :
-             {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
-            hn::Store(hn::Mul(load(*limit, i), unit), floats, limit->data() + i);
-    }
-    packet.pad = hn::GetLane(hn::MaxOfLanes(floats, pad));
-}
-
-// Does any lane's ray pass through the box, at a height that counts?
-bool meets_ground(const RayPacket& packet, const Entry& box) {
-    const float pad = packet.pad;
-    const Vector left = hn::Set(floats, box.lower[0] - pad);
-    const Vector right = hn::Set(floats, box.upper[0] + pad);
-    const Vector front = hn::Set(floats, box.lower[1] - pad);
-    const Vector back = hn::Set(floats, box.upper[1] + pad);
-    const Vector top = hn::Set(floats, box.upper[2] + pad);
-    for (int i = 0; i < packet_size; i += step()) {
-        const Vector u = load(packet.rx, i);
-        const Vector v = load(packet.ry, i);
-        const Mask within = hn::And(hn::And(hn::Ge(u, left), hn::Le(u, right)),
-                                    hn::And(hn::Ge(v, front), hn::Le(v, back)));
-        const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
-        const Mask below = hn::Le(load(packet.rz, i), top);
-        if (!hn::AllFalse(floats, hn::And(within, hn::And(awake, below)))) return true;
-    }
-    return false;
-}
-
-// Does any lane's ray meet the box? The plane x = p is reached at s = p / w_x. In float that is
-// p' r with p' = p - pad, r = 1/w_x and w_x each rounded, and the product rounded: 4 roundings, so
-// entry and exit are right to within a factor 1 +- 4.01 2^-24, and signs are right. 1 + 2^-20
-// covers both, and that of `farthest`.
-bool meets_box(const RayPacket& packet, const Entry& box) {
-    const Vector grown = hn::Set(floats, 1 + 0x1p-20F);
-    const float pad = packet.pad;
-    const auto slab = [&](std::size_t axis, const Lanes<float>& reciprocal, int i, Vector& entry,
-                          Vector& exit) {
-        const Vector r = load(reciprocal, i);
-        const Vector a = hn::Mul(hn::Set(floats, box.lower[axis] - pad), r);
-        const Vector b = hn::Mul(hn::Set(floats, box.upper[axis] + pad), r);
-        entry = hn::Max(entry, hn::Min(a, b));
-        exit = hn::Min(exit, hn::Max(a, b));
-    };
-    for (int i = 0; i < packet_size; i += step()) {
-        Vector entry = hn::Zero(floats);
-        Vector exit = load(packet.farthest, i);
-        slab(0, packet.rx, i, entry, exit);
-        slab(1, packet.ry, i, entry, exit);
-        slab(2, packet.rz, i, entry, exit);
-        if (!hn::AllFalse(floats, hn::Le(entry, hn::Mul(exit, grown)))) return true;
-    }
-    return false;
 }
 
 /// What floats tell of one triangle for some lanes. Neither certain: undecided.
@@ -174,19 +61,22 @@ struct Answer {
 /// w . n for one triangle's n of a cluster.
 Vector dot(const RayPacket& packet, int i, const std::array<PerTriangle<float>, 3>& n,
            std::size_t triangle) {
-    return hn::Add(hn::Add(hn::Mul(load(packet.x, i), hn::Set(floats, n[0][triangle])),
-                           hn::Mul(load(packet.y, i), hn::Set(floats, n[1][triangle]))),
-                   hn::Mul(load(packet.z, i), hn::Set(floats, n[2][triangle])));
+    return hn::Add(hn::Add(hn::Mul(load(packet.w[0], i), hn::Set(floats, n[0][triangle])),
+                           hn::Mul(load(packet.w[1], i), hn::Set(floats, n[1][triangle]))),
+                   hn::Mul(load(packet.w[2], i), hn::Set(floats, n[2][triangle])));
 }
 
-/// Comparisons with NaN are false, so whatever overflows is undecided.
+/// Comparisons with NaN are false, so whatever overflows is undecided. What is certain does not
+/// depend on what was found before.
+template <Query query>
 Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::size_t t) {
     const Vector magnitude = load(packet.magnitude, i);
     const Vector inner =
         hn::Min(hn::Min(dot(packet, i, cluster.edge[0], t), dot(packet, i, cluster.edge[1], t)),
                 dot(packet, i, cluster.edge[2], t));
     Answer answer;
-    const Mask maybe_inside = hn::Not(hn::Lt(inner, hn::Neg(magnitude)));
+    const Mask maybe_inside = hn::AndNot(hn::Lt(inner, hn::Neg(magnitude)),
+                                         mask_of(packet.active, i));
     if (hn::AllFalse(floats, maybe_inside)) {
         answer.met = answer.undecided = maybe_inside;
         answer.lo = answer.hi = inner;
@@ -196,12 +86,14 @@ Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::s
     const Vector inverse = dot(packet, i, cluster.inverse, t);
     answer.lo = hn::Sub(inverse, tolerance);
     answer.hi = hn::Add(inverse, tolerance);
-    const Mask awake = hn::Ge(load(packet.farthest, i), hn::Zero(floats));
-    const Mask skipped = hn::RebindMask(
-        floats, hn::Eq(hn::Load(ids, packet.skip.data() + i), hn::Set(ids, cluster.plane[t])));
-    const Mask out = hn::Or(hn::Lt(answer.hi, load(packet.lower_lo, i)),
-                            hn::Gt(answer.lo, load(packet.upper_hi, i)));
-    const Mask candidate = hn::And(hn::AndNot(out, maybe_inside), hn::AndNot(skipped, awake));
+    Mask out = hn::Or(hn::Lt(answer.hi, load(packet.lower_lo, i)),
+                      hn::Gt(answer.lo, load(packet.upper_hi, i)));
+    if constexpr (query == Query::nearest)
+        out = hn::Or(out, hn::Lt(answer.hi, load(packet.best_lo, i)));
+    else
+        out = hn::Or(out, hn::RebindMask(floats, hn::Eq(hn::Load(ids, packet.skip.data() + i),
+                                                        hn::Set(ids, cluster.plane[t]))));
+    const Mask candidate = hn::AndNot(out, maybe_inside);
     answer.met = hn::And(hn::And(candidate, hn::Ge(inner, magnitude)),
                          hn::And(hn::Gt(answer.lo, load(packet.lower_hi, i)),
                                  hn::Lt(answer.hi, load(packet.upper_lo, i))));
@@ -209,39 +101,53 @@ Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::s
     return answer;
 }
 
-void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t triangle) {
-    const auto blend = [&](Lanes<float>& values, Vector value) {
-        hn::BlendedStore(value, answer.met, floats, values.data() + i);
-    };
-    blend(packet.lower_lo, answer.lo);
-    blend(packet.lower_hi, answer.hi);
-    blend(packet.farthest,
-          hn::Mul(hn::Div(hn::Set(floats, 1), answer.lo), hn::Set(floats, 1 + 0x1p-20F)));
-    hn::BlendedStore(hn::Set(ids, triangle), hn::RebindMask(ids, answer.met), ids,
+/// Keeps what is nearer than the hit for certain; where that is not certain, the arbiter compares.
+void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t triangle,
+                  Arbiter& arbiter) {
+    const Mask nearer = hn::And(answer.met, hn::Gt(answer.lo, load(packet.hit_hi, i)));
+    hn::BlendedStore(answer.hi, nearer, floats, packet.hit_hi.data() + i);
+    hn::BlendedStore(hn::Set(ids, triangle), hn::RebindMask(ids, nearer), ids,
                      packet.hit.data() + i);
+    hn::BlendedStore(hn::Max(answer.lo, load(packet.best_lo, i)), answer.met, floats,
+                     packet.best_lo.data() + i);
+    // A cluster may be found again, and with it the hit.
+    const Mask is_hit = hn::RebindMask(
+        floats, hn::Eq(hn::Load(ids, packet.hit.data() + i), hn::Set(ids, triangle)));
+    const Mask rivals = hn::AndNot(is_hit, answer.met);
+    if (hn::AllFalse(floats, rivals)) return;
+    alignas(64) Lanes<float> lo{};
+    alignas(64) Lanes<float> hi{};
+    hn::Store(answer.lo, floats, lo.data());
+    hn::Store(answer.hi, floats, hi.data());
+    for (std::uint32_t left = bits_of(rivals, 0); left != 0; left &= left - 1) {
+        const int lane = __builtin_ctz(left);
+        const auto l = static_cast<std::size_t>(lane);
+        arbiter.compare(packet, i + lane, triangle, lo[l], hi[l]);
+    }
 }
 
 template <Query query>
-void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t t,
-                   Arbiter& arbiter) {
+void keep(RayPacket& packet, std::uint32_t lanes, std::uint32_t triangle, std::uint32_t copies) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto l = static_cast<std::size_t>(__builtin_ctz(lanes));
+        if constexpr (query == Query::count) packet.crossed[l] += copies;
+        if constexpr (query == Query::any || query == Query::lowest)
+            packet.hit[l] = std::min(packet.hit[l], triangle);
+        if constexpr (query == Query::any) packet.active &= ~(1U << l);
+    }
+}
+
+template <Query query>
+void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t t, int first,
+                   int end, Arbiter& arbiter) {
     const std::uint32_t triangle = cluster.triangle[t];
-    for (int i = 0; i < packet_size; i += step()) {
-        const Answer answer = test(packet, i, cluster, t);
+    for (int i = first; i < end; i += step()) {
+        const Answer answer = test<query>(packet, i, cluster, t);
         if (!hn::AllFalse(floats, answer.met)) {
-            if constexpr (query == Query::nearest) {
-                keep_nearest(packet, i, answer, triangle);
-            } else {
-                for (std::uint32_t left = bits_of(answer.met, i); left != 0; left &= left - 1) {
-                    const int lane = __builtin_ctz(left);
-                    const auto l = static_cast<std::size_t>(lane);
-                    if constexpr (query == Query::count) {
-                        packet.crossed[l] += cluster.copies[t];
-                    } else {
-                        packet.hit[l] = triangle;
-                        finish_lane(packet, lane);
-                    }
-                }
-            }
+            if constexpr (query == Query::nearest)
+                keep_nearest(packet, i, answer, triangle, arbiter);
+            else
+                keep<query>(packet, bits_of(answer.met, i), triangle, cluster.copies[t]);
         }
         if (hn::AllFalse(floats, answer.undecided)) continue;
         for (std::uint32_t left = bits_of(answer.undecided, i); left != 0; left &= left - 1)
@@ -249,47 +155,80 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
     }
 }
 
-/// At each level one of two children stays on the stack; a leaf of triangles with one box has up to
-/// 4 clusters.
-constexpr std::size_t stack_size = deepest_level + 4;
+/// A query under way.
+struct Search {
+    RayPacket& packet;
+    RecordCache& records;
+    Arbiter& arbiter;
+    double ratio = 1; ///< the walk's scale over the view's
+};
 
-template <Query query, bool parallel>
-void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    if constexpr (parallel)
-        prepare_parallel(packet);
-    else
-        prepare(packet);
-    const std::vector<Entry>& entries = records.view().entries;
-    std::array<std::uint32_t, stack_size> stack; // NOLINT: filled as it is used
-    stack[0] = 0;
-    for (std::size_t size = 1; size > 0 && packet.active != 0;) {
-        const Entry& entry = entries[stack[--size]];
-        if (!(parallel ? meets_ground(packet, entry) : meets_box(packet, entry))) continue;
-        // Nearest first, so pushed last.
-        for (std::uint32_t i = entry.count; i > 0; --i) stack[size++] = entry.first + i - 1;
-        if (entry.count > 0) continue;
-        const ClusterRecord& cluster = records.of(entry.first);
-        for (std::uint32_t i = 0; i < cluster.count; ++i)
-            meet_triangle<query>(packet, cluster, i, arbiter);
+/// Whole vectors that hold the lanes from `first` on.
+template <Query query>
+void meet_cluster(Search& search, std::uint32_t number, int first, int count) {
+    const ClusterRecord& cluster = search.records.of(number);
+    for (std::uint32_t left = cluster.members; left != 0; left &= left - 1)
+        meet_triangle<query>(search.packet, cluster, static_cast<std::size_t>(__builtin_ctz(left)),
+                             first - first % step(), first + count, search.arbiter);
+}
+
+/// How far the walk must still look: where 1/s is best_lo, and a little further.
+void lower_limits(const Search& search, int first, int count, float* far) {
+    const RayPacket& packet = search.packet;
+    for (int i = 0; i < count; ++i) {
+        const auto l = static_cast<std::size_t>(first + i);
+        const double best = packet.best_lo[l];
+        if (!(best > 0)) continue;
+        const double s = search.ratio / best * (1 + 0x1p-20) - packet.walk_start[l];
+        far[i] = std::min(far[i], static_cast<float>(std::max(s, 0.0)) + 0x1p-20F);
     }
 }
 
 template <Query query>
-void traverse(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    if (records.view().parallel)
-        traverse<query, true>(packet, records, arbiter);
-    else
-        traverse<query, false>(packet, records, arbiter);
+void visit(void* visitor, std::uint32_t cluster, int first, int count, float* far) {
+    auto& search = *static_cast<Search*>(visitor);
+    meet_cluster<query>(search, cluster, first, count);
+    if constexpr (query == Query::nearest) lower_limits(search, first, count, far);
+    if constexpr (query == Query::any)
+        for (int i = 0; i < count; ++i)
+            if ((search.packet.active >> (first + i) & 1U) == 0)
+                far[i] = -std::numeric_limits<float>::infinity();
+}
+
+template <Query query>
+void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    prepare(packet, records.view());
+    const BoxTrees& trees = *records.view().trees;
+    Search search{packet, records, arbiter, trees.frame().scale / records.view().scale};
+    packet.walk.lanes = packet.active;
+    if (packet.active != 0) {
+        if (const BoxTree* tree = trees.with_room(packet.room)) {
+            if constexpr (query == Query::any)
+                tree->find_any(packet.walk, visit<query>, &search);
+            else if constexpr (query == Query::nearest)
+                tree->find_nearest(packet.walk, visit<query>, &search);
+            else
+                tree->find_all(packet.walk, visit<query>, &search);
+        } else {
+            const std::size_t count = trees.clusters().all.size();
+            for (std::size_t i = 0; i < count && packet.active != 0; ++i)
+                meet_cluster<query>(search, static_cast<std::uint32_t>(i), 0, packet_size);
+        }
+    }
+    arbiter.settle(packet);
 }
 
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    traverse<Query::nearest, false>(packet, records, arbiter);
+    search_for<Query::nearest>(packet, records, arbiter);
 }
 void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    traverse<Query::any>(packet, records, arbiter);
+    search_for<Query::any>(packet, records, arbiter);
+}
+void find_lowest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    search_for<Query::lowest>(packet, records, arbiter);
 }
 void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    traverse<Query::count>(packet, records, arbiter);
+    search_for<Query::count>(packet, records, arbiter);
 }
 
 } // namespace
@@ -302,6 +241,7 @@ namespace shadowproof {
 namespace {
 HWY_EXPORT(find_nearest);
 HWY_EXPORT(find_any);
+HWY_EXPORT(find_lowest);
 HWY_EXPORT(count_all);
 } // namespace
 
@@ -311,6 +251,9 @@ void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
 void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     HWY_DYNAMIC_DISPATCH(find_any)(packet, records, arbiter);
 }
+void find_lowest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
+    HWY_DYNAMIC_DISPATCH(find_lowest)(packet, records, arbiter);
+}
 void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     HWY_DYNAMIC_DISPATCH(count_all)(packet, records, arbiter);
 }
@@ -318,56 +261,25 @@ void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
 RayPacket empty_packet(Filters filters) {
     RayPacket packet;
     if (filters == Filters::off) packet.trusted_error = -1;
-    packet.farthest.fill(-1);
     packet.hit.fill(no_triangle);
+    packet.hit_hi.fill(-std::numeric_limits<float>::infinity());
+    packet.best_lo.fill(-std::numeric_limits<float>::infinity());
     packet.skip.fill(no_plane);
     return packet;
 }
 
-namespace {
-
-/// 2^-e for a normal size in [2^e, 2^(e + 1)).
-double power_that_normalises(double size) {
-    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52U;
-    return std::bit_cast<double>((2046 - exponent) << 52U);
-}
-
-} // namespace
-
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
-    const double size = largest(w.direction);
-    // Beyond 2^+-100 the limits, which are scaled alike, would leave the range of floats.
-    const bool known = size > 0x1p-100 && size < 0x1p100 && w.error < size;
-    // Powers of two only: 1 <= |w| < 2 afterwards.
-    const double shrink = known ? power_that_normalises(size) : 1;
-    packet.x[l] = known ? static_cast<float>(w.direction.x * shrink) : 1.0F;
-    packet.y[l] = known ? static_cast<float>(w.direction.y * shrink) : 1.0F;
-    packet.z[l] = known ? static_cast<float>(w.direction.z * shrink) : 1.0F;
-    // Rounded to float, and a little up.
-    packet.error[l] = known ? static_cast<float>(w.error * shrink * (1 + 0x1p-20))
-                            : std::numeric_limits<float>::infinity();
-    packet.unit[l] = static_cast<float>(shrink);
+    for (int axis = 0; axis < 3; ++axis)
+        packet.direction[static_cast<std::size_t>(axis)][l] = w.direction[axis];
+    packet.direction_error[l] = w.error;
     packet.lower_lo[l] = limits.lower_lo;
     packet.lower_hi[l] = limits.lower_hi;
     packet.upper_lo[l] = limits.upper_lo;
     packet.upper_hi[l] = limits.upper_hi;
-    packet.farthest[l] = 0;
     packet.skip[l] = skip;
-    packet.active |= 1U << static_cast<unsigned>(lane);
-}
-
-void finish_lane(RayPacket& packet, int lane) {
-    packet.farthest[static_cast<std::size_t>(lane)] = -1;
-    packet.active &= ~(1U << static_cast<unsigned>(lane));
-}
-
-void raise_lower_limit(RayPacket& packet, int lane, float lo, float hi) {
-    const auto l = static_cast<std::size_t>(lane);
-    packet.lower_lo[l] = lo * packet.unit[l];
-    packet.lower_hi[l] = hi * packet.unit[l];
-    packet.farthest[l] = 1 / packet.lower_lo[l] * (1 + 0x1p-20F);
+    packet.active |= 1U << l;
 }
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
-// Sixteen rays from one origin through the hierarchy, in float with error bounds: what floats
-// cannot decide is passed on, lane by lane, to be decided exactly. Uses the widest vectors that the
-// processor has; the result is the same with any.
+// Sixteen rays from one origin and the clusters that Embree's walk finds for them, in float with
+// error bounds: what floats cannot decide is passed on, lane by lane, to be decided exactly. Uses
+// the widest vectors that the processor has. What is found does not depend on them, nor on the
+// order in which clusters are found.
 #pragma once
 
 #include "reference/exact/exactness.h"
@@ -12,13 +13,8 @@
 
 namespace shadowproof {
 
-inline constexpr int packet_size = 16;
-
 /// A plane in which no triangle lies.
 inline constexpr std::uint32_t no_plane = 0xffffffffU;
-
-template <class T>
-using Lanes = std::array<T, packet_size>;
 
 /// An approximation of a ray's exact direction w: |w - direction| <= error in each component.
 struct ApproximateDirection {
@@ -31,21 +27,29 @@ struct ApproximateDirection {
 /// run up at (u, v): w = (u, v, 1), and heights take the place of 1/s. What is computed from the
 /// inputs of set_lane, and its bounds, are explained in packet.cpp.
 struct RayPacket {
-    alignas(64) Lanes<float> x{}, y{}, z{};    ///< w, 1 <= |w| <= 2, |w| the largest component
-    alignas(64) Lanes<float> error{};          ///< of a component of w; infinite: w is unknown
-    alignas(64) Lanes<float> unit{};           ///< w over the direction given: a power of two
-    alignas(64) Lanes<float> rx{}, ry{}, rz{}; ///< 1 / w; parallel: u, v, and the least height
-    alignas(64) Lanes<float> magnitude{};      ///< |w|; infinite: floats decide nothing
-    alignas(64) Lanes<float> lower_lo{}, lower_hi{};
+    // As given.
+    alignas(64) std::array<Lanes<double>, 3> direction{};
+    alignas(64) Lanes<double> direction_error{};
+    alignas(64) Lanes<float> lower_lo{}, lower_hi{}; ///< when prepared, in units of w
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
-    alignas(64) Lanes<float> farthest{};        ///< boxes beyond are skipped; -1: lane is done
-    alignas(64) Lanes<std::uint32_t> skip{};    ///< a plane (Places) to ignore, or no_plane
-    alignas(64) Lanes<std::uint32_t> hit{};     ///< nearest or any, or no_triangle
-    alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
-    float pad = 0;                              ///< by how much boxes are enlarged
-    std::uint32_t active = 0;                   ///< one bit per lane that is not done
+    alignas(64) Lanes<std::uint32_t> skip{}; ///< a plane (Places) to ignore, or no_plane
+    std::uint32_t active = 0;                ///< one bit per lane that is not done
     /// The largest error with which floats may decide: below 0, nothing is left to them.
     float trusted_error = 0x1p-25F;
+
+    // What floats compute with.
+    alignas(64) std::array<Lanes<float>, 3> w{}; ///< 1 <= |w| < 2, |w| the largest component
+    alignas(64) Lanes<float> unit{};             ///< w over the direction: a power of two
+    alignas(64) Lanes<float> magnitude{};        ///< |w|; infinite: floats decide nothing
+    WalkRays walk;
+    alignas(64) Lanes<double> walk_start{}; ///< s at which the walk's ray begins
+    double room = 0;                        ///< how far rays may be from the walk's
+
+    // What is found.
+    alignas(64) Lanes<std::uint32_t> hit{}; ///< nearest or any, or no_triangle
+    alignas(64) Lanes<float> hit_hi{};      ///< nearest: 1/s of the hit is at most this
+    alignas(64) Lanes<float> best_lo{};     ///< nearest: 1/s of the nearest is at least this
+    alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
 };
 
 /// A packet without rays.
@@ -61,27 +65,30 @@ struct HitLimits {
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip);
 
-/// Ends the search of a lane's ray.
-void finish_lane(RayPacket& packet, int lane);
-
-/// From now on ignores hits with 1/s below this, in units of the direction given.
-void raise_lower_limit(RayPacket& packet, int lane, float lo, float hi);
-
-/// Decides what floats could not: whether a lane's ray meets the triangle within its limits.
-/// Records the consequence (packet.hit and limits, finish_lane, or packet.crossed).
+/// Decides what floats could not.
 class Arbiter {
 public:
     Arbiter() = default;
     Arbiter(const Arbiter&) = delete;
     Arbiter& operator=(const Arbiter&) = delete;
     virtual ~Arbiter() = default;
+    /// Whether the lane's ray meets the triangle within its limits is not known. May raise best_lo,
+    /// count in `crossed`, or end the lane's search.
     virtual void decide(RayPacket& packet, int lane, std::uint32_t triangle) = 0;
+    /// Nearest: the triangle is met, with 1/s in [lo, hi], as may be the hit.
+    virtual void compare(RayPacket& /*packet*/, int /*lane*/, std::uint32_t /*triangle*/,
+                         float /*lo*/, float /*hi*/) {}
+    /// All triangles have been found: settles what was left for the end.
+    virtual void settle(RayPacket& /*packet*/) {}
 };
 
 /// packet.hit: the triangle with the largest 1/s. Not for parallel rays.
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
-/// packet.hit: some triangle; the lane is then done.
+/// packet.hit: some triangle that is certainly met; the lane is then done. The arbiter adds what
+/// remains.
 void find_any(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
+/// packet.hit: of those that are certainly met the one with the lowest number.
+void find_lowest(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
 /// packet.crossed: how many triangles.
 void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
 

@@ -3,25 +3,12 @@
 #include "scenes/driver.h"
 
 #include <limits>
-#include <utility>
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/records.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
-
-#ifndef SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
-#define SHADOWPROOF_REFERENCE_CLUSTER_CORNERS
-namespace shadowproof {
-
-/// World-space corners of a cluster's triangles, oriented so that det > 0; zeros where none is.
-struct ClusterCorners {
-    alignas(64) std::array<std::array<PerTriangle<double>, 3>, 3> corner{}; ///< a, b, c; axis
-};
-
-} // namespace shadowproof
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
@@ -73,6 +60,30 @@ Vector choose(Mask mask, const Vector& p, const Vector& otherwise) {
 Number sum_of(const Vector& p) {
     return hn::Add(hn::Add(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
 }
+
+/// World-space corners of a cluster's triangles from the i-th on, oriented so that det > 0: those
+/// whose bit in `front` is set have their second and third exchanged.
+struct ClusterCorners {
+    Vector a, b, c;
+
+    ClusterCorners(const Cluster& cluster, std::uint32_t front, std::size_t i) {
+        const auto corner = [&](std::size_t k) {
+            const auto axis = [&](std::size_t n) {
+                return hn::PromoteTo(doubles,
+                                     hn::Load(floats, cluster.corner[k][n].data() + i));
+            };
+            return Vector{axis(0), axis(1), axis(2)};
+        };
+        const std::array<std::uint8_t, 8> bits{static_cast<std::uint8_t>(front >> i)};
+        const auto exchanged = hn::LoadMaskBits(doubles, bits.data());
+        const Vector second = corner(1);
+        const Vector third = corner(2);
+        a = corner(0);
+        b = choose(exchanged, third, second);
+        c = choose(exchanged, second, third);
+    }
+    const Vector& operator[](std::size_t k) const { return k == 0 ? a : (k == 1 ? b : c); }
+};
 
 void store(Number value, PerTriangle<float>& to, std::size_t i) {
     hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
@@ -128,7 +139,7 @@ Number unless(Mask nothing_known, Number tolerance) {
 //   h_b - h_a = dz / ((1 - lean a_z) (1 - lean b_z)), at most 1.01 l, is off by l + 1.01 l (3.3 +
 //   1) = 5.4 l.
 // Of a directional light lean is 0, and all is off by less.
-void make_parallel_records(const OriginView& view, const ClusterCorners& corners,
+void make_parallel_records(const OriginView& view, const Cluster& cluster, std::uint32_t front,
                            ClusterRecord& record) {
     const std::array<int, 3>& axes = view.shear.axes;
     const Vector origin{number(view.origin[axes[0]]), number(view.origin[axes[1]]),
@@ -141,12 +152,11 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
                       hn::Sub(p.y, hn::Mul(number(view.shear.slope_v), p.z)), hn::Mul(up, p.z)};
     };
     for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
+        const ClusterCorners corners(cluster, front, i);
         const auto world = [&](std::size_t k) {
-            const auto load = [&](int axis) {
-                return hn::Load(doubles,
-                                corners.corner[k][static_cast<std::size_t>(axis)].data() + i);
-            };
-            return Vector{load(axes[0]), load(axes[1]), load(axes[2])};
+            const std::array<Number, 3> p{corners[k].x, corners[k].y, corners[k].z};
+            return Vector{p[static_cast<std::size_t>(axes[0])], p[static_cast<std::size_t>(axes[1])],
+                          p[static_cast<std::size_t>(axes[2])]};
         };
         const auto relative = [&](const Vector& p, const Vector& q) {
             return times(minus(p, q), scale);
@@ -215,22 +225,19 @@ void make_parallel_records(const OriginView& view, const ClusterCorners& corners
     }
 }
 
-void make_records(const OriginView& view, const ClusterCorners& corners, ClusterRecord& record) {
-    if (view.parallel) return make_parallel_records(view, corners, record);
+void make_records(const OriginView& view, const Cluster& cluster, std::uint32_t front,
+                  ClusterRecord& record) {
+    if (view.parallel) return make_parallel_records(view, cluster, front, record);
     const Vector origin{number(view.origin.x), number(view.origin.y), number(view.origin.z)};
     const Number scale = number(view.scale);
     for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(doubles)) {
-        const auto world = [&](std::size_t k) {
-            return Vector{hn::Load(doubles, corners.corner[k][0].data() + i),
-                          hn::Load(doubles, corners.corner[k][1].data() + i),
-                          hn::Load(doubles, corners.corner[k][2].data() + i)};
-        };
-        const Vector a = times(minus(world(0), origin), scale);
-        const Vector b = times(minus(world(1), origin), scale);
-        const Vector c = times(minus(world(2), origin), scale);
-        const Vector ab = times(minus(world(1), world(0)), scale);
-        const Vector bc = times(minus(world(2), world(1)), scale);
-        const Vector ca = times(minus(world(0), world(2)), scale);
+        const ClusterCorners world(cluster, front, i);
+        const Vector a = times(minus(world[0], origin), scale);
+        const Vector b = times(minus(world[1], origin), scale);
+        const Vector c = times(minus(world[2], origin), scale);
+        const Vector ab = times(minus(world[1], world[0]), scale);
+        const Vector bc = times(minus(world[2], world[1]), scale);
+        const Vector ca = times(minus(world[0], world[2]), scale);
         const Number m = largest(a, b, c);
         const Number l = largest(ab, bc, ca);
         const Number ll = hn::Mul(l, l);
@@ -319,30 +326,60 @@ std::uint32_t RecordCache::copies(std::uint32_t triangle) const {
     return count;
 }
 
-void RecordCache::fill(Slot& slot, std::uint32_t cluster) const {
-    slot.cluster = cluster;
-    slot.record.count = 0;
-    const Cluster& members = view_->hierarchy->clusters[cluster];
-    ClusterCorners gathered;
-    for (std::uint32_t i = 0; i < members.count; ++i) {
-        std::uint32_t triangle = members.triangles[i];
-        while (triangle != no_triangle && !takes_part(triangle))
-            triangle = view_->places->next[triangle];
-        if (triangle == no_triangle) continue;
-        Corners t = corners(*view_->scene, triangle);
-        if (view_->side[triangle] < 0) std::swap(t.b, t.c);
-        const std::uint32_t place = slot.record.count++;
-        slot.record.triangle[place] = triangle;
-        slot.record.copies[place] = copies(triangle);
-        slot.record.plane[place] = view_->places->plane[triangle];
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto k = static_cast<std::size_t>(axis);
-            gathered.corner[0][k][place] = t.a[axis];
-            gathered.corner[1][k][place] = t.b[axis];
-            gathered.corner[2][k][place] = t.c[axis];
-        }
+std::uint32_t RecordCache::members_of(const ClusterSides& sides) const {
+    switch (part_) {
+    case Part::seen:
+        return sides.front | (sides.back & sides.double_sided);
+    case Part::occluding:
+        return sides.front | sides.back;
+    case Part::light_facing:
+        break;
     }
-    if (slot.record.count > 0) HWY_DYNAMIC_DISPATCH(make_records)(*view_, gathered, slot.record);
+    return sides.front;
+}
+
+/// Of the triangles in one place the first that takes part.
+void RecordCache::choose_among_copies(std::uint32_t place, Cluster& chosen, std::uint32_t& front,
+                                      ClusterRecord& record) const {
+    const std::uint32_t bit = 1U << place;
+    std::uint32_t triangle = chosen.triangles[place];
+    while (triangle != no_triangle && !takes_part(triangle))
+        triangle = view_->places->next[triangle];
+    record.members &= ~bit;
+    if (triangle == no_triangle) return;
+    record.members |= bit;
+    front = view_->side[triangle] < 0 ? front | bit : front & ~bit;
+    record.triangle[place] = triangle;
+    record.copies[place] = copies(triangle);
+    for (int k = 0; k < 3; ++k)
+        for (int axis = 0; axis < 3; ++axis)
+            chosen.corner[static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)][place] =
+                static_cast<float>(corner(*view_->scene, triangle, k)[axis]);
+}
+
+void RecordCache::fill(Slot& slot, std::uint32_t number) const {
+    const Cluster& cluster = view_->trees->clusters().all[number];
+    const ClusterSides& sides = view_->clusters[number];
+    ClusterRecord& record = slot.record;
+    slot.cluster = number;
+    record.members = members_of(sides);
+    record.triangle = cluster.triangles;
+    record.copies.fill(1);
+    std::uint32_t front = sides.front;
+    if (sides.copied == 0) {
+        if (record.members == 0) return;
+        HWY_DYNAMIC_DISPATCH(make_records)(*view_, cluster, front, record);
+    } else {
+        Cluster chosen = cluster;
+        for (std::uint32_t left = sides.copied; left != 0; left &= left - 1)
+            choose_among_copies(static_cast<std::uint32_t>(__builtin_ctz(left)), chosen, front,
+                                record);
+        HWY_DYNAMIC_DISPATCH(make_records)(*view_, chosen, front, record);
+    }
+    for (std::uint32_t left = record.members; left != 0; left &= left - 1) {
+        const auto place = static_cast<std::size_t>(__builtin_ctz(left));
+        record.plane[place] = view_->places->plane[record.triangle[place]];
+    }
 }
 
 } // namespace shadowproof

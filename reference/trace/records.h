@@ -17,11 +17,7 @@ enum class Part : std::uint8_t {
     light_facing, ///< those whose front faces the light
 };
 
-template <class T>
-using PerTriangle = std::array<T, cluster_capacity>;
-
-/// The triangles of a cluster that take part, side by side so that vector instructions test all at
-/// once. For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
+/// The triangles of a cluster that take part. For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
 /// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then 1/s
 /// = w . inverse.
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
@@ -38,7 +34,7 @@ struct ClusterRecord {
     PerTriangle<std::uint32_t> triangle{}; ///< of those in one place the first that takes part
     PerTriangle<std::uint32_t> copies{};   ///< how many take part in that place
     PerTriangle<std::uint32_t> plane{};    ///< Places::plane
-    std::uint32_t count = 0;
+    std::uint32_t members = 0;             ///< one bit for each that takes part
 };
 
 /// Creates records when they are first needed and keeps them in a small table, one per thread and
@@ -68,6 +64,9 @@ private:
     std::vector<Slot> slots_;
 
     void fill(Slot& slot, std::uint32_t cluster) const;
+    std::uint32_t members_of(const ClusterSides& sides) const;
+    void choose_among_copies(std::uint32_t place, Cluster& chosen, std::uint32_t& front,
+                             ClusterRecord& record) const;
 };
 
 } // namespace shadowproof

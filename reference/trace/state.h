@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/exact/predicates.h"
-#include "reference/trace/embree.h"
+#include "reference/trace/box_trees.h"
 #include "reference/trace/places.h"
 #include "reference/trace/shells.h"
 #include "reference/trace/trace.h"
@@ -19,7 +19,8 @@ struct Tracer::State {
     int threads = 1;
     Predicates predicates;
     Places places;
-    Hierarchy hierarchy; ///< over the first triangle of each place
+    Clusters clusters; ///< of the first triangle of each place
+    std::optional<BoxTrees> trees;
     OriginView from_eye;
     OriginView from_light;                  ///< its `side` is 0 for triangles that do not cast
     std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles

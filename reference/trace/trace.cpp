@@ -47,20 +47,23 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.scene = &scene;
     state.threads = thread_count(threads);
     state.places = find_places(scene, state.predicates, state.threads);
-    state.hierarchy = build_hierarchy(scene, state.places.firsts(), state.threads);
+    state.clusters = build_clusters(scene, state.places.firsts(), state.threads);
+    state.trees.emplace(state.clusters, state.threads);
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);
     state.eye = scene.camera.eye;
     state.light = homogeneous(chosen_light(scene));
     state.cone = cone_of(chosen_light(scene));
     const auto from = [&](const glm::dvec4& origin, bool may_be_parallel) {
-        return view_from(origin, may_be_parallel, scene, state.hierarchy, state.places,
+        return view_from(origin, may_be_parallel, scene, *state.trees, state.places,
                          state.predicates, state.threads);
     };
     state.from_eye = from(glm::dvec4(state.eye, 1), false);
     state.from_light = from(state.light, true);
     state.side_of_light = state.from_light.side;
     keep_casters(scene, state.from_light);
+    set_cluster_sides(state.from_eye, state.double_sided);
+    set_cluster_sides(state.from_light, state.double_sided);
     state.build_milliseconds = milliseconds_since(start);
 }
 
@@ -177,11 +180,21 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
                 truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
                                         seen[lane].triangle,
                                         seen[lane].depth,
-                                        lighting[lane].occluder,
                                         std::max(seen[lane].exactness, lighting[lane].exactness),
                                         lighting[lane].in_cone};
         });
     return truths;
+}
+
+std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction) {
+    Prober prober(tracer.state());
+    Lanes<glm::dvec3> directions{};
+    directions[0] = direction;
+    Lanes<Seen> seen;
+    Lanes<std::uint32_t> triangles{};
+    prober.see(directions, 1, seen);
+    prober.occluders(directions, 1, seen, triangles);
+    return triangles[0];
 }
 
 std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {

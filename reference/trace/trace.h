@@ -21,7 +21,7 @@ struct TraceStatistics {
     double milliseconds = 0;           ///< tracing alone
     double build_milliseconds = 0;     ///< the hierarchy
     std::uint64_t rays = 0;            ///< eye rays and shadow rays
-    std::uint64_t exact_decisions = 0; ///< signs from exact arithmetic
+    std::uint64_t exact_decisions = 0; ///< signs of what is met that took exact arithmetic
     std::uint64_t lit = 0;
     std::uint64_t shadowed = 0;
     std::uint64_t background = 0;
@@ -69,13 +69,16 @@ struct RayTruth {
     Visibility visibility = Visibility::background;
     std::uint32_t triangle = no_triangle;
     double depth = 0;
-    std::uint32_t occluder = no_triangle; ///< some triangle in between, where there is one
     Exactness exactness = Exactness::filtered;
     bool in_cone = true; ///< false where the visible point is outside the spot light's cone
 };
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
 /// The same for many rays, on all threads.
 std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+
+/// The lowest-numbered triangle between what a ray sees and the light; no_triangle where there is
+/// none, or nothing is seen, or its side that is seen is turned away from the light.
+std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction);
 
 /// What is seen along each ray, whether or not it is lit: the nearest triangle and its view depth,
 /// no_triangle and infinity where there is none.

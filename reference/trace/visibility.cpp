@@ -179,6 +179,13 @@ void Prober::ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& l
     lighting.in_cone = decision.sign >= 0;
 }
 
+/// The segment begins in the plane of what is seen, and only there could a triangle of it be met.
+void Prober::set_shadow_ray(RayPacket& packet, int lane, const glm::dvec3& direction,
+                            const Seen& seen) const {
+    const LightRay ray = from_light_to(*state_, direction, seen.depth, seen.depth_error);
+    set_lane(packet, lane, ray.w, ray.limits, state_->places.plane[seen.triangle]);
+}
+
 void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
                    const Lanes<Seen>& seen, Lanes<Lighting>& lighting) {
     RayPacket packet = empty_packet(filters_);
@@ -192,10 +199,7 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
         if (!state_->faces_light(triangle) || !lighting[l].in_cone) return;
         lighting[l].lit = state_->receives[triangle] == 0;
         if (lighting[l].lit) return;
-        const LightRay ray =
-            from_light_to(*state_, directions[l], seen[l].depth, seen[l].depth_error);
-        // The segment begins in that plane, and only there could a triangle of it be met.
-        set_lane(packet, lane, ray.w, ray.limits, state_->places.plane[triangle]);
+        set_shadow_ray(packet, lane, directions[l], seen[l]);
         ++rays_;
     });
     const std::uint32_t asked = packet.active;
@@ -205,8 +209,28 @@ void Prober::light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
     exact_decisions_ += rays.exact_decisions;
     for_lanes(asked, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
-        lighting[l].occluder = packet.hit[l];
         lighting[l].lit = packet.hit[l] == no_triangle;
+    });
+}
+
+void Prober::occluders(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
+                       const Lanes<Seen>& seen, Lanes<std::uint32_t>& triangles) {
+    RayPacket packet = empty_packet(filters_);
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        Lighting lighting;
+        if (seen[l].triangle == no_triangle || !state_->faces_light(seen[l].triangle) ||
+            state_->receives[seen[l].triangle] == 0)
+            return;
+        if (state_->cone) ask_cone(directions[l], seen[l], lighting);
+        if (lighting.in_cone) set_shadow_ray(packet, lane, directions[l], seen[l]);
+    });
+    PacketRays rays{state_, &directions, Predicates(filters_)};
+    LowestArbiter arbiter(rays, seen);
+    find_lowest(packet, occluding_, arbiter);
+    for_lanes(lanes, [&](int lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        triangles[l] = packet.hit[l];
     });
 }
 
@@ -229,7 +253,6 @@ void Prober::count(const Lanes<glm::dvec3>& directions, std::uint32_t lanes,
     PacketRays rays{state_, &directions, Predicates(filters_)};
     CountArbiter arbiter(rays, points, light_facing_);
     count_all(packet, light_facing_, arbiter);
-    exact_decisions_ += rays.exact_decisions;
     for_lanes(lanes, [&](int lane) {
         const auto l = static_cast<std::size_t>(lane);
         counts[l] = static_cast<std::int32_t>(packet.crossed[l]);

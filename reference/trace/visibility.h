@@ -22,7 +22,6 @@ struct Seen {
 struct Lighting {
     bool lit = false;
     bool in_cone = true; ///< of the spot light, if it is one
-    std::uint32_t occluder = no_triangle;
     Exactness exactness = Exactness::filtered;
 };
 
@@ -52,6 +51,11 @@ public:
     void light(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, const Lanes<Seen>& seen,
                Lanes<Lighting>& lighting);
 
+    /// Of the triangles that shadow the visible points those with the lowest numbers; no_triangle
+    /// where there is none, or the light is behind the surface, or not asked for.
+    void occluders(const Lanes<glm::dvec3>& directions, std::uint32_t lanes, const Lanes<Seen>& seen,
+                   Lanes<std::uint32_t>& triangles);
+
     /// Counts light-facing triangles strictly between the point of each ray and the light; for a
     /// surface point, whose triangle is `skip`, the point just before it.
     struct Point {
@@ -76,6 +80,8 @@ private:
     std::uint64_t exact_decisions_ = 0;
 
     void measure_depth(const glm::dvec3& direction, Seen& seen);
+    void set_shadow_ray(RayPacket& packet, int lane, const glm::dvec3& direction,
+                        const Seen& seen) const;
     void ask_cone(const glm::dvec3& direction, const Seen& seen, Lighting& lighting);
 };
 

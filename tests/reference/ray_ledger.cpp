@@ -66,9 +66,9 @@ Region swept_region(const Tracer::State& state, const glm::dvec3& direction, dou
              slab(glm::cross(m, e), 18 * largest(e) * terms, infinity)}};
 }
 
-bool may_meet(const Entry& entry, const Region& region) {
-    const glm::dvec3 lower(entry.lower[0], entry.lower[1], entry.lower[2]);
-    const glm::dvec3 upper(entry.upper[0], entry.upper[1], entry.upper[2]);
+bool may_meet(const Box& box, const Region& region) {
+    const glm::dvec3 lower(box.lower);
+    const glm::dvec3 upper(box.upper);
     const glm::dvec3 centre = 0.5 * (lower + upper) - region.origin;
     const glm::dvec3 half = 0.5 * (upper - lower);
     return std::all_of(region.slabs.begin(), region.slabs.end(), [&](const Slab& slab) {
@@ -167,23 +167,17 @@ NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, do
     const Tracer::State& state = tracer.state();
     const Region region = swept_region(state, direction, radius);
     NearbyVolumes volumes;
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const Entry& entry = state.hierarchy.entries[stack.back()];
-        stack.pop_back();
-        if (!may_meet(entry, region)) continue;
-        for (std::uint32_t i = 0; i < entry.count; ++i) stack.push_back(entry.first + i);
-        if (entry.count > 0) continue;
-        const Cluster& cluster = state.hierarchy.clusters[entry.first];
-        for (std::uint32_t i = 0; i < cluster.count; ++i) {
-            const std::uint32_t triangle = cluster.triangles[i];
-            if (state.from_light.side[triangle] >= 0) continue;
-            // A little more than the radius, for the rounding of the slopes.
-            const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle),
-                                                      direction, radius * (1 + 0x1p-20));
-            if (stretch.is_ahead()) volumes.triangles.push_back(triangle);
-        }
-    }
+    state.clusters.for_each_in(
+        [&](const Box& box) { return may_meet(box, region); },
+        [&](const Cluster& cluster) {
+            for (const std::uint32_t triangle : cluster.triangles) {
+                if (triangle == no_triangle || state.from_light.side[triangle] >= 0) continue;
+                // A little more than the radius, for the rounding of the slopes.
+                const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle),
+                                                          direction, radius * (1 + 0x1p-20));
+                if (stretch.is_ahead()) volumes.triangles.push_back(triangle);
+            }
+        });
     std::sort(volumes.triangles.begin(), volumes.triangles.end());
     return volumes;
 }

@@ -1,0 +1,173 @@
+#include "reference/trace/box_tree.h"
+
+#include "scenes/error.h"
+#include "scenes/roundoff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// By how much Embree misplaces the side of a box, read off Embree 3.13.5 and held to it by
+// tests/reference/trace/embree_boxes_test.cpp, with u = 2^-24, on each axis:
+//   - it replaces components of d smaller than 1e-18 by that, and its reciprocals are off by up to
+//     5.3 u (SSE2, an estimate of 12 bits and a Newton step; less with AVX2 and AVX-512), so that s
+//     at which a side is met is off by as much of itself; subtraction and product round twice:
+//     together at most 7.4 u s |d|. With s |d| <= 4, from one end of [-2, 2] to the other, 30 u.
+//   - where o r is rounded by itself, o moves by u |o|, and b by u |b|: 2 u |o| <= 4 u, as s |d|
+//     holds the rest.
+// Rounding o to float moves a ray by u |o| <= 2 u, rounding d by s u |d| <= 4 u. In all 40 u.
+constexpr double walk_error = 40 * float_roundoff;
+
+/// Components of a direction between this and 0 are dangerous: a coherent packet that holds one may
+/// lose boxes (docs/how-it-decides.md). They become +0, which Embree takes for 1e-18.
+constexpr float least_component = 1e-18F;
+
+/// Boxes that every ray meets: rays start within [-2, 2].
+constexpr float everywhere = 8;
+
+RTCBounds bounds_in(const WalkFrame& frame, const Box& box, float margin) {
+    std::array<float, 3> lower{};
+    std::array<float, 3> upper{};
+    bool is_outlying = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        const double low = (double{box.lower[axis]} - frame.center[axis]) * frame.scale;
+        const double high = (double{box.upper[axis]} - frame.center[axis]) * frame.scale;
+        // One float further out covers both roundings.
+        lower[i] = std::nextafter(static_cast<float>(low - margin), -infinity);
+        upper[i] = std::nextafter(static_cast<float>(high + margin), infinity);
+        is_outlying |= !(low >= -1 && high <= 1);
+    }
+    if (is_outlying) {
+        lower.fill(-everywhere);
+        upper.fill(everywhere);
+    }
+    return {lower[0], lower[1], lower[2], 0, upper[0], upper[1], upper[2], 0};
+}
+
+/// A walk under way. Embree hands its context to the callbacks.
+struct Walk {
+    RTCIntersectContext context{}; ///< first, so that callbacks find the rest
+    VisitCluster visit = nullptr;
+    void* visitor = nullptr;
+    int first = 0; ///< the packet's first lane
+};
+
+template <class Arguments, class Rays>
+void call_back(const Arguments* at, Rays* rays) {
+    auto& walk = *reinterpret_cast<Walk*>(at->context); // NOLINT: is its first member
+    walk.visit(walk.visitor, at->primID, walk.first, static_cast<int>(at->N),
+               &RTCRayN_tfar(rays, at->N, 0));
+}
+
+/// What bounds are asked for of.
+struct BoxesToBuild {
+    const Clusters* clusters = nullptr;
+    WalkFrame frame;
+    float margin = 0;
+};
+
+int native_width(RTCDevice device) {
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
+    return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
+}
+
+} // namespace
+
+BoxTree::BoxTree(const Clusters& clusters, const WalkFrame& frame, float margin, int threads)
+    : device_(make_embree_device(threads)), scene_(rtcNewScene(device_.get())), margin_(margin),
+      width_(native_width(device_.get())) {
+    BoxesToBuild boxes{&clusters, frame, margin};
+    const RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(clusters.all.size()));
+    rtcSetGeometryUserData(geometry, &boxes);
+    rtcSetGeometryBoundsFunction(
+        geometry,
+        [](const RTCBoundsFunctionArguments* of) {
+            const auto& asked = *static_cast<const BoxesToBuild*>(of->geometryUserPtr);
+            *of->bounds_o = bounds_in(asked.frame, asked.clusters->boxes[of->primID], asked.margin);
+        },
+        nullptr);
+    rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* at) {
+        call_back(at, RTCRayHitN_RayN(at->rayhit, at->N));
+    });
+    rtcSetGeometryOccludedFunction(
+        geometry, [](const RTCOccludedFunctionNArguments* at) { call_back(at, at->ray); });
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
+        throw Error("Embree",
+                    fmt::format("the tree over {} boxes was not built (error {})",
+                                clusters.all.size(), static_cast<int>(error)),
+                    "check that there is enough memory");
+}
+
+double BoxTree::room() const {
+    return margin_ - walk_error;
+}
+
+// A coherent packet is walked once for each octant that its rays' directions lie in, and a box may be
+// reported each time.
+template <BoxTree::Query query>
+void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) const {
+    Walk walk;
+    rtcInitIntersectContext(&walk.context);
+    walk.context.flags = query == Query::all ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+                                             : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    walk.visit = visit;
+    walk.visitor = visitor;
+    const auto send = [&](auto packet, auto intersect, auto occluded) {
+        constexpr std::size_t width = std::size(decltype(packet.ray.tfar){});
+        alignas(64) std::array<int, width> valid{};
+        const auto first = static_cast<std::size_t>(walk.first);
+        for (std::size_t i = 0; i < width; ++i) {
+            const std::size_t lane = first + i;
+            valid[i] = (rays.lanes >> lane & 1U) != 0 ? -1 : 0;
+            const auto cured = [&](std::size_t axis) {
+                const float d = rays.way[axis][lane];
+                return d < 0 && d > -least_component ? 0.0F : d;
+            };
+            packet.ray.org_x[i] = rays.start[0][lane];
+            packet.ray.org_y[i] = rays.start[1][lane];
+            packet.ray.org_z[i] = rays.start[2][lane];
+            packet.ray.dir_x[i] = cured(0);
+            packet.ray.dir_y[i] = cured(1);
+            packet.ray.dir_z[i] = cured(2);
+            packet.ray.tnear[i] = 0;
+            packet.ray.tfar[i] = rays.far[lane];
+            packet.ray.mask[i] = 0xffffffffU;
+        }
+        if constexpr (query == Query::any)
+            occluded(valid.data(), scene_.get(), &walk.context, &packet.ray);
+        else
+            intersect(valid.data(), scene_.get(), &walk.context, &packet);
+    };
+    for (walk.first = 0; walk.first < packet_size; walk.first += width_) {
+        if ((rays.lanes >> walk.first & ((1U << width_) - 1)) == 0) continue;
+        if (width_ == 16) send(RTCRayHit16{}, rtcIntersect16, rtcOccluded16);
+        if (width_ == 8) send(RTCRayHit8{}, rtcIntersect8, rtcOccluded8);
+        if (width_ == 4) send(RTCRayHit4{}, rtcIntersect4, rtcOccluded4);
+    }
+}
+
+void BoxTree::find_nearest(const WalkRays& rays, VisitCluster visit, void* visitor) const {
+    walk<Query::nearest>(rays, visit, visitor);
+}
+void BoxTree::find_any(const WalkRays& rays, VisitCluster visit, void* visitor) const {
+    walk<Query::any>(rays, visit, visitor);
+}
+void BoxTree::find_all(const WalkRays& rays, VisitCluster visit, void* visitor) const {
+    walk<Query::all>(rays, visit, visitor);
+}
+
+} // namespace shadowproof

@@ -1,0 +1,168 @@
+#include "reference/trace/clusters.h"
+
+#include "reference/trace/embree_device.h"
+#include "scenes/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <limits>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+struct ReleaseBvh {
+    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+};
+using Bvh = std::unique_ptr<std::remove_pointer_t<RTCBVH>, ReleaseBvh>;
+
+constexpr unsigned int branching = 2;
+
+/// A node of Embree's builder.
+struct Node {
+    std::array<Node*, branching> children{}; ///< null where there is none
+};
+struct Leaf : Node {
+    std::array<std::uint32_t, RTC_BUILD_MAX_PRIMITIVES_PER_LEAF> triangles{};
+    std::size_t count = 0;
+};
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int, void*) {
+    return new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
+}
+
+void set_children(void* node, void** children, unsigned int count, void*) {
+    for (unsigned int i = 0; i < count; ++i)
+        static_cast<Node*>(node)->children[i] = static_cast<Node*>(children[i]);
+}
+
+/// Bounds are taken from the vertices.
+void set_bounds(void*, const RTCBounds**, unsigned int, void*) {}
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
+                  std::size_t count, void*) {
+    auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf))) Leaf;
+    leaf->count = count;
+    for (std::size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+    // The order must not depend on thread count or scheduling.
+    std::sort(leaf->triangles.begin(),
+              leaf->triangles.begin() + static_cast<std::ptrdiff_t>(leaf->count));
+    return static_cast<Node*>(leaf);
+}
+
+Box empty_box() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {glm::vec3(infinity), glm::vec3(-infinity)};
+}
+
+void include(Box& box, const Box& other) {
+    box.lower = glm::min(box.lower, other.lower);
+    box.upper = glm::max(box.upper, other.upper);
+}
+
+Box box_of(const Scene& scene, std::uint32_t triangle) {
+    Box box = empty_box();
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec3& p = scene.positions[scene.triangles[triangle][k]];
+        include(box, {p, p});
+    }
+    return box;
+}
+
+void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, Clusters& clusters) {
+    Cluster& made = clusters.all.emplace_back();
+    made.triangles.fill(no_triangle);
+    Box box = empty_box();
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        made.triangles[i] = triangles[i];
+        for (int k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+                made.corner[static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)][i] =
+                    scene.positions[scene.triangles[triangles[i]][k]][axis];
+        include(box, box_of(scene, triangles[i]));
+    }
+    clusters.boxes.push_back(box);
+    include(clusters.box, box);
+}
+
+/// A leaf of triangles with one box, which cannot be split, becomes several clusters.
+void add_leaf(const Scene& scene, const Leaf& leaf, Clusters& clusters) {
+    std::span<const std::uint32_t> rest = std::span(leaf.triangles).first(leaf.count);
+    while (!rest.empty()) {
+        const std::size_t count = std::min<std::size_t>(rest.size(), cluster_capacity);
+        add_cluster(scene, rest.first(count), clusters);
+        rest = rest.subspan(count);
+    }
+}
+
+/// Depth first, so that neighbours lie side by side. Embree's tree has at most 64 levels.
+void add_node(const Scene& scene, const Node& node, Clusters& clusters) {
+    if (node.children[0] == nullptr) {
+        add_leaf(scene, static_cast<const Leaf&>(node), clusters);
+        return;
+    }
+    for (const Node* child : node.children)
+        if (child != nullptr) add_node(scene, *child, clusters);
+}
+
+void make_groups(Clusters& clusters) {
+    const std::vector<Box>* below = &clusters.boxes;
+    while (below->size() >= Clusters::group_size) {
+        std::vector<Box> level((below->size() + Clusters::group_size - 1) / Clusters::group_size,
+                               empty_box());
+        for (std::size_t i = 0; i < below->size(); ++i)
+            include(level[i / Clusters::group_size], (*below)[i]);
+        clusters.groups.push_back(std::move(level));
+        below = &clusters.groups.back();
+    }
+}
+
+} // namespace
+
+Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> triangles, int threads) {
+    const EmbreeDevice device = make_embree_device(threads);
+    const Bvh bvh(rtcNewBVH(device.get()));
+    std::vector<RTCBuildPrimitive> primitives;
+    primitives.reserve(triangles.size());
+    for (const std::uint32_t triangle : triangles) {
+        const Box box = box_of(scene, triangle);
+        primitives.push_back({box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y,
+                              box.upper.z, triangle});
+    }
+
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    arguments.maxBranchingFactor = branching;
+    arguments.maxDepth = 64;
+    arguments.sahBlockSize = cluster_capacity;
+    arguments.maxLeafSize = cluster_capacity;
+    arguments.bvh = bvh.get();
+    arguments.primitives = primitives.data();
+    arguments.primitiveCount = primitives.size();
+    arguments.primitiveArrayCapacity = primitives.size();
+    arguments.createNode = create_node;
+    arguments.setNodeChildren = set_children;
+    arguments.setNodeBounds = set_bounds;
+    arguments.createLeaf = create_leaf;
+    const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
+    if (root == nullptr)
+        throw Error("Embree",
+                    fmt::format("{} triangles were not grouped (error {})", triangles.size(),
+                                static_cast<int>(rtcGetDeviceError(device.get()))),
+                    "check that there is enough memory");
+    primitives = {};
+
+    Clusters clusters;
+    clusters.box = empty_box();
+    clusters.all.reserve(triangles.size() / 4 + 1);
+    clusters.boxes.reserve(triangles.size() / 4 + 1);
+    add_node(scene, *root, clusters);
+    make_groups(clusters);
+    return clusters;
+}
+
+} // namespace shadowproof
