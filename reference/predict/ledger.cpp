@@ -52,9 +52,9 @@ ShadowDepths count_depths(const Tracer& tracer, double far, const SurfaceOf& sur
     // The eye: depth 0 on any ray.
     Prober prober(state);
     Lanes<Prober::Point> points{};
-    Lanes<glm::dvec3> directions{};
+    Vectors directions;
     Lanes<std::int32_t> found{};
-    directions[0] = camera.forward;
+    directions.set(0, camera.forward);
     prober.count(directions, 1, points, found);
     depths.at_eye = found[0];
     return depths;

@@ -83,20 +83,20 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
     const int samples = rays.n * rays.n;
     for (int first = 0; first < samples; first += packet_size) {
         const int count = std::min(packet_size, samples - first);
-        Lanes<glm::dvec3> directions{};
+        Vectors directions;
         for (int lane = 0; lane < count; ++lane)
-            directions[static_cast<std::size_t>(lane)] = rays.at(first + lane);
+            directions.set(static_cast<std::size_t>(lane), rays.at(first + lane));
         const std::uint32_t lanes = (1U << static_cast<unsigned>(count)) - 1;
-        Lanes<Seen> seen;
+        SeenLanes seen;
         Lanes<Lighting> lighting;
         prober.see(directions, lanes, seen);
         prober.light(directions, lanes, seen, lighting);
         const auto for_seen = [&](const auto& work) {
             for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
-                if (seen[lane].triangle != no_triangle) work(lane);
+                if (seen.triangle[lane] != no_triangle) work(lane);
         };
         for_seen([&](std::size_t lane) {
-            shader.set(lane, directions[lane], seen[lane].triangle, lighting[lane].lit);
+            shader.set(lane, directions[lane], seen.triangle[lane], lighting[lane].lit);
             ++sum.seen;
         });
         shader.shade();

@@ -81,8 +81,8 @@ void set_line(Walked& walked, int lane, const AnyRay& ray, const WalkFrame& fram
     double error = 0x1p-50;
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        walked.lines.p[k][l] = known ? p[axis] : 0;
-        walked.lines.w[k][l] = known ? d[axis] / stretch : 1;
+        walked.lines.p.axis[k][l] = known ? p[axis] : 0;
+        walked.lines.w.axis[k][l] = known ? d[axis] / stretch : 1;
         if (std::abs(ray.direction[axis]) < least_component)
             error = std::max(error, 0x1p-50 + 2 * least_component * frame.scale / stretch);
     }

@@ -149,11 +149,11 @@ void NearestArbiter::settle(RayPacket& packet) {
 /// `candidates`: in ascending order, at least one.
 void NearestArbiter::settle_lane(RayPacket& packet, std::span<const Candidate> candidates) {
     const int lane = candidates.front().lane;
-    Seen& seen = seen_[static_cast<std::size_t>(lane)];
+    Exactness& exactness = seen_.exactness[static_cast<std::size_t>(lane)];
     std::uint32_t best = no_triangle;
     Signs signs;
     for (const Candidate& candidate : candidates) {
-        seen.exactness = std::max(seen.exactness, candidate.exactness);
+        exactness = std::max(exactness, candidate.exactness);
         rays_.exact_decisions += candidate.exact_decisions;
         if (best == no_triangle) {
             best = candidate.triangle;
@@ -167,7 +167,7 @@ void NearestArbiter::settle_lane(RayPacket& packet, std::span<const Candidate> c
             if (order.sign < 0) best = candidate.triangle;
         }
     }
-    seen.exactness = std::max(seen.exactness, signs.exactness());
+    exactness = std::max(exactness, signs.exactness());
     rays_.exact_decisions += signs.exact_decisions();
     packet.hit[static_cast<std::size_t>(lane)] = best;
 }
@@ -235,7 +235,7 @@ void AnyArbiter::leave_out_what_is_beside() {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if (candidate.triangle > blocking[l]) continue;
         if (!candidate.between)
-            candidate.between = between(rays_, candidate.lane, seen_[l].triangle, candidate.triangle);
+            candidate.between = between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
         if (candidate.between->blocks) blocking[l] = candidate.triangle;
     }
     std::erase_if(candidates_, [&](const Candidate& c) {
@@ -256,7 +256,7 @@ void AnyArbiter::settle(RayPacket& packet) {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if ((packet.active >> l & 1U) == 0) continue;
         if (!candidate.between)
-            candidate.between = between(rays_, candidate.lane, seen_[l].triangle, candidate.triangle);
+            candidate.between = between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
         if (!candidate.between->touched) continue;
         rays_.exact_decisions += candidate.between->exact_decisions;
         lighting_[l].exactness = std::max(lighting_[l].exactness, candidate.between->exactness);
@@ -268,7 +268,7 @@ void AnyArbiter::settle(RayPacket& packet) {
 
 void LowestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
     const auto l = static_cast<std::size_t>(lane);
-    if (triangle < packet.hit[l] && between(rays_, lane, seen_[l].triangle, triangle).blocks)
+    if (triangle < packet.hit[l] && between(rays_, lane, seen_.triangle[l], triangle).blocks)
         packet.hit[l] = triangle;
 }
 

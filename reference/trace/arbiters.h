@@ -22,7 +22,7 @@ class Signs;
 /// The rays of a packet as all arbiters see them, and how many signs needed exact arithmetic.
 struct PacketRays {
     const Tracer::State* state = nullptr;
-    const Lanes<glm::dvec3>* directions = nullptr;
+    const Vectors* directions = nullptr;
     Predicates predicates;
     std::uint64_t exact_decisions = 0;
 
@@ -45,7 +45,7 @@ struct Between {
 /// nearer: so it does not depend on the order in which they are found. Keeps references.
 class NearestArbiter final : public Arbiter {
 public:
-    NearestArbiter(PacketRays& rays, const SeenRange& range, Lanes<Seen>& seen)
+    NearestArbiter(PacketRays& rays, const SeenRange& range, SeenLanes& seen)
         : rays_(rays), range_(range), seen_(seen) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
@@ -65,7 +65,7 @@ private:
 
     PacketRays& rays_;
     SeenRange range_;
-    Lanes<Seen>& seen_;
+    SeenLanes& seen_;
     Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
     std::vector<Candidate> candidates_;
     std::size_t many_ = 256; ///< of them: time to leave out those that are none any more
@@ -89,7 +89,7 @@ private:
 /// order in which triangles are found. Keeps references.
 class AnyArbiter final : public Arbiter {
 public:
-    AnyArbiter(PacketRays& rays, const Lanes<Seen>& seen, Lanes<Lighting>& lighting)
+    AnyArbiter(PacketRays& rays, const SeenLanes& seen, Lanes<Lighting>& lighting)
         : rays_(rays), seen_(seen), lighting_(lighting) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
@@ -103,7 +103,7 @@ private:
     };
 
     PacketRays& rays_;
-    const Lanes<Seen>& seen_;
+    const SeenLanes& seen_;
     Lanes<Lighting>& lighting_;
     std::vector<Candidate> candidates_;
     std::size_t many_ = 256; ///< of them: time to decide, and leave out what is beside
@@ -114,13 +114,13 @@ private:
 /// Finds the lowest-numbered triangle between a visible point and the light. Keeps references.
 class LowestArbiter final : public Arbiter {
 public:
-    LowestArbiter(PacketRays& rays, const Lanes<Seen>& seen) : rays_(rays), seen_(seen) {}
+    LowestArbiter(PacketRays& rays, const SeenLanes& seen) : rays_(rays), seen_(seen) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
 
 private:
     PacketRays& rays_;
-    const Lanes<Seen>& seen_;
+    const SeenLanes& seen_;
 };
 
 /// Decides which triangles lie between a point of a ray and the light, with ties broken. Keeps

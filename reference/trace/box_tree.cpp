@@ -26,10 +26,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // Rounding o to float moves a ray by u |o| <= 2 u, rounding d by s u |d| <= 4 u. In all 40 u.
 constexpr double walk_error = 40 * float_roundoff;
 
-/// Components of a direction between this and 0 are dangerous: a coherent packet that holds one may
-/// lose boxes (docs/how-it-decides.md). They become +0, which Embree takes for 1e-18.
-constexpr float least_component = 1e-18F;
-
 /// Boxes that every ray meets: rays start within [-2, 2].
 constexpr float everywhere = 8;
 
@@ -126,27 +122,25 @@ void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) cons
                                              : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     walk.visit = visit;
     walk.visitor = visitor;
-    const auto send = [&](auto packet, auto intersect, auto occluded) {
-        constexpr std::size_t width = std::size(decltype(packet.ray.tfar){});
-        alignas(64) std::array<int, width> valid{};
+    const auto send = [&]<class Packet>(const Packet* /*type*/, auto intersect, auto occluded) {
+        constexpr std::size_t width = std::size(decltype(Packet::ray.tfar){});
+        alignas(64) std::array<int, width> valid;
+        Packet packet; // NOLINT: what is not set is not read
         const auto first = static_cast<std::size_t>(walk.first);
-        for (std::size_t i = 0; i < width; ++i) {
-            const std::size_t lane = first + i;
-            valid[i] = (rays.lanes >> lane & 1U) != 0 ? -1 : 0;
-            const auto cured = [&](std::size_t axis) {
-                const float d = rays.way[axis][lane];
-                return d < 0 && d > -least_component ? 0.0F : d;
-            };
-            packet.ray.org_x[i] = rays.start[0][lane];
-            packet.ray.org_y[i] = rays.start[1][lane];
-            packet.ray.org_z[i] = rays.start[2][lane];
-            packet.ray.dir_x[i] = cured(0);
-            packet.ray.dir_y[i] = cured(1);
-            packet.ray.dir_z[i] = cured(2);
-            packet.ray.tnear[i] = 0;
-            packet.ray.tfar[i] = rays.far[lane];
-            packet.ray.mask[i] = 0xffffffffU;
-        }
+        const auto set = [&](float* to, const Lanes<float>& from) {
+            std::copy_n(from.begin() + first, width, to);
+        };
+        for (std::size_t i = 0; i < width; ++i)
+            valid[i] = -static_cast<int>(rays.lanes >> (first + i) & 1U);
+        set(packet.ray.org_x, rays.start[0]);
+        set(packet.ray.org_y, rays.start[1]);
+        set(packet.ray.org_z, rays.start[2]);
+        set(packet.ray.dir_x, rays.way[0]);
+        set(packet.ray.dir_y, rays.way[1]);
+        set(packet.ray.dir_z, rays.way[2]);
+        set(packet.ray.tfar, rays.far);
+        std::fill_n(packet.ray.tnear, width, 0.0F);
+        std::fill_n(packet.ray.mask, width, 0xffffffffU);
         if constexpr (query == Query::any)
             occluded(valid.data(), scene_.get(), &walk.context, &packet.ray);
         else
@@ -154,9 +148,9 @@ void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) cons
     };
     for (walk.first = 0; walk.first < packet_size; walk.first += width_) {
         if ((rays.lanes >> walk.first & ((1U << width_) - 1)) == 0) continue;
-        if (width_ == 16) send(RTCRayHit16{}, rtcIntersect16, rtcOccluded16);
-        if (width_ == 8) send(RTCRayHit8{}, rtcIntersect8, rtcOccluded8);
-        if (width_ == 4) send(RTCRayHit4{}, rtcIntersect4, rtcOccluded4);
+        if (width_ == 16) send(static_cast<const RTCRayHit16*>(nullptr), rtcIntersect16, rtcOccluded16);
+        if (width_ == 8) send(static_cast<const RTCRayHit8*>(nullptr), rtcIntersect8, rtcOccluded8);
+        if (width_ == 4) send(static_cast<const RTCRayHit4*>(nullptr), rtcIntersect4, rtcOccluded4);
     }
 }
 

@@ -20,6 +20,18 @@ inline constexpr int packet_size = 16;
 template <class T>
 using Lanes = std::array<T, packet_size>;
 
+/// A vector for each ray, components apart, so that vector instructions take many rays at once.
+struct Vectors {
+    alignas(64) std::array<Lanes<double>, 3> axis{};
+
+    glm::dvec3 operator[](std::size_t lane) const {
+        return {axis[0][lane], axis[1][lane], axis[2][lane]};
+    }
+    void set(std::size_t lane, const glm::dvec3& v) {
+        for (std::size_t i = 0; i < 3; ++i) axis[i][lane] = v[static_cast<int>(i)];
+    }
+};
+
 /// Coordinates in which the walk is done: (p - center) scale, scale a power of two. The scene's box
 /// lies within [-1, 1], but for a few triangles very far out, whose boxes every ray meets.
 struct WalkFrame {
@@ -27,7 +39,8 @@ struct WalkFrame {
     double scale = 1;
 };
 
-/// What the walk needs of rays o + s d: |o| <= 2, 1 <= |d| < 2 in the largest component, 0 < far.
+/// What the walk needs of rays o + s d: |o| <= 2, 1 <= |d| < 2 in the largest component, none between
+/// -1e-18 and 0, 0 < far.
 struct WalkRays {
     alignas(64) std::array<Lanes<float>, 3> start{};
     alignas(64) std::array<Lanes<float>, 3> way{};

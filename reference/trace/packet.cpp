@@ -258,21 +258,20 @@ void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     HWY_DYNAMIC_DISPATCH(count_all)(packet, records, arbiter);
 }
 
-RayPacket empty_packet(Filters filters) {
-    RayPacket packet;
-    if (filters == Filters::off) packet.trusted_error = -1;
+void clear(RayPacket& packet, Filters filters) {
+    packet.active = 0;
+    packet.trusted_error = filters == Filters::off ? -1 : RayPacket::usual_trusted_error;
     packet.hit.fill(no_triangle);
     packet.hit_hi.fill(-std::numeric_limits<float>::infinity());
     packet.best_lo.fill(-std::numeric_limits<float>::infinity());
+    packet.crossed.fill(0);
     packet.skip.fill(no_plane);
-    return packet;
 }
 
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip) {
     const auto l = static_cast<std::size_t>(lane);
-    for (int axis = 0; axis < 3; ++axis)
-        packet.direction[static_cast<std::size_t>(axis)][l] = w.direction[axis];
+    packet.direction.set(l, w.direction);
     packet.direction_error[l] = w.error;
     packet.lower_lo[l] = limits.lower_lo;
     packet.lower_hi[l] = limits.lower_hi;
@@ -280,6 +279,17 @@ void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const 
     packet.upper_hi[l] = limits.upper_hi;
     packet.skip[l] = skip;
     packet.active |= 1U << l;
+}
+
+void set_lanes(RayPacket& packet, std::uint32_t lanes, const Vectors& directions,
+               const HitLimits& limits) {
+    packet.direction = directions;
+    packet.direction_error.fill(0);
+    packet.lower_lo.fill(limits.lower_lo);
+    packet.lower_hi.fill(limits.lower_hi);
+    packet.upper_lo.fill(limits.upper_lo);
+    packet.upper_hi.fill(limits.upper_hi);
+    packet.active |= lanes;
 }
 
 } // namespace shadowproof

@@ -22,20 +22,28 @@ struct ApproximateDirection {
     double error = 0;
 };
 
+/// Limits of 1/s, in units of the direction as given.
+struct HitLimits {
+    float lower_lo = 0, lower_hi = 0;
+    float upper_lo = std::numeric_limits<float>::infinity();
+    float upper_hi = std::numeric_limits<float>::infinity();
+};
+
 /// Rays are O + s w, O the view's origin, with coordinates scaled as in the view. A hit must have
 /// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi]. Parallel rays
 /// run up at (u, v): w = (u, v, 1), and heights take the place of 1/s. What is computed from the
 /// inputs of set_lane, and its bounds, are explained in packet.cpp.
 struct RayPacket {
     // As given.
-    alignas(64) std::array<Lanes<double>, 3> direction{};
+    Vectors direction;
     alignas(64) Lanes<double> direction_error{};
     alignas(64) Lanes<float> lower_lo{}, lower_hi{}; ///< when prepared, in units of w
     alignas(64) Lanes<float> upper_lo{}, upper_hi{};
     alignas(64) Lanes<std::uint32_t> skip{}; ///< a plane (Places) to ignore, or no_plane
     std::uint32_t active = 0;                ///< one bit per lane that is not done
     /// The largest error with which floats may decide: below 0, nothing is left to them.
-    float trusted_error = 0x1p-25F;
+    static constexpr float usual_trusted_error = 0x1p-25F;
+    float trusted_error = usual_trusted_error;
 
     // What floats compute with.
     alignas(64) std::array<Lanes<float>, 3> w{}; ///< 1 <= |w| < 2, |w| the largest component
@@ -52,18 +60,15 @@ struct RayPacket {
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
 };
 
-/// A packet without rays.
-RayPacket empty_packet(Filters filters = Filters::on);
+/// Makes a packet one without rays. What lanes without rays hold does not matter.
+void clear(RayPacket& packet, Filters filters = Filters::on);
 
-/// Sets a lane's ray and activates it. `limits`: 1/s in units of the direction as given. `skip`: a
-/// plane whose triangles are ignored, or no_plane.
-struct HitLimits {
-    float lower_lo = 0, lower_hi = 0;
-    float upper_lo = std::numeric_limits<float>::infinity();
-    float upper_hi = std::numeric_limits<float>::infinity();
-};
+/// Sets a lane's ray and activates it. `skip`: a plane whose triangles are ignored, or no_plane.
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
               std::uint32_t skip);
+/// The same for many lanes, whose directions are exact; nothing is ignored.
+void set_lanes(RayPacket& packet, std::uint32_t lanes, const Vectors& directions,
+               const HitLimits& limits);
 
 /// Decides what floats could not.
 class Arbiter {

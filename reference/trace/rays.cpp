@@ -43,6 +43,9 @@ Number largest(const Vector& p) {
 Number load(const Lanes<double>& values, std::size_t i) {
     return hn::Load(doubles, values.data() + i);
 }
+Vector load(const Vectors& vectors, std::size_t i) {
+    return {load(vectors.axis[0], i), load(vectors.axis[1], i), load(vectors.axis[2], i)};
+}
 Number load(const Lanes<float>& values, std::size_t i) {
     return hn::PromoteTo(doubles, hn::Load(floats, values.data() + i));
 }
@@ -74,8 +77,7 @@ struct Direction {
 };
 
 Direction normalised(const RayPacket& packet, std::size_t i) {
-    const Vector given{load(packet.direction[0], i), load(packet.direction[1], i),
-                       load(packet.direction[2], i)};
+    const Vector given = load(packet.direction, i);
     const Number error = load(packet.direction_error, i);
     const Number size = largest(given);
     // Beyond 2^+-100 the limits, which are scaled alike, would leave the range of floats.
@@ -101,9 +103,9 @@ void store_direction(const Direction& of, RayPacket& packet, std::size_t i) {
         store(hn::Mul(load(*limit, i), of.unit), *limit, i);
 }
 
-void store(const std::array<Number, 3>& value, std::array<Lanes<double>, 3>& to, std::size_t i) {
+void store(const std::array<Number, 3>& value, Vectors& to, std::size_t i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-        hn::Store(value[axis], doubles, to[axis].data() + i);
+        hn::Store(value[axis], doubles, to.axis[axis].data() + i);
 }
 
 /// Of the lanes that are active.
@@ -155,9 +157,9 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
     WalkLines lines;
     alignas(64) Lanes<double> room{};
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
-        const Number w = load(packet.direction[2], i);
-        const Number u = hn::Div(load(packet.direction[0], i), w);
-        const Number v = hn::Div(load(packet.direction[1], i), w);
+        const Number w = load(packet.direction.axis[2], i);
+        const Number u = hn::Div(load(packet.direction.axis[0], i), w);
+        const Number v = hn::Div(load(packet.direction.axis[1], i), w);
         const Number error = hn::Div(load(packet.direction_error, i), w);
         const Number height = load(packet.lower_lo, i);
         const Direction of = normalised(packet, i);

@@ -16,7 +16,7 @@ namespace shadowproof {
 struct Tile {
     Lanes<int> x{};
     Lanes<int> y{};
-    Lanes<glm::dvec3> directions{};
+    Vectors directions;
     std::uint32_t lanes = 0; ///< one bit per pixel that lies within the picture
 };
 
@@ -44,7 +44,7 @@ public:
                 const auto lane = static_cast<std::size_t>((y - top) * tile_side + x - left);
                 tile.x[lane] = x;
                 tile.y[lane] = y;
-                tile.directions[lane] = at(x, y);
+                tile.directions.set(lane, at(x, y));
                 tile.lanes |= 1U << lane;
             }
         return tile;

@@ -80,8 +80,8 @@ int Tracer::threads() const {
 
 namespace {
 
-Visibility visibility_of(const Seen& seen, const Lighting& lighting) {
-    if (seen.triangle == no_triangle) return Visibility::background;
+Visibility visibility_of(std::uint32_t seen, const Lighting& lighting) {
+    if (seen == no_triangle) return Visibility::background;
     return lighting.lit ? Visibility::lit : Visibility::shadowed;
 }
 
@@ -111,19 +111,19 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
     const auto probers = for_tiles(
         state,
         [&](Prober& prober, const Tile& tile) {
-            Lanes<Seen> seen;
+            SeenLanes seen;
             Lanes<Lighting> lighting;
             prober.see(tile.directions, tile.lanes, seen);
             prober.light(tile.directions, tile.lanes, seen, lighting);
             for (std::size_t lane = 0; lane < packet_size; ++lane) {
                 if ((tile.lanes >> lane & 1U) == 0) continue;
                 const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
-                truth.visibility.pixels[pixel] = visibility_of(seen[lane], lighting[lane]);
-                truth.triangle.pixels[pixel] = seen[lane].triangle;
-                truth.depth.pixels[pixel] = seen[lane].depth;
+                truth.visibility.pixels[pixel] = visibility_of(seen.triangle[lane], lighting[lane]);
+                truth.triangle.pixels[pixel] = seen.triangle[lane];
+                truth.depth.pixels[pixel] = seen.depth[lane];
                 truth.exactness.pixels[pixel] =
-                    std::max(seen[lane].exactness, lighting[lane].exactness);
-                if (state.cone && seen[lane].triangle != no_triangle)
+                    std::max(seen.exactness[lane], lighting[lane].exactness);
+                if (state.cone && seen.triangle[lane] != no_triangle)
                     truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
             }
         },
@@ -157,8 +157,8 @@ void for_packets(const Tracer::State& state, std::size_t rays, const Direction& 
         const std::size_t end = std::min(rays, begin + piece_size);
         for (std::size_t first = begin; first < end; first += packet_size) {
             const std::size_t count = std::min<std::size_t>(packet_size, end - first);
-            Lanes<glm::dvec3> packet{};
-            for (std::size_t lane = 0; lane < count; ++lane) packet[lane] = direction(first + lane);
+            Vectors packet;
+            for (std::size_t lane = 0; lane < count; ++lane) packet.set(lane, direction(first + lane));
             work(*prober, packet, (1U << count) - 1, first);
         }
     });
@@ -170,17 +170,17 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
     std::vector<RayTruth> truths(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
-        [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
             std::size_t first) {
-            Lanes<Seen> seen;
+            SeenLanes seen;
             Lanes<Lighting> lighting;
             prober.see(packet, lanes, seen);
             prober.light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                truths[first + lane] = {visibility_of(seen[lane], lighting[lane]),
-                                        seen[lane].triangle,
-                                        seen[lane].depth,
-                                        std::max(seen[lane].exactness, lighting[lane].exactness),
+                truths[first + lane] = {visibility_of(seen.triangle[lane], lighting[lane]),
+                                        seen.triangle[lane],
+                                        seen.depth[lane],
+                                        std::max(seen.exactness[lane], lighting[lane].exactness),
                                         lighting[lane].in_cone};
         });
     return truths;
@@ -188,9 +188,9 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
 
 std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction) {
     Prober prober(tracer.state());
-    Lanes<glm::dvec3> directions{};
-    directions[0] = direction;
-    Lanes<Seen> seen;
+    Vectors directions;
+    directions.set(0, direction);
+    SeenLanes seen;
     Lanes<std::uint32_t> triangles{};
     prober.see(directions, 1, seen);
     prober.occluders(directions, 1, seen, triangles);
@@ -201,12 +201,12 @@ std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dve
     std::vector<SeenSurface> surfaces(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
-        [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
             std::size_t first) {
-            Lanes<Seen> seen;
+            SeenLanes seen;
             prober.see(packet, lanes, seen);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                surfaces[first + lane] = {seen[lane].triangle, seen[lane].depth};
+                surfaces[first + lane] = {seen.triangle[lane], seen.depth[lane]};
         });
     return surfaces;
 }
@@ -219,12 +219,12 @@ void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t ray
                    const std::function<glm::dvec3(std::size_t)>& direction,
                    const std::function<void(std::size_t, std::uint32_t)>& found) {
     for_packets(tracer.state(), rays, direction,
-                [&](Prober& prober, const Lanes<glm::dvec3>& packet, std::uint32_t lanes,
+                [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
                     std::size_t first) {
-                    Lanes<Seen> seen;
+                    SeenLanes seen;
                     prober.see_triangle(packet, lanes, range, seen);
                     for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                        found(first + lane, seen[lane].triangle);
+                        found(first + lane, seen.triangle[lane]);
                 });
 }
 

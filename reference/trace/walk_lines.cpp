@@ -37,8 +37,8 @@ void cut_to_scene(const WalkLines& lines, WalkRays& rays, Lanes<double>& start) 
         Number enter = load(lines.begin, i);
         Number leave = load(lines.end, i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Number p = load(lines.p[axis], i);
-            const Number w = load(lines.w[axis], i);
+            const Number p = load(lines.p.axis[axis], i);
+            const Number w = load(lines.w.axis[axis], i);
             // A line that moves less than 2^-70 is between the sides all the way, or beside them.
             const Number least = number(0x1p-70);
             const Number inverse =
@@ -50,12 +50,16 @@ void cut_to_scene(const WalkLines& lines, WalkRays& rays, Lanes<double>& start) 
         }
         const auto misses = hn::Not(hn::Le(enter, leave));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Number w = load(lines.w[axis], i);
-            const Number at = hn::Add(load(lines.p[axis], i), hn::Mul(enter, w));
+            const Number w = load(lines.w.axis[axis], i);
+            const Number at = hn::Add(load(lines.p.axis[axis], i), hn::Mul(enter, w));
             const Number within = hn::Min(hn::Max(at, number(-2)), number(2));
             // Where it misses: outside all boxes but those that hold everything, and short.
             store(hn::IfThenElse(misses, number(1.5), within), rays.start[axis], i);
-            store(w, rays.way[axis], i);
+            // Embree's coherent packets may lose boxes where some component is between this and 0
+            // (docs/how-it-decides.md); made +0, which Embree takes for 1e-18, it is harmless.
+            const auto dangerous =
+                hn::And(hn::Lt(w, number(0)), hn::Gt(w, number(-1.0001e-18)));
+            store(hn::IfThenElse(dangerous, number(0), w), rays.way[axis], i);
         }
         const Number length = hn::IfThenElse(misses, number(0), hn::Sub(leave, enter));
         store(hn::Add(hn::Mul(length, number(1 + 0x1p-20)), number(0x1p-20)), rays.far, i);

@@ -9,8 +9,8 @@ namespace shadowproof {
 
 /// Rays p + s w, 1 <= |w| < 2 in the largest component, for s from begin to end.
 struct WalkLines {
-    alignas(64) std::array<Lanes<double>, 3> p{};
-    alignas(64) std::array<Lanes<double>, 3> w{};
+    Vectors p;
+    Vectors w;
     alignas(64) Lanes<double> begin{};
     alignas(64) Lanes<double> end{};
 };

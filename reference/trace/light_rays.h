@@ -1,0 +1,26 @@
+// Rays from the light to points of eye rays, sixteen at a time, as the light's view has them.
+#pragma once
+
+#include "reference/trace/packet.h"
+#include "reference/trace/state.h"
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+namespace shadowproof {
+
+/// Sets direction, error and limits of every lane: to the point at view depth t, off by t_error, of
+/// the eye ray along D. Hits that count lie between the light and the point. The caller activates
+/// lanes and says what is skipped.
+void lead_to_points(const Tracer::State& state, const Vectors& directions, const Lanes<double>& t,
+                    const Lanes<double>& t_error, RayPacket& packet);
+
+struct LightRay {
+    ApproximateDirection w;
+    HitLimits limits;
+};
+
+/// From the light along the eye ray's direction, to infinity; nothing where no triangle can be met.
+std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& direction);
+
+} // namespace shadowproof
