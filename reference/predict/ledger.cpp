@@ -15,12 +15,12 @@ void count_tile(Prober& prober, const Tile& tile, Image<std::int32_t>& counts,
     Lanes<Prober::Point> points{};
     std::uint32_t lanes = 0;
     for (std::size_t lane = 0; lane < packet_size; ++lane)
-        if ((tile.lanes >> lane & 1U) != 0 && point_of(tile.x[lane], tile.y[lane], points[lane]))
+        if ((tile.lanes >> lane & 1U) != 0 && point_of(tile.x(lane), tile.y(lane), points[lane]))
             lanes |= 1U << lane;
     Lanes<std::int32_t> found{};
     prober.count(tile.directions, lanes, points, found);
     for (std::size_t lane = 0; lane < packet_size; ++lane)
-        if ((lanes >> lane & 1U) != 0) counts.at(tile.x[lane], tile.y[lane]) = found[lane];
+        if ((lanes >> lane & 1U) != 0) counts.at(tile.x(lane), tile.y(lane)) = found[lane];
 }
 
 template <class SurfaceOf>

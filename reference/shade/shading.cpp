@@ -39,7 +39,7 @@ Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
         std::uint32_t seen = 0;
         for (std::size_t lane = 0; lane < packet_size; ++lane) {
             if ((tile.lanes >> lane & 1U) == 0) continue;
-            const std::size_t pixel = picture.index(tile.x[lane], tile.y[lane]);
+            const std::size_t pixel = picture.index(tile.x(lane), tile.y(lane));
             const std::uint32_t triangle = truth.triangle.pixels[pixel];
             if (triangle == no_triangle) continue;
             shader.set(lane, tile.directions[lane], triangle,
@@ -49,12 +49,15 @@ Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
         if (seen == 0) return;
         shader.shade();
         for (std::size_t lane = 0; lane < packet_size; ++lane)
-            if ((seen >> lane & 1U) != 0) picture.at(tile.x[lane], tile.y[lane]) = of(shader, lane);
+            if ((seen >> lane & 1U) != 0) picture.at(tile.x(lane), tile.y(lane)) = of(shader, lane);
     };
     const int rows = (camera.height + tile_side - 1) / tile_side;
     parallel_for(rows, tracer.threads(), [&](int row, int thread) {
-        for (int left = 0; left < camera.width; left += tile_side)
-            shade_tile(rays.tile(left, row * tile_side), shaders.of(thread));
+        Tile tile;
+        for (int left = 0; left < camera.width; left += tile_side) {
+            rays.set(tile, left, row * tile_side);
+            shade_tile(tile, shaders.of(thread));
+        }
     });
     return picture;
 }

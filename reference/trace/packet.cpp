@@ -187,12 +187,15 @@ void lower_limits(const Search& search, int first, int count, float* far) {
 template <Query query>
 void visit(void* visitor, std::uint32_t cluster, int first, int count, float* far) {
     auto& search = *static_cast<Search*>(visitor);
+    [[maybe_unused]] const std::uint32_t before = search.packet.active;
     meet_cluster<query>(search, cluster, first, count);
     if constexpr (query == Query::nearest) lower_limits(search, first, count, far);
-    if constexpr (query == Query::any)
+    if constexpr (query == Query::any) {
         for (int i = 0; i < count; ++i)
             if ((search.packet.active >> (first + i) & 1U) == 0)
                 far[i] = -std::numeric_limits<float>::infinity();
+        if (search.packet.active != before) search.records.set_last_met(cluster);
+    }
 }
 
 template <Query query>
@@ -203,6 +206,11 @@ void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     packet.walk.lanes = packet.active;
     if (packet.active != 0) {
         if (const BoxTree* tree = trees.with_room(packet.room)) {
+            if constexpr (query == Query::any) {
+                // A shadow needs one witness, and a neighbour's often is one.
+                meet_cluster<query>(search, records.last_met(), 0, packet_size);
+                packet.walk.lanes = packet.active;
+            }
             if constexpr (query == Query::any)
                 tree->find_any(packet.walk, visit<query>, &search);
             else if constexpr (query == Query::nearest)

@@ -52,6 +52,9 @@ public:
         if (slot.cluster != cluster) fill(slot, cluster);
         return slot.record;
     }
+    /// A cluster in which rays of late met something; the first one where none did.
+    std::uint32_t last_met() const { return last_met_; }
+    void set_last_met(std::uint32_t cluster) { last_met_ = cluster; }
 
 private:
     struct Slot {
@@ -62,6 +65,7 @@ private:
     Part part_;
     const std::vector<std::uint8_t>* double_sided_;
     std::vector<Slot> slots_;
+    std::uint32_t last_met_ = 0;
 
     void fill(Slot& slot, std::uint32_t cluster) const;
     std::uint32_t members_of(const ClusterSides& sides) const;

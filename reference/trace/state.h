@@ -14,6 +14,14 @@
 
 namespace shadowproof {
 
+/// What is asked of every triangle that is seen, as bits.
+enum Facing : std::uint8_t {
+    faces_light_bit = 1, ///< eye and light are strictly on the same side of it
+    edge_on_bit = 2,     ///< the light lies in its plane
+    receives_bit = 4,    ///< it receives shadows
+    copied_bit = 8,      ///< others have the same corners
+};
+
 struct Tracer::State {
     const Scene* scene = nullptr;
     int threads = 1;
@@ -26,6 +34,7 @@ struct Tracer::State {
     std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles
     std::vector<std::uint8_t> double_sided; ///< one flag per triangle
     std::vector<std::uint8_t> receives;     ///< one flag per triangle
+    std::vector<std::uint8_t> lightings;    ///< bits of Facing, per triangle
     glm::dvec3 eye{0, 0, 0};
     glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
     std::optional<Cone> cone;     ///< of a spot light
@@ -34,7 +43,7 @@ struct Tracer::State {
 
     /// Whether eye and light are strictly on the same side of the triangle.
     bool faces_light(std::uint32_t triangle) const {
-        return from_eye.side[triangle] * side_of_light[triangle] > 0;
+        return (lightings[triangle] & faces_light_bit) != 0;
     }
 };
 

@@ -37,6 +37,21 @@ void keep_casters(const Scene& scene, OriginView& view) {
         if (casts[i] == 0) view.side[i] = 0;
 }
 
+std::vector<std::uint8_t> lightings_of(const Tracer::State& state) {
+    std::vector<std::uint8_t> bits(state.receives.size());
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        const int eye = state.from_eye.side[i];
+        const int light = state.side_of_light[i];
+        const Places& places = state.places;
+        const bool copied = places.first[i] != i || places.next[i] != no_triangle;
+        bits[i] = static_cast<std::uint8_t>((eye * light > 0 ? faces_light_bit : 0) |
+                                            (light == 0 ? edge_on_bit : 0) |
+                                            (state.receives[i] != 0 ? receives_bit : 0) |
+                                            (copied ? copied_bit : 0));
+    }
+    return bits;
+}
+
 } // namespace
 
 Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>()) {
@@ -61,6 +76,7 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.from_eye = from(glm::dvec4(state.eye, 1), false);
     state.from_light = from(state.light, true);
     state.side_of_light = state.from_light.side;
+    state.lightings = lightings_of(state);
     keep_casters(scene, state.from_light);
     set_cluster_sides(state.from_eye, state.double_sided);
     set_cluster_sides(state.from_light, state.double_sided);
@@ -117,7 +133,7 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
             prober.light(tile.directions, tile.lanes, seen, lighting);
             for (std::size_t lane = 0; lane < packet_size; ++lane) {
                 if ((tile.lanes >> lane & 1U) == 0) continue;
-                const std::size_t pixel = truth.triangle.index(tile.x[lane], tile.y[lane]);
+                const std::size_t pixel = truth.triangle.index(tile.x(lane), tile.y(lane));
                 truth.visibility.pixels[pixel] = visibility_of(seen.triangle[lane], lighting[lane]);
                 truth.triangle.pixels[pixel] = seen.triangle[lane];
                 truth.depth.pixels[pixel] = seen.depth[lane];

@@ -44,7 +44,9 @@ void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen
         seen.depth_error[l] = 0;
     });
     for_lanes(met, [&](std::size_t l) {
-        if (seen_.copies(seen.triangle[l]) > 1) seen.exactness[l] = Exactness::degenerate;
+        if ((state_->lightings[seen.triangle[l]] & copied_bit) != 0 &&
+            seen_.copies(seen.triangle[l]) > 1)
+            seen.exactness[l] = Exactness::degenerate;
     });
     planes_.measure(directions, met, seen.triangle, seen.depth, seen.depth_error);
 }
@@ -95,9 +97,10 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
         lighting[l] = {};
         if (triangle == no_triangle) return false;
         if (state_->cone) lighting[l] = ask_cone(directions[l], triangle);
-        if (state_->side_of_light[triangle] == 0) lighting[l].exactness = Exactness::degenerate;
-        if (!state_->faces_light(triangle) || !lighting[l].in_cone) return false;
-        lighting[l].lit = state_->receives[triangle] == 0;
+        const std::uint8_t facing = state_->lightings[triangle];
+        if ((facing & edge_on_bit) != 0) lighting[l].exactness = Exactness::degenerate;
+        if ((facing & faces_light_bit) == 0 || !lighting[l].in_cone) return false;
+        lighting[l].lit = (facing & receives_bit) == 0;
         return !lighting[l].lit;
     });
     if (asked == 0) return;
