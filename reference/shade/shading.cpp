@@ -91,7 +91,7 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
             directions.set(static_cast<std::size_t>(lane), rays.at(first + lane));
         const std::uint32_t lanes = (1U << static_cast<unsigned>(count)) - 1;
         SeenLanes seen;
-        Lanes<Lighting> lighting;
+        LitLanes lighting;
         prober.see(directions, lanes, seen);
         prober.light(directions, lanes, seen, lighting);
         const auto for_seen = [&](const auto& work) {
@@ -99,7 +99,8 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
                 if (seen.triangle[lane] != no_triangle) work(lane);
         };
         for_seen([&](std::size_t lane) {
-            shader.set(lane, directions[lane], seen.triangle[lane], lighting[lane].lit);
+            shader.set(lane, directions[lane], seen.triangle[lane],
+                       lighting.visibility[lane] == Visibility::lit);
             ++sum.seen;
         });
         shader.shade();

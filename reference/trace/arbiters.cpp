@@ -259,7 +259,7 @@ void AnyArbiter::settle(RayPacket& packet) {
             candidate.between = between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
         if (!candidate.between->touched) continue;
         rays_.exact_decisions += candidate.between->exact_decisions;
-        lighting_[l].exactness = std::max(lighting_[l].exactness, candidate.between->exactness);
+        lighting_.exactness[l] = std::max(lighting_.exactness[l], candidate.between->exactness);
         if (!candidate.between->blocks) continue;
         packet.hit[l] = candidate.triangle;
         packet.active &= ~(1U << l);

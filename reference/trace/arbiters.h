@@ -89,7 +89,7 @@ private:
 /// order in which triangles are found. Keeps references.
 class AnyArbiter final : public Arbiter {
 public:
-    AnyArbiter(PacketRays& rays, const SeenLanes& seen, Lanes<Lighting>& lighting)
+    AnyArbiter(PacketRays& rays, const SeenLanes& seen, LitLanes& lighting)
         : rays_(rays), seen_(seen), lighting_(lighting) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
@@ -104,7 +104,7 @@ private:
 
     PacketRays& rays_;
     const SeenLanes& seen_;
-    Lanes<Lighting>& lighting_;
+    LitLanes& lighting_;
     std::vector<Candidate> candidates_;
     std::size_t many_ = 256; ///< of them: time to decide, and leave out what is beside
 

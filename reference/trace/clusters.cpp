@@ -124,7 +124,8 @@ void make_groups(Clusters& clusters) {
 
 } // namespace
 
-Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> triangles, int threads) {
+Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> triangles,
+                        std::span<const std::uint32_t> planes, int threads) {
     const EmbreeDevice device = make_embree_device(threads);
     const Bvh bvh(rtcNewBVH(device.get()));
     std::vector<RTCBuildPrimitive> primitives;
@@ -161,6 +162,9 @@ Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> trian
     clusters.all.reserve(triangles.size() / 4 + 1);
     clusters.boxes.reserve(triangles.size() / 4 + 1);
     add_node(scene, *root, clusters);
+    for (Cluster& cluster : clusters.all)
+        for (std::size_t i = 0; i < cluster_capacity; ++i)
+            if (cluster.triangles[i] != no_triangle) cluster.planes[i] = planes[cluster.triangles[i]];
     make_groups(clusters);
     return clusters;
 }

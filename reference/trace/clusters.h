@@ -26,6 +26,7 @@ struct Cluster {
     /// By corner, then axis; 0 where there is no triangle.
     alignas(64) std::array<std::array<PerTriangle<float>, 3>, 3> corner{};
     PerTriangle<std::uint32_t> triangles{}; ///< ascending, then no_triangle
+    PerTriangle<std::uint32_t> planes{};    ///< of each the number of its plane
 };
 
 /// The bounds of a cluster's corners, in world space: exactly.
@@ -68,8 +69,9 @@ private:
     }
 };
 
-/// Over some triangles of the scene: at least one, all coordinates finite. The same for any number
-/// of threads (0: one per core). Throws Error.
-Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> triangles, int threads);
+/// Over some triangles of the scene: at least one, all coordinates finite. `planes`: a number for
+/// each triangle of the scene. The same for any number of threads (0: one per core). Throws Error.
+Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> triangles,
+                        std::span<const std::uint32_t> planes, int threads);
 
 } // namespace shadowproof

@@ -226,6 +226,38 @@ void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     arbiter.settle(packet);
 }
 
+// Vectors as wide as those that read them: what is stored in pieces is read late.
+void fill(Lanes<float>& lanes, float value) {
+    for (int i = 0; i < packet_size; i += step())
+        hn::Store(hn::Set(floats, value), floats, lanes.data() + i);
+}
+void fill(Lanes<std::uint32_t>& lanes, std::uint32_t value) {
+    for (int i = 0; i < packet_size; i += step())
+        hn::Store(hn::Set(ids, value), ids, lanes.data() + i);
+}
+
+void clear_lanes(RayPacket& packet) {
+    fill(packet.hit, no_triangle);
+    fill(packet.hit_hi, -std::numeric_limits<float>::infinity());
+    fill(packet.best_lo, -std::numeric_limits<float>::infinity());
+    fill(packet.crossed, 0);
+    fill(packet.skip, no_plane);
+}
+
+void set_all_lanes(RayPacket& packet, const Vectors& directions, const HitLimits& limits) {
+    constexpr hn::CappedTag<double, packet_size> doubles;
+    for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            hn::Store(hn::Load(doubles, directions.axis[axis].data() + i), doubles,
+                      packet.direction.axis[axis].data() + i);
+        hn::Store(hn::Zero(doubles), doubles, packet.direction_error.data() + i);
+    }
+    fill(packet.lower_lo, limits.lower_lo);
+    fill(packet.lower_hi, limits.lower_hi);
+    fill(packet.upper_lo, limits.upper_lo);
+    fill(packet.upper_hi, limits.upper_hi);
+}
+
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
     search_for<Query::nearest>(packet, records, arbiter);
 }
@@ -247,6 +279,8 @@ HWY_AFTER_NAMESPACE();
 namespace shadowproof {
 
 namespace {
+HWY_EXPORT(clear_lanes);
+HWY_EXPORT(set_all_lanes);
 HWY_EXPORT(find_nearest);
 HWY_EXPORT(find_any);
 HWY_EXPORT(find_lowest);
@@ -269,11 +303,7 @@ void count_all(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
 void clear(RayPacket& packet, Filters filters) {
     packet.active = 0;
     packet.trusted_error = filters == Filters::off ? -1 : RayPacket::usual_trusted_error;
-    packet.hit.fill(no_triangle);
-    packet.hit_hi.fill(-std::numeric_limits<float>::infinity());
-    packet.best_lo.fill(-std::numeric_limits<float>::infinity());
-    packet.crossed.fill(0);
-    packet.skip.fill(no_plane);
+    HWY_DYNAMIC_DISPATCH(clear_lanes)(packet);
 }
 
 void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const HitLimits& limits,
@@ -291,12 +321,7 @@ void set_lane(RayPacket& packet, int lane, const ApproximateDirection& w, const 
 
 void set_lanes(RayPacket& packet, std::uint32_t lanes, const Vectors& directions,
                const HitLimits& limits) {
-    packet.direction = directions;
-    packet.direction_error.fill(0);
-    packet.lower_lo.fill(limits.lower_lo);
-    packet.lower_hi.fill(limits.lower_hi);
-    packet.upper_lo.fill(limits.upper_lo);
-    packet.upper_hi.fill(limits.upper_hi);
+    HWY_DYNAMIC_DISPATCH(set_all_lanes)(packet, directions, limits);
     packet.active |= lanes;
 }
 

@@ -1,7 +1,6 @@
 #include "reference/trace/rays.h"
 
 #include "reference/exact/norms.h"
-#include "reference/trace/walk_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,9 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/rays.cpp"
 #include <hwy/foreach_target.h> // must come before highway.h
+
+#include "reference/trace/walk_lines-inl.h"
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -103,18 +105,9 @@ void store_direction(const Direction& of, RayPacket& packet, std::size_t i) {
         store(hn::Mul(load(*limit, i), of.unit), *limit, i);
 }
 
-void store(const std::array<Number, 3>& value, Vectors& to, std::size_t i) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        hn::Store(value[axis], doubles, to.axis[axis].data() + i);
-}
-
 /// Of the lanes that are active.
-double most_of(const RayPacket& packet, const Lanes<double>& room) {
-    Number most = number(0);
-    for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles))
-        most = hn::Max(most,
-                       hn::IfThenElseZero(mask_of(packet.active, i), load(room, i)));
-    return hn::GetLane(hn::MaxOfLanes(doubles, most));
+Number of_active(const RayPacket& packet, std::size_t i, Number room) {
+    return hn::IfThenElseZero(mask_of(packet.active, i), room);
 }
 
 // From the view's origin O. O in the walk's frame is rounded twice and known to 2^-51 |O|; at s,
@@ -125,24 +118,28 @@ void prepare_from_origin(RayPacket& packet, const OriginView& view) {
     const glm::dvec3 origin = (view.origin - frame.center) * frame.scale;
     const double reach = shadowproof::largest(origin) + 2;
     const Number ratio = number(frame.scale / view.scale);
-    WalkLines lines;
-    alignas(64) Lanes<double> room{};
+    Number room = number(0);
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
         const Direction of = normalised(packet, i);
         store_direction(of, packet, i);
         // s is the inverse of 1/s: from its upper limit to its lower one, and a little more, as
         // limits are rounded.
-        const Number begin = hn::Mul(hn::Div(ratio, load(packet.upper_hi, i)), number(1 - 0x1p-20));
-        const Number end = hn::Mul(hn::Div(ratio, load(packet.lower_lo, i)), number(1 + 0x1p-20));
-        store({number(origin.x), number(origin.y), number(origin.z)}, lines.p, i);
-        store({of.w.x, of.w.y, of.w.z}, lines.w, i);
-        hn::Store(begin, doubles, lines.begin.data() + i);
-        hn::Store(end, doubles, lines.end.data() + i);
-        hn::Store(hn::Mul(number(reach), hn::Add(of.error, number(0x1p-50))), doubles,
-                  room.data() + i);
+        const auto inverse = [&](const Lanes<float>& limit) {
+            const auto quotient =
+                hn::Div(hn::Set(floats, 1), hn::Load(floats, limit.data() + i));
+            return hn::Mul(ratio, hn::PromoteTo(doubles, quotient));
+        };
+        const Number begin = hn::Mul(inverse(packet.upper_hi), number(1 - 0x1p-20));
+        const Number end = hn::Mul(inverse(packet.lower_lo), number(1 + 0x1p-20));
+        cut_lanes({{number(origin.x), number(origin.y), number(origin.z)},
+                   {of.w.x, of.w.y, of.w.z},
+                   begin,
+                   end},
+                  reach <= near_scene, packet.walk, packet.walk_start, i);
+        const Number off = hn::Mul(number(reach), hn::Add(of.error, number(0x1p-50)));
+        room = hn::Max(room, of_active(packet, i, off));
     }
-    packet.room = most_of(packet, room);
-    cut_to_scene(lines, packet.walk, packet.walk_start);
+    packet.room = hn::GetLane(hn::MaxOfLanes(doubles, room));
 }
 
 // Parallel rays: all points whose sheared coordinates are (u, v). With axes as in shear.h one of
@@ -154,8 +151,7 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
     const double ratio = view.trees->frame().scale / view.scale;
     const Number up = number(shear.up);
     const Number lean = number(shear.lean);
-    WalkLines lines;
-    alignas(64) Lanes<double> room{};
+    Number room = number(0);
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
         const Number w = load(packet.direction.axis[2], i);
         const Number u = hn::Div(load(packet.direction.axis[0], i), w);
@@ -190,14 +186,14 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
         const auto near_or = [&](Number x, double otherwise) {
             return hn::IfThenElse(beside, number(otherwise), x);
         };
-        store({near_or(p[0], 4), near_or(p[1], 4), near_or(p[2], 4)}, lines.p, i);
-        store({near_or(d[0], 1), near_or(d[1], 1), near_or(d[2], 1)}, lines.w, i);
-        hn::Store(near_or(begin, 0), doubles, lines.begin.data() + i);
-        hn::Store(number(infinity), doubles, lines.end.data() + i);
-        hn::Store(near_or(off, 0), doubles, room.data() + i);
+        cut_lanes({{near_or(p[0], 4), near_or(p[1], 4), near_or(p[2], 4)},
+                   {near_or(d[0], 1), near_or(d[1], 1), near_or(d[2], 1)},
+                   near_or(begin, 0),
+                   number(infinity)},
+                  true, packet.walk, packet.walk_start, i);
+        room = hn::Max(room, of_active(packet, i, near_or(off, 0)));
     }
-    packet.room = most_of(packet, room);
-    cut_to_scene(lines, packet.walk, packet.walk_start);
+    packet.room = hn::GetLane(hn::MaxOfLanes(doubles, room));
 }
 
 void prepare(RayPacket& packet, const OriginView& view) {

@@ -107,7 +107,7 @@ Number tolerance(Number size, Number component_error) {
     const Number bound =
         hn::Add(hn::Add(hn::Mul(number(7 * v), size), hn::Mul(number(3.1), component_error)),
                 number(0x1p-100));
-    return hn::Mul(bound, number(1 + 0x1p-22));
+    return hn::Mul(bound, number(1 + 0x1p-21));
 }
 
 /// Stores w . N divided by its tolerance, so that each edge has its own: next to a light on one
@@ -116,7 +116,9 @@ Number tolerance(Number size, Number component_error) {
 template <class Mask>
 void store_edge(const Vector& edge, Number component_error, Mask nothing_known,
                 std::array<PerTriangle<float>, 3>& to, std::size_t i) {
-    const Number share = hn::Div(number(1), tolerance(sum_of(edge), component_error));
+    // The quotient of floats is off by three roundings at the most, less than `tolerance` allows.
+    const auto size = hn::DemoteTo(floats, tolerance(sum_of(edge), component_error));
+    const Number share = hn::PromoteTo(doubles, hn::Div(hn::Set(floats, 1), size));
     store(times(edge, hn::IfThenElse(nothing_known, number(0), share)), to, i);
 }
 
@@ -351,6 +353,7 @@ void RecordCache::choose_among_copies(std::uint32_t place, Cluster& chosen, std:
     front = view_->side[triangle] < 0 ? front | bit : front & ~bit;
     record.triangle[place] = triangle;
     record.copies[place] = copies(triangle);
+    record.plane[place] = view_->places->plane[triangle];
     for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis)
             chosen.corner[static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)][place] =
@@ -364,6 +367,7 @@ void RecordCache::fill(Slot& slot, std::uint32_t number) const {
     slot.cluster = number;
     record.members = members_of(sides);
     record.triangle = cluster.triangles;
+    record.plane = cluster.planes;
     record.copies.fill(1);
     std::uint32_t front = sides.front;
     if (sides.copied == 0) {
@@ -375,10 +379,6 @@ void RecordCache::fill(Slot& slot, std::uint32_t number) const {
             choose_among_copies(static_cast<std::uint32_t>(__builtin_ctz(left)), chosen, front,
                                 record);
         HWY_DYNAMIC_DISPATCH(make_records)(*view_, chosen, front, record);
-    }
-    for (std::uint32_t left = record.members; left != 0; left &= left - 1) {
-        const auto place = static_cast<std::size_t>(__builtin_ctz(left));
-        record.plane[place] = view_->places->plane[record.triangle[place]];
     }
 }
 

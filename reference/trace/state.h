@@ -34,7 +34,7 @@ struct Tracer::State {
     std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles
     std::vector<std::uint8_t> double_sided; ///< one flag per triangle
     std::vector<std::uint8_t> receives;     ///< one flag per triangle
-    std::vector<std::uint8_t> lightings;    ///< bits of Facing, per triangle
+    std::vector<std::uint8_t> facing;      ///< bits of Facing, per triangle
     glm::dvec3 eye{0, 0, 0};
     glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
     std::optional<Cone> cone;     ///< of a spot light
@@ -43,7 +43,7 @@ struct Tracer::State {
 
     /// Whether eye and light are strictly on the same side of the triangle.
     bool faces_light(std::uint32_t triangle) const {
-        return (lightings[triangle] & faces_light_bit) != 0;
+        return (facing[triangle] & faces_light_bit) != 0;
     }
 };
 

@@ -5,9 +5,10 @@
 #include "reference/parallel.h"
 #include "reference/trace/visibility.h"
 #include "scenes/camera.h"
+#include "scenes/image.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -24,48 +25,41 @@ struct Tile {
 
     int x(std::size_t lane) const { return left + static_cast<int>(lane) % tile_side; }
     int y(std::size_t lane) const { return top + static_cast<int>(lane) / tile_side; }
+
+    /// Into the tile's pixels of a picture.
+    template <class T>
+    void copy(const Lanes<T>& values, Image<T>& picture) const {
+        const int width = std::min(tile_side, picture.width - left);
+        const int height = std::min(tile_side, picture.height - top);
+        for (int y = 0; y < height; ++y) {
+            const T* const from = values.data() + std::ptrdiff_t{y} * tile_side;
+            T* const to = picture.pixels.data() + picture.index(left, top + y);
+            if (width == tile_side)
+                std::copy_n(from, tile_side, to); // without a call
+            else
+                std::copy_n(from, width, to);
+        }
+    }
 };
 
 /// The rays of a picture's pixels, equal to ray_direction, from one vector per column and one per
 /// row. Beyond the picture they are those of its last column and row.
 class PixelRays {
 public:
-    explicit PixelRays(const Camera& camera) : width_(camera.width), height_(camera.height) {
-        const auto fill = [](std::array<std::vector<double>, 3>& axes, int count, const auto& of) {
-            for (int i = 0; i < padded(count); ++i) {
-                const glm::dvec3 v = of(std::min(i, count - 1) + 0.5);
-                for (std::size_t k = 0; k < 3; ++k) axes[k].push_back(v[static_cast<int>(k)]);
-            }
-        };
-        fill(columns_, width_, [&](double x) { return ray_column(camera, x); });
-        fill(rows_, height_, [&](double y) { return ray_row(camera, y); });
-    }
+    explicit PixelRays(const Camera& camera);
 
-    void set(Tile& tile, int left, int top) const {
-        tile.left = left;
-        tile.top = top;
-        const int right = std::min(tile_side, width_ - left);
-        const int bottom = std::min(tile_side, height_ - top);
-        tile.lanes = 0;
-        for (int y = 0; y < bottom; ++y)
-            tile.lanes |= ((1U << right) - 1) << (y * tile_side);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double* const column = columns_[k].data() + left;
-            const double* const row = rows_[k].data() + top;
-            double* to = tile.directions.axis[k].data();
-            for (int y = 0; y < tile_side; ++y)
-                for (int x = 0; x < tile_side; ++x) *to++ = column[x] + row[y];
-        }
-    }
+    void set(Tile& tile, int left, int top) const;
 
 private:
     int width_;
     int height_;
-    std::array<std::vector<double>, 3> columns_; ///< by axis
-    std::array<std::vector<double>, 3> rows_;
-
-    static int padded(int count) { return (count + tile_side - 1) / tile_side * tile_side; }
+    std::vector<Vectors> columns_; ///< of each column of tiles, lane by lane
+    std::vector<Vectors> rows_;    ///< of each row of tiles
 };
+
+/// Pixels that are traced from left to right together, so that neighbours come soon after each
+/// other, and find again what the first one needed.
+inline constexpr int strip_height = 4 * tile_side;
 
 /// Calls work(prober, tile) for every tile of the picture. Returns the probers, one per thread that
 /// worked, for their counts.
@@ -75,15 +69,17 @@ std::vector<std::unique_ptr<Prober>> for_tiles(const Tracer::State& state, const
     const Camera& camera = state.scene->camera;
     const PixelRays rays(camera);
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
-    const int rows = (camera.height + tile_side - 1) / tile_side;
-    parallel_for(rows, state.threads, [&](int row, int thread) {
+    const int strips = (camera.height + strip_height - 1) / strip_height;
+    parallel_for(strips, state.threads, [&](int strip, int thread) {
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
         if (!prober) prober = std::make_unique<Prober>(state, filters);
+        const int end = std::min(camera.height, (strip + 1) * strip_height);
         Tile tile;
-        for (int left = 0; left < camera.width; left += tile_side) {
-            rays.set(tile, left, row * tile_side);
-            work(*prober, tile);
-        }
+        for (int left = 0; left < camera.width; left += tile_side)
+            for (int top = strip * strip_height; top < end; top += tile_side) {
+                rays.set(tile, left, top);
+                work(*prober, tile);
+            }
     });
     std::erase(probers, nullptr);
     return probers;

@@ -37,7 +37,7 @@ void keep_casters(const Scene& scene, OriginView& view) {
         if (casts[i] == 0) view.side[i] = 0;
 }
 
-std::vector<std::uint8_t> lightings_of(const Tracer::State& state) {
+std::vector<std::uint8_t> facing_of(const Tracer::State& state) {
     std::vector<std::uint8_t> bits(state.receives.size());
     for (std::size_t i = 0; i < bits.size(); ++i) {
         const int eye = state.from_eye.side[i];
@@ -62,7 +62,8 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.scene = &scene;
     state.threads = thread_count(threads);
     state.places = find_places(scene, state.predicates, state.threads);
-    state.clusters = build_clusters(scene, state.places.firsts(), state.threads);
+    state.clusters =
+        build_clusters(scene, state.places.firsts(), state.places.plane, state.threads);
     state.trees.emplace(state.clusters, state.threads);
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);
@@ -76,7 +77,7 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.from_eye = from(glm::dvec4(state.eye, 1), false);
     state.from_light = from(state.light, true);
     state.side_of_light = state.from_light.side;
-    state.lightings = lightings_of(state);
+    state.facing = facing_of(state);
     keep_casters(scene, state.from_light);
     set_cluster_sides(state.from_eye, state.double_sided);
     set_cluster_sides(state.from_light, state.double_sided);
@@ -95,11 +96,6 @@ int Tracer::threads() const {
 }
 
 namespace {
-
-Visibility visibility_of(std::uint32_t seen, const Lighting& lighting) {
-    if (seen == no_triangle) return Visibility::background;
-    return lighting.lit ? Visibility::lit : Visibility::shadowed;
-}
 
 void count_classes(const GroundTruth& truth, TraceStatistics& statistics) {
     for (const Visibility visibility : truth.visibility.pixels) {
@@ -127,20 +123,20 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
     const auto probers = for_tiles(
         state,
         [&](Prober& prober, const Tile& tile) {
-            SeenLanes seen;
-            Lanes<Lighting> lighting;
+            thread_local SeenLanes seen;
+            thread_local LitLanes lighting;
             prober.see(tile.directions, tile.lanes, seen);
             prober.light(tile.directions, tile.lanes, seen, lighting);
-            for (std::size_t lane = 0; lane < packet_size; ++lane) {
-                if ((tile.lanes >> lane & 1U) == 0) continue;
-                const std::size_t pixel = truth.triangle.index(tile.x(lane), tile.y(lane));
-                truth.visibility.pixels[pixel] = visibility_of(seen.triangle[lane], lighting[lane]);
-                truth.triangle.pixels[pixel] = seen.triangle[lane];
-                truth.depth.pixels[pixel] = seen.depth[lane];
-                truth.exactness.pixels[pixel] =
-                    std::max(seen.exactness[lane], lighting[lane].exactness);
-                if (state.cone && seen.triangle[lane] != no_triangle)
-                    truth.in_cone.pixels[pixel] = lighting[lane].in_cone ? 1 : 0;
+            for (std::size_t lane = 0; lane < packet_size; ++lane)
+                lighting.exactness[lane] = std::max(lighting.exactness[lane], seen.exactness[lane]);
+            tile.copy(lighting.visibility, truth.visibility);
+            tile.copy(lighting.exactness, truth.exactness);
+            tile.copy(seen.triangle, truth.triangle);
+            tile.copy(seen.depth, truth.depth);
+            if (state.cone) {
+                for (std::size_t lane = 0; lane < packet_size; ++lane)
+                    if (seen.triangle[lane] == no_triangle) lighting.in_cone[lane] = 0;
+                tile.copy(lighting.in_cone, truth.in_cone);
             }
         },
         filters);
@@ -189,15 +185,15 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
             std::size_t first) {
             SeenLanes seen;
-            Lanes<Lighting> lighting;
+            LitLanes lighting;
             prober.see(packet, lanes, seen);
             prober.light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                truths[first + lane] = {visibility_of(seen.triangle[lane], lighting[lane]),
+                truths[first + lane] = {lighting.visibility[lane],
                                         seen.triangle[lane],
                                         seen.depth[lane],
-                                        std::max(seen.exactness[lane], lighting[lane].exactness),
-                                        lighting[lane].in_cone};
+                                        std::max(seen.exactness[lane], lighting.exactness[lane]),
+                                        lighting.in_cone[lane] != 0};
         });
     return truths;
 }

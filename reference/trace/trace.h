@@ -91,6 +91,7 @@ std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dve
 struct SeenRange {
     double near = 0;
     double far = std::numeric_limits<double>::infinity();
+    bool operator==(const SeenRange&) const = default;
 };
 SeenRange range_of(const Camera& camera);
 

@@ -44,7 +44,7 @@ void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen
         seen.depth_error[l] = 0;
     });
     for_lanes(met, [&](std::size_t l) {
-        if ((state_->lightings[seen.triangle[l]] & copied_bit) != 0 &&
+        if ((state_->facing[seen.triangle[l]] & copied_bit) != 0 &&
             seen_.copies(seen.triangle[l]) > 1)
             seen.exactness[l] = Exactness::degenerate;
     });
@@ -53,14 +53,16 @@ void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen
 
 void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const SeenRange& range,
                           SeenLanes& seen) {
-    const double scale = state_->from_eye.scale;
-    HitLimits limits;
-    limits.lower_lo = std::isinf(range.far) ? 0 : float_below(1 / (range.far * scale));
-    limits.lower_hi = std::isinf(range.far) ? 0 : float_above(1 / (range.far * scale));
-    limits.upper_lo = float_below(1 / (range.near * scale));
-    limits.upper_hi = float_above(1 / (range.near * scale));
+    if (range != range_) {
+        range_ = range;
+        const double scale = state_->from_eye.scale;
+        limits_.lower_lo = std::isinf(range.far) ? 0 : float_below(1 / (range.far * scale));
+        limits_.lower_hi = std::isinf(range.far) ? 0 : float_above(1 / (range.far * scale));
+        limits_.upper_lo = float_below(1 / (range.near * scale));
+        limits_.upper_hi = float_above(1 / (range.near * scale));
+    }
     clear(packet_, filters_);
-    set_lanes(packet_, lanes, directions, limits);
+    set_lanes(packet_, lanes, directions, limits_);
     rays_ += static_cast<std::uint64_t>(std::popcount(lanes));
     seen.exactness.fill(Exactness::filtered);
     PacketRays rays{state_, &directions, Predicates(filters_)};
@@ -70,13 +72,14 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
     seen.triangle = packet_.hit;
 }
 
-Lighting Prober::ask_cone(const glm::dvec3& direction, std::uint32_t seen) {
+/// A sign of at least zero is in the cone.
+Decision Prober::ask_cone(const glm::dvec3& direction, std::uint32_t seen) {
     const RayPoint point{.kind = RayPoint::Kind::surface,
                          .surface = corners(*state_->scene, seen)};
     const Decision decision = Predicates(filters_).within_cone(
         {state_->eye, direction, state_->light}, point, *state_->cone);
     exact_decisions_ += decision.exactness != Exactness::filtered ? 1 : 0;
-    return {.in_cone = decision.sign >= 0, .exactness = decision.exactness};
+    return decision;
 }
 
 /// The segments begin in the planes of what is seen, and only there could triangles in them be met.
@@ -91,17 +94,26 @@ void Prober::set_shadow_rays(const Vectors& directions, std::uint32_t lanes,
 }
 
 void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
-                   Lanes<Lighting>& lighting) {
-    const std::uint32_t asked = lanes_where(lanes, [&](std::size_t l) {
+                   LitLanes& lighting) {
+    lighting.exactness.fill(Exactness::filtered);
+    lighting.in_cone.fill(1);
+    std::uint32_t asked = 0;
+    for_lanes(lanes, [&](std::size_t l) {
         const std::uint32_t triangle = seen.triangle[l];
-        lighting[l] = {};
-        if (triangle == no_triangle) return false;
-        if (state_->cone) lighting[l] = ask_cone(directions[l], triangle);
-        const std::uint8_t facing = state_->lightings[triangle];
-        if ((facing & edge_on_bit) != 0) lighting[l].exactness = Exactness::degenerate;
-        if ((facing & faces_light_bit) == 0 || !lighting[l].in_cone) return false;
-        lighting[l].lit = (facing & receives_bit) == 0;
-        return !lighting[l].lit;
+        lighting.visibility[l] = Visibility::background;
+        if (triangle == no_triangle) return;
+        const std::uint8_t facing = state_->facing[triangle];
+        if (state_->cone) {
+            const Decision decision = ask_cone(directions[l], triangle);
+            lighting.in_cone[l] = decision.sign >= 0 ? 1 : 0;
+            lighting.exactness[l] = decision.exactness;
+        }
+        if ((facing & edge_on_bit) != 0) lighting.exactness[l] = Exactness::degenerate;
+        const bool may_be_lit = (facing & faces_light_bit) != 0 && lighting.in_cone[l] != 0;
+        const bool receives = (facing & receives_bit) != 0;
+        lighting.visibility[l] =
+            may_be_lit && !receives ? Visibility::lit : Visibility::shadowed;
+        asked |= may_be_lit && receives ? 1U << l : 0U;
     });
     if (asked == 0) return;
     rays_ += static_cast<std::uint64_t>(std::popcount(asked));
@@ -110,7 +122,9 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
     AnyArbiter arbiter(rays, seen, lighting);
     find_any(packet_, occluding_, arbiter);
     exact_decisions_ += rays.exact_decisions;
-    for_lanes(asked, [&](std::size_t l) { lighting[l].lit = packet_.hit[l] == no_triangle; });
+    for_lanes(asked, [&](std::size_t l) {
+        if (packet_.hit[l] == no_triangle) lighting.visibility[l] = Visibility::lit;
+    });
 }
 
 void Prober::occluders(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
@@ -119,7 +133,7 @@ void Prober::occluders(const Vectors& directions, std::uint32_t lanes, const See
         const std::uint32_t triangle = seen.triangle[l];
         return triangle != no_triangle && state_->faces_light(triangle) &&
                state_->receives[triangle] != 0 &&
-               (!state_->cone || ask_cone(directions[l], triangle).in_cone);
+               (!state_->cone || ask_cone(directions[l], triangle).sign >= 0);
     });
     set_shadow_rays(directions, asked, seen);
     PacketRays rays{state_, &directions, Predicates(filters_)};

@@ -11,19 +11,19 @@
 
 namespace shadowproof {
 
-/// What eye rays see.
+/// What eye rays see. Set by Prober::see for all lanes; what lanes without rays hold is arbitrary.
 struct SeenLanes {
-    alignas(64) Lanes<double> depth{};       ///< view depth, rounded; infinity: nothing is seen
-    alignas(64) Lanes<double> depth_error{}; ///< bound of its error
+    alignas(64) Lanes<double> depth{};           ///< view depth, rounded; infinity: nothing is seen
+    alignas(64) Lanes<double> depth_error{};     ///< bound of its error
     alignas(64) Lanes<std::uint32_t> triangle{}; ///< no_triangle where nothing is seen
     Lanes<Exactness> exactness{};
 };
 
-/// Whether the visible point is lit.
-struct Lighting {
-    bool lit = false;
-    bool in_cone = true; ///< of the spot light, if it is one
-    Exactness exactness = Exactness::filtered;
+/// Whether the visible points are lit.
+struct LitLanes {
+    Lanes<Visibility> visibility{};
+    Lanes<Exactness> exactness{};  ///< of that alone
+    Lanes<std::uint8_t> in_cone{}; ///< of the spot light, if it is one
 };
 
 /// Runs the queries of one thread. Lanes whose bit in `lanes` is not set are left unchanged.
@@ -40,7 +40,7 @@ public:
 
     /// Whether the light reaches the visible points.
     void light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
-               Lanes<Lighting>& lighting);
+               LitLanes& lighting);
 
     /// Of the triangles that shadow the visible points those with the lowest numbers; no_triangle
     /// where there is none, or the light is behind the surface, or not asked for.
@@ -68,11 +68,13 @@ private:
     RecordCache light_facing_;
     SeenPlanes planes_;
     RayPacket packet_;
+    SeenRange range_{-1, -1}; ///< of which `limits_` are
+    HitLimits limits_;
     std::uint64_t rays_ = 0;
     std::uint64_t exact_decisions_ = 0;
 
     void set_shadow_rays(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen);
-    Lighting ask_cone(const glm::dvec3& direction, std::uint32_t seen);
+    Decision ask_cone(const glm::dvec3& direction, std::uint32_t seen);
 };
 
 } // namespace shadowproof

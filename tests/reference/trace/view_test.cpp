@@ -30,7 +30,7 @@ TEST_P(FarCorner, takes_nothing_from_what_floats_see_of_the_others) {
     for (const float far : {1e12F, 1e18F}) {
         const Scene scene = row_with_a_far_corner(far);
         const Places places = find_places(scene, {}, 1);
-        const Clusters clusters = build_clusters(scene, places.firsts(), 1);
+        const Clusters clusters = build_clusters(scene, places.firsts(), places.plane, 1);
         const BoxTrees trees(clusters, 1);
         const OriginView view = view_from(GetParam(), true, scene, trees, places, {}, 1);
         EXPECT_GE(view.scale * 64, 0.125);
@@ -41,7 +41,7 @@ TEST_P(FarCorner, takes_nothing_from_what_floats_see_of_the_others) {
 TEST_P(FarCorner, that_is_not_far_is_scaled_like_the_others) {
     const Scene scene = row_with_a_far_corner(1000);
     const Places places = find_places(scene, {}, 1);
-    const Clusters clusters = build_clusters(scene, places.firsts(), 1);
+    const Clusters clusters = build_clusters(scene, places.firsts(), places.plane, 1);
     const BoxTrees trees(clusters, 1);
     const OriginView view = view_from(GetParam(), true, scene, trees, places, {}, 1);
     EXPECT_LE(view.scale * 1000, 1);
