@@ -107,8 +107,10 @@ std::optional<NearestArbiter::Candidate> NearestArbiter::met(int lane, std::uint
     }
     // The eye is not in the triangle's plane, so the planes of two edges meet in a line.
     for (std::size_t k = 0; k < 3; ++k)
-        if (candidate.through[k] && candidate.through[(k + 1) % 3])
+        if (candidate.through[k] && candidate.through[(k + 1) % 3]) {
             vertex_[static_cast<std::size_t>(lane)] = corners[(k + 1) % 3];
+            at_vertex_ |= 1U << lane;
+        }
     if (!within_planes(ray, t, signs)) return std::nullopt;
     candidate.exactness = signs.exactness();
     candidate.exact_decisions = signs.exact_decisions();
@@ -174,8 +176,7 @@ void NearestArbiter::settle_lane(RayPacket& packet, std::span<const Candidate> c
 
 Decision NearestArbiter::edge(const EyeRay& ray, int lane, const glm::dvec3& a,
                               const glm::dvec3& b) const {
-    const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(lane)];
-    if (vertex && (*vertex == a || *vertex == b)) return {0, Exactness::degenerate};
+    if (runs_through(lane, a) || runs_through(lane, b)) return {0, Exactness::degenerate};
     return rays_.predicates.edge(ray, a, b);
 }
 
@@ -186,10 +187,10 @@ bool NearestArbiter::meet_there(const Candidate& candidate, std::uint32_t other_
     const auto shares = [&](const glm::dvec3& p) {
         return p == other.a || p == other.b || p == other.c;
     };
-    const std::optional<glm::dvec3>& vertex = vertex_[static_cast<std::size_t>(candidate.lane)];
-    if (vertex && shares(*vertex) && std::ranges::count(corners, *vertex) > 0) return true;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (runs_through(candidate.lane, corners[k]) && shares(corners[k])) return true;
         if (candidate.through[k] && shares(corners[k]) && shares(corners[(k + 1) % 3])) return true;
+    }
     return false;
 }
 

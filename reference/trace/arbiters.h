@@ -64,12 +64,16 @@ private:
     };
 
     PacketRays& rays_;
-    SeenRange range_;
+    const SeenRange& range_;
     SeenLanes& seen_;
-    Lanes<std::optional<glm::dvec3>> vertex_{}; ///< through which the lane's ray runs exactly
+    std::uint32_t at_vertex_ = 0; ///< one bit per lane whose ray is known to run through a vertex
+    Lanes<glm::dvec3> vertex_;    ///< of those lanes
     std::vector<Candidate> candidates_;
     std::size_t many_ = 256; ///< of them: time to leave out those that are none any more
 
+    bool runs_through(int lane, const glm::dvec3& vertex) const {
+        return (at_vertex_ >> lane & 1U) != 0 && vertex_[static_cast<std::size_t>(lane)] == vertex;
+    }
     void add(RayPacket& packet, const Candidate& candidate, float lo);
     std::optional<Candidate> met(int lane, std::uint32_t triangle);
     void settle_lane(RayPacket& packet, std::span<const Candidate> candidates);

@@ -33,10 +33,10 @@ Prober::Prober(const Tracer::State& state, Filters filters)
     : state_(&state), filters_(filters), seen_(state.from_eye, Part::seen, state.double_sided),
       occluding_(state.from_light, Part::occluding, state.double_sided),
       light_facing_(state.from_light, Part::light_facing, state.double_sided),
-      planes_(*state.scene, state.eye) {}
+      planes_(*state.scene, state.eye), own_range_(range_of(state.scene->camera)) {}
 
 void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen) {
-    see_triangle(directions, lanes, range_of(state_->scene->camera), seen);
+    see_triangle(directions, lanes, own_range_, seen);
     const std::uint32_t met =
         lanes_where(lanes, [&](std::size_t l) { return seen.triangle[l] != no_triangle; });
     for_lanes(lanes & ~met, [&](std::size_t l) {

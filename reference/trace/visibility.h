@@ -68,6 +68,7 @@ private:
     RecordCache light_facing_;
     SeenPlanes planes_;
     RayPacket packet_;
+    SeenRange own_range_;     ///< the camera's
     SeenRange range_{-1, -1}; ///< of which `limits_` are
     HitLimits limits_;
     std::uint64_t rays_ = 0;
