@@ -82,6 +82,7 @@ void NearestArbiter::compare(RayPacket& packet, int lane, std::uint32_t triangle
 void NearestArbiter::add(RayPacket& packet, const Candidate& candidate, float lo) {
     float& best = packet.best_lo[static_cast<std::size_t>(candidate.lane)];
     best = std::max(best, lo);
+    packet.best_raised = true;
     candidates_.push_back(candidate);
     if (candidates_.size() < many_) return;
     std::erase_if(candidates_, [&](const Candidate& c) {

@@ -110,6 +110,7 @@ void keep_nearest(RayPacket& packet, int i, const Answer& answer, std::uint32_t 
                      packet.hit.data() + i);
     hn::BlendedStore(hn::Max(answer.lo, load(packet.best_lo, i)), answer.met, floats,
                      packet.best_lo.data() + i);
+    packet.best_raised = true;
     // A cluster may be found again, and with it the hit.
     const Mask is_hit = hn::RebindMask(
         floats, hn::Eq(hn::Load(ids, packet.hit.data() + i), hn::Set(ids, triangle)));
@@ -189,7 +190,10 @@ void visit(void* visitor, std::uint32_t cluster, int first, int count, float* fa
     auto& search = *static_cast<Search*>(visitor);
     [[maybe_unused]] const std::uint32_t before = search.packet.active;
     meet_cluster<query>(search, cluster, first, count);
-    if constexpr (query == Query::nearest) lower_limits(search, first, count, far);
+    if constexpr (query == Query::nearest) {
+        if (search.packet.best_raised) lower_limits(search, first, count, far);
+        search.packet.best_raised = false;
+    }
     if constexpr (query == Query::any) {
         for (int i = 0; i < count; ++i)
             if ((search.packet.active >> (first + i) & 1U) == 0)

@@ -57,6 +57,7 @@ struct RayPacket {
     alignas(64) Lanes<std::uint32_t> hit{}; ///< nearest or any, or no_triangle
     alignas(64) Lanes<float> hit_hi{};      ///< nearest: 1/s of the hit is at most this
     alignas(64) Lanes<float> best_lo{};     ///< nearest: 1/s of the nearest is at least this
+    bool best_raised = false;               ///< since the walk's limits were last lowered
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
 };
 

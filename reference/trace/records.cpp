@@ -298,14 +298,11 @@ namespace {
 
 HWY_EXPORT(make_records);
 
-/// Enough for a row of tiles, and small enough for the second-level cache.
-constexpr std::size_t slot_count = 256;
-
 } // namespace
 
 RecordCache::RecordCache(const OriginView& view, Part part,
                          const std::vector<std::uint8_t>& double_sided)
-    : view_(&view), part_(part), double_sided_(&double_sided), slots_(slot_count) {}
+    : view_(&view), part_(part), double_sided_(&double_sided) {}
 
 bool RecordCache::takes_part(std::uint32_t triangle) const {
     const std::int8_t side = view_->side[triangle];

@@ -48,7 +48,8 @@ public:
     std::uint32_t copies(std::uint32_t triangle) const;
     bool takes_part(std::uint32_t triangle) const;
     const ClusterRecord& of(std::uint32_t cluster) {
-        Slot& slot = slots_[cluster % slots_.size()];
+        if (slots_.empty()) slots_.resize(slot_count);
+        Slot& slot = slots_[cluster % slot_count];
         if (slot.cluster != cluster) fill(slot, cluster);
         return slot.record;
     }
@@ -61,6 +62,9 @@ private:
         std::uint32_t cluster = 0xffffffffU;
         ClusterRecord record;
     };
+    /// Enough for a strip of tiles, and small enough for the second-level cache.
+    static constexpr std::size_t slot_count = 256;
+
     const OriginView* view_;
     Part part_;
     const std::vector<std::uint8_t>* double_sided_;
