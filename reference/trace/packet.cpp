@@ -164,11 +164,37 @@ struct Search {
     double ratio = 1; ///< the walk's scale over the view's
 };
 
+/// One bit per triangle that some lane may meet. For each edge, w . edge is at most the sum of the
+/// larger products by component. That sum is off by less than the most |w|, as each lane's own is
+/// (records.h); so where it is below three times that, no lane's own is above its |w|.
+std::uint32_t members_near(const RayPacket& packet, const ClusterRecord& cluster) {
+    constexpr hn::CappedTag<float, cluster_capacity> eight;
+    const auto limit = hn::Set(eight, -3 * packet.most_magnitude);
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < cluster_capacity; i += hn::Lanes(eight)) {
+        auto least = hn::Set(eight, std::numeric_limits<float>::infinity());
+        for (const std::array<PerTriangle<float>, 3>& edge : cluster.edge) {
+            auto most = hn::Zero(eight);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto e = hn::Load(eight, edge[axis].data() + i);
+                most = hn::Add(most, hn::Max(hn::Mul(hn::Set(eight, packet.least_w[axis]), e),
+                                             hn::Mul(hn::Set(eight, packet.most_w[axis]), e)));
+            }
+            least = hn::Min(least, most);
+        }
+        // Not below: what is no number is near.
+        alignas(8) std::array<std::uint8_t, 8> bytes{};
+        hn::StoreMaskBits(eight, hn::Not(hn::Lt(least, limit)), bytes.data());
+        near |= static_cast<std::uint32_t>(bytes[0]) << i;
+    }
+    return near & cluster.members;
+}
+
 /// Whole vectors that hold the lanes from `first` on.
 template <Query query>
 void meet_cluster(Search& search, std::uint32_t number, int first, int count) {
     const ClusterRecord& cluster = search.records.of(number);
-    for (std::uint32_t left = cluster.members; left != 0; left &= left - 1)
+    for (std::uint32_t left = members_near(search.packet, cluster); left != 0; left &= left - 1)
         meet_triangle<query>(search.packet, cluster, static_cast<std::size_t>(__builtin_ctz(left)),
                              first - first % step(), first + count, search.arbiter);
 }

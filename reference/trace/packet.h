@@ -49,6 +49,9 @@ struct RayPacket {
     alignas(64) std::array<Lanes<float>, 3> w{}; ///< 1 <= |w| < 2, |w| the largest component
     alignas(64) Lanes<float> unit{};             ///< w over the direction: a power of two
     alignas(64) Lanes<float> magnitude{};        ///< |w|; infinite: floats decide nothing
+    std::array<float, 3> least_w{}; ///< of the lanes that have rays, by component
+    std::array<float, 3> most_w{};
+    float most_magnitude = 0;
     WalkRays walk;
     alignas(64) Lanes<double> walk_start{}; ///< s at which the walk's ray begins
     double room = 0;                        ///< how far rays may be from the walk's

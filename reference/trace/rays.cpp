@@ -196,11 +196,40 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
     packet.room = hn::GetLane(hn::MaxOfLanes(doubles, room));
 }
 
+/// Of the floats that tests compute with.
+void find_extremes(RayPacket& packet) {
+    constexpr hn::CappedTag<float, packet_size> all;
+    const auto no_least = hn::Set(all, std::numeric_limits<float>::infinity());
+    auto most_magnitude = hn::Zero(all);
+    std::array<hn::Vec<decltype(all)>, 3> least{no_least, no_least, no_least};
+    std::array<hn::Vec<decltype(all)>, 3> most{hn::Neg(no_least), hn::Neg(no_least),
+                                               hn::Neg(no_least)};
+    for (std::size_t i = 0; i < packet_size; i += hn::Lanes(all)) {
+        const std::uint32_t lanes = packet.active >> i;
+        alignas(8) const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(lanes),
+                                                           static_cast<std::uint8_t>(lanes >> 8U)};
+        const auto active = hn::LoadMaskBits(all, bytes.data());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto w = hn::Load(all, packet.w[axis].data() + i);
+            least[axis] = hn::Min(least[axis], hn::IfThenElse(active, w, no_least));
+            most[axis] = hn::Max(most[axis], hn::IfThenElse(active, w, hn::Neg(no_least)));
+        }
+        most_magnitude = hn::Max(
+            most_magnitude, hn::IfThenElseZero(active, hn::Load(all, packet.magnitude.data() + i)));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        packet.least_w[axis] = hn::GetLane(hn::MinOfLanes(all, least[axis]));
+        packet.most_w[axis] = hn::GetLane(hn::MaxOfLanes(all, most[axis]));
+    }
+    packet.most_magnitude = hn::GetLane(hn::MaxOfLanes(all, most_magnitude));
+}
+
 void prepare(RayPacket& packet, const OriginView& view) {
     if (view.parallel)
         prepare_parallel(packet, view);
     else
         prepare_from_origin(packet, view);
+    find_extremes(packet);
 }
 
 } // namespace
