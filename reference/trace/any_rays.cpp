@@ -34,7 +34,8 @@ namespace {
 
 /// The largest coordinate on each axis.
 glm::dvec3 reach_of(const Clusters& clusters) {
-    return glm::max(glm::abs(glm::dvec3(clusters.box.lower)), glm::abs(glm::dvec3(clusters.box.upper)));
+    return glm::max(glm::abs(glm::dvec3(clusters.box.lower)),
+                    glm::abs(glm::dvec3(clusters.box.upper)));
 }
 
 glm::dvec3 enlargement_of(const glm::dvec3& reach, double share, const glm::dvec3& origin) {
@@ -87,7 +88,9 @@ void set_line(Walked& walked, int lane, const AnyRay& ray, const WalkFrame& fram
             error = std::max(error, 0x1p-50 + 2 * least_component * frame.scale / stretch);
     }
     walked.stretch[l] = stretch;
-    const auto moved = [&](double t, double by) { return t * stretch + by * (1 + std::abs(t * stretch)); };
+    const auto moved = [&](double t, double by) {
+        return t * stretch + by * (1 + std::abs(t * stretch));
+    };
     walked.lines.begin[l] = moved(ray.near, -0x1p-20);
     walked.lines.end[l] = moved(ray.far, 0x1p-20);
     const double room = largest(enlargement) * frame.scale + (largest(p) + 2) * error;
@@ -121,7 +124,8 @@ struct NearbySearch {
             const auto l = static_cast<std::size_t>(first + i);
             const bool goes_on = (search.rays.lanes >> l & 1U) != 0;
             const double s =
-                goes_on ? search.rays.far[l] * search.walked.stretch[l] - search.walked.start[l] : 0;
+                goes_on ? search.rays.far[l] * search.walked.stretch[l] - search.walked.start[l]
+                        : 0;
             const auto limit = static_cast<float>(std::max(s, 0.0)) * (1 + 0x1p-20F) + 0x1p-20F;
             if (limit < far[i]) far[i] = limit;
         }

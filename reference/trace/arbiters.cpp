@@ -66,6 +66,7 @@ std::pair<float, float> inverse_depth(const PacketRays& rays, const EyeRay& ray,
 }
 
 void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+    ++rays_.undecided;
     std::optional<Candidate> candidate = met(lane, triangle);
     if (!candidate) return;
     const auto [lo, hi] = inverse_depth(rays_, rays_.ray(lane), rays_.triangle(triangle));
@@ -141,9 +142,8 @@ void NearestArbiter::settle(RayPacket& packet) {
     });
     candidates_.erase(again.begin(), again.end());
     for (auto first = candidates_.begin(); first != candidates_.end();) {
-        const auto end = std::find_if(first, candidates_.end(), [&](const Candidate& c) {
-            return c.lane != first->lane;
-        });
+        const auto end = std::find_if(first, candidates_.end(),
+                                      [&](const Candidate& c) { return c.lane != first->lane; });
         settle_lane(packet, std::span(first, end));
         first = end;
     }
@@ -163,9 +163,8 @@ void NearestArbiter::settle_lane(RayPacket& packet, std::span<const Candidate> c
         } else if (meet_there(candidate, best)) {
             signs.at_least_zero({0, Exactness::degenerate}, 1);
         } else {
-            const Decision order =
-                rays_.predicates.depth_order(rays_.ray(lane), rays_.triangle(candidate.triangle),
-                                             rays_.triangle(best));
+            const Decision order = rays_.predicates.depth_order(
+                rays_.ray(lane), rays_.triangle(candidate.triangle), rays_.triangle(best));
             signs.at_least_zero(order, 1);
             if (order.sign < 0) best = candidate.triangle;
         }
@@ -226,6 +225,7 @@ Between between(const PacketRays& rays, int lane, std::uint32_t seen, std::uint3
 } // namespace
 
 void AnyArbiter::decide(RayPacket& /*packet*/, int lane, std::uint32_t triangle) {
+    ++rays_.undecided;
     candidates_.push_back({lane, triangle});
     if (candidates_.size() >= many_) leave_out_what_is_beside();
 }
@@ -237,7 +237,8 @@ void AnyArbiter::leave_out_what_is_beside() {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if (candidate.triangle > blocking[l]) continue;
         if (!candidate.between)
-            candidate.between = between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
+            candidate.between =
+                between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
         if (candidate.between->blocks) blocking[l] = candidate.triangle;
     }
     std::erase_if(candidates_, [&](const Candidate& c) {
@@ -258,7 +259,8 @@ void AnyArbiter::settle(RayPacket& packet) {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if ((packet.active >> l & 1U) == 0) continue;
         if (!candidate.between)
-            candidate.between = between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
+            candidate.between =
+                between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
         if (!candidate.between->touched) continue;
         rays_.exact_decisions += candidate.between->exact_decisions;
         lighting_.exactness[l] = std::max(lighting_.exactness[l], candidate.between->exactness);

@@ -24,7 +24,8 @@ struct PacketRays {
     const Tracer::State* state = nullptr;
     const Vectors* directions = nullptr;
     Predicates predicates;
-    std::uint64_t exact_decisions = 0;
+    std::uint64_t exact_decisions = 0; ///< of triangles that are met
+    std::uint64_t undecided = 0;       ///< how often floats left a triangle to an arbiter
 
     EyeRay ray(int lane) const {
         return {state->eye, (*directions)[static_cast<std::size_t>(lane)], state->light};
@@ -40,9 +41,9 @@ struct Between {
     std::uint64_t exact_decisions = 0;
 };
 
-/// Decides which triangle an eye ray meets first. What is recorded of it (exactness, number of exact
-/// signs) follows from the triangles that are truly met, where floats cannot tell that another is
-/// nearer: so it does not depend on the order in which they are found. Keeps references.
+/// Decides which triangle an eye ray meets first. What is recorded of it (exactness, number of
+/// exact signs) follows from the triangles that are truly met, where floats cannot tell that
+/// another is nearer: so it does not depend on the order in which they are found. Keeps references.
 class NearestArbiter final : public Arbiter {
 public:
     NearestArbiter(PacketRays& rays, const SeenRange& range, SeenLanes& seen)

@@ -112,8 +112,8 @@ double BoxTree::room() const {
     return margin_ - walk_error;
 }
 
-// A coherent packet is walked once for each octant that its rays' directions lie in, and a box may be
-// reported each time.
+// A coherent packet is walked once for each octant that its rays' directions lie in, and a box may
+// be reported each time.
 template <BoxTree::Query query>
 void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) const {
     Walk walk;
@@ -148,7 +148,8 @@ void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) cons
     };
     for (walk.first = 0; walk.first < packet_size; walk.first += width_) {
         if ((rays.lanes >> walk.first & ((1U << width_) - 1)) == 0) continue;
-        if (width_ == 16) send(static_cast<const RTCRayHit16*>(nullptr), rtcIntersect16, rtcOccluded16);
+        if (width_ == 16)
+            send(static_cast<const RTCRayHit16*>(nullptr), rtcIntersect16, rtcOccluded16);
         if (width_ == 8) send(static_cast<const RTCRayHit8*>(nullptr), rtcIntersect8, rtcOccluded8);
         if (width_ == 4) send(static_cast<const RTCRayHit4*>(nullptr), rtcIntersect4, rtcOccluded4);
     }

@@ -39,8 +39,8 @@ struct WalkFrame {
     double scale = 1;
 };
 
-/// What the walk needs of rays o + s d: |o| <= 2, 1 <= |d| < 2 in the largest component, none between
-/// -1e-18 and 0, 0 < far.
+/// What the walk needs of rays o + s d: |o| <= 2, 1 <= |d| < 2 in the largest component, none
+/// between -1e-18 and 0, 0 < far.
 struct WalkRays {
     alignas(64) std::array<Lanes<float>, 3> start{};
     alignas(64) std::array<Lanes<float>, 3> way{};

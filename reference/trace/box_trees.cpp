@@ -26,8 +26,7 @@ BoxTrees::BoxTrees(const Clusters& clusters, int threads)
 const BoxTree& BoxTrees::tree(std::size_t i) const {
     Tree& found = trees_[i];
     std::call_once(found.built, [&] {
-        const float margin =
-            std::ldexp(BoxTree::smallest_margin, 5 * static_cast<int>(i));
+        const float margin = std::ldexp(BoxTree::smallest_margin, 5 * static_cast<int>(i));
         found.tree = std::make_unique<BoxTree>(*clusters_, frame_, margin, threads_);
     });
     return *found.tree;

@@ -28,8 +28,12 @@ struct Node {
     std::array<Node*, branching> children{}; ///< null where there is none
 };
 struct Leaf : Node {
-    std::array<std::uint32_t, RTC_BUILD_MAX_PRIMITIVES_PER_LEAF> triangles{};
     std::size_t count = 0;
+
+    /// They lie behind the leaf itself: most leaves have far fewer than the most that are possible.
+    std::span<std::uint32_t> triangles() {
+        return {reinterpret_cast<std::uint32_t*>(this + 1), count}; // NOLINT: allocated with it
+    }
 };
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned int, void*) {
@@ -46,12 +50,13 @@ void set_bounds(void*, const RTCBounds**, unsigned int, void*) {}
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                   std::size_t count, void*) {
-    auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), alignof(Leaf))) Leaf;
+    const std::size_t size = sizeof(Leaf) + count * sizeof(std::uint32_t);
+    auto* leaf = new (rtcThreadLocalAlloc(allocator, size, alignof(Leaf))) Leaf;
     leaf->count = count;
-    for (std::size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+    const std::span<std::uint32_t> triangles = leaf->triangles();
+    for (std::size_t i = 0; i < count; ++i) triangles[i] = primitives[i].primID;
     // The order must not depend on thread count or scheduling.
-    std::sort(leaf->triangles.begin(),
-              leaf->triangles.begin() + static_cast<std::ptrdiff_t>(leaf->count));
+    std::ranges::sort(triangles);
     return static_cast<Node*>(leaf);
 }
 
@@ -91,8 +96,8 @@ void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, C
 }
 
 /// A leaf of triangles with one box, which cannot be split, becomes several clusters.
-void add_leaf(const Scene& scene, const Leaf& leaf, Clusters& clusters) {
-    std::span<const std::uint32_t> rest = std::span(leaf.triangles).first(leaf.count);
+void add_leaf(const Scene& scene, Leaf& leaf, Clusters& clusters) {
+    std::span<const std::uint32_t> rest = leaf.triangles();
     while (!rest.empty()) {
         const std::size_t count = std::min<std::size_t>(rest.size(), cluster_capacity);
         add_cluster(scene, rest.first(count), clusters);
@@ -101,12 +106,12 @@ void add_leaf(const Scene& scene, const Leaf& leaf, Clusters& clusters) {
 }
 
 /// Depth first, so that neighbours lie side by side. Embree's tree has at most 64 levels.
-void add_node(const Scene& scene, const Node& node, Clusters& clusters) {
+void add_node(const Scene& scene, Node& node, Clusters& clusters) {
     if (node.children[0] == nullptr) {
-        add_leaf(scene, static_cast<const Leaf&>(node), clusters);
+        add_leaf(scene, static_cast<Leaf&>(node), clusters);
         return;
     }
-    for (const Node* child : node.children)
+    for (Node* child : node.children)
         if (child != nullptr) add_node(scene, *child, clusters);
 }
 
@@ -149,13 +154,13 @@ Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> trian
     arguments.setNodeChildren = set_children;
     arguments.setNodeBounds = set_bounds;
     arguments.createLeaf = create_leaf;
-    const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
+    auto* root = static_cast<Node*>(rtcBuildBVH(&arguments));
     if (root == nullptr)
         throw Error("Embree",
                     fmt::format("{} triangles were not grouped (error {})", triangles.size(),
                                 static_cast<int>(rtcGetDeviceError(device.get()))),
                     "check that there is enough memory");
-    primitives = {};
+    std::vector<RTCBuildPrimitive>().swap(primitives);
 
     Clusters clusters;
     clusters.box = empty_box();
@@ -164,7 +169,8 @@ Clusters build_clusters(const Scene& scene, std::span<const std::uint32_t> trian
     add_node(scene, *root, clusters);
     for (Cluster& cluster : clusters.all)
         for (std::size_t i = 0; i < cluster_capacity; ++i)
-            if (cluster.triangles[i] != no_triangle) cluster.planes[i] = planes[cluster.triangles[i]];
+            if (cluster.triangles[i] != no_triangle)
+                cluster.planes[i] = planes[cluster.triangles[i]];
     make_groups(clusters);
     return clusters;
 }

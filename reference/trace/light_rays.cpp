@@ -65,13 +65,11 @@ void rise_to(const OriginView& view, const Vector& q, Number error, RayPacket& p
     const bool leans = shear.lean != 0;
     const Number scale = number(view.scale);
     const Number size = hn::Mul(number(u), largest(q));
-    Number place_error = hn::Mul(hn::Add(hn::Mul(number(leans ? 4 : 2), error),
-                                         hn::Mul(number(leans ? 22 : 5), size)),
-                                 scale);
-    Number height_error = hn::Mul(leans ? hn::Add(hn::Mul(number(2), error),
-                                                  hn::Mul(number(8), size))
-                                        : error,
-                                  scale);
+    Number place_error = hn::Mul(
+        hn::Add(hn::Mul(number(leans ? 4 : 2), error), hn::Mul(number(leans ? 22 : 5), size)),
+        scale);
+    Number height_error = hn::Mul(
+        leans ? hn::Add(hn::Mul(number(2), error), hn::Mul(number(8), size)) : error, scale);
     if (leans) {
         const auto far = hn::Lt(hn::Abs(hn::Sub(number(1), divisor)), number(0.25));
         place_error = hn::IfThenElse(far, place_error, number(infinity));
@@ -82,14 +80,13 @@ void rise_to(const OriginView& view, const Vector& q, Number error, RayPacket& p
     store(number(1), packet.direction.axis[2], i);
     store(place_error, packet.direction_error, i);
     // Rounded to float and further by more: by 2^-23 of itself, or of the smallest normal float.
-    const Number rounding =
-        hn::Add(hn::Mul(hn::Abs(height), number(0x1p-23)), number(0x1p-149));
+    const Number rounding = hn::Add(hn::Mul(hn::Abs(height), number(0x1p-23)), number(0x1p-149));
     const auto known = hn::Lt(height_error, number(infinity));
     const auto limit = [&](Number value, double otherwise) {
         return hn::IfThenElse(known, value, number(otherwise));
     };
-    const Number room = hn::Add(height_error, hn::Add(rounding, hn::Mul(height_error,
-                                                                         number(0x1p-23))));
+    const Number room =
+        hn::Add(height_error, hn::Add(rounding, hn::Mul(height_error, number(0x1p-23))));
     store(limit(hn::Sub(height, room), -infinity), packet.lower_lo, i);
     store(limit(hn::Add(height, room), infinity), packet.lower_hi, i);
     store(number(infinity), packet.upper_lo, i);
@@ -112,9 +109,8 @@ void lead_to_points(const Tracer::State& state, const Vectors& directions, const
             along.axis[axis] = hn::Mul(load(t, i), direction.axis[axis]);
             q.axis[axis] = hn::Add(number(base[static_cast<int>(axis)]), along.axis[axis]);
         }
-        const Number error =
-            hn::Add(hn::Mul(number(4 * u), hn::Add(base_size, largest(along))),
-                    hn::Mul(largest(direction), load(t_error, i)));
+        const Number error = hn::Add(hn::Mul(number(4 * u), hn::Add(base_size, largest(along))),
+                                     hn::Mul(largest(direction), load(t_error, i)));
         if (view.parallel) {
             rise_to(view, q, error, packet, i);
             continue;

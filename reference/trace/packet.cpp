@@ -75,8 +75,8 @@ Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::s
         hn::Min(hn::Min(dot(packet, i, cluster.edge[0], t), dot(packet, i, cluster.edge[1], t)),
                 dot(packet, i, cluster.edge[2], t));
     Answer answer;
-    const Mask maybe_inside = hn::AndNot(hn::Lt(inner, hn::Neg(magnitude)),
-                                         mask_of(packet.active, i));
+    const Mask maybe_inside =
+        hn::AndNot(hn::Lt(inner, hn::Neg(magnitude)), mask_of(packet.active, i));
     if (hn::AllFalse(floats, maybe_inside)) {
         answer.met = answer.undecided = maybe_inside;
         answer.lo = answer.hi = inner;

@@ -49,7 +49,7 @@ struct RayPacket {
     alignas(64) std::array<Lanes<float>, 3> w{}; ///< 1 <= |w| < 2, |w| the largest component
     alignas(64) Lanes<float> unit{};             ///< w over the direction: a power of two
     alignas(64) Lanes<float> magnitude{};        ///< |w|; infinite: floats decide nothing
-    std::array<float, 3> least_w{}; ///< of the lanes that have rays, by component
+    std::array<float, 3> least_w{};              ///< of the lanes that have rays, by component
     std::array<float, 3> most_w{};
     float most_magnitude = 0;
     WalkRays walk;
@@ -57,10 +57,10 @@ struct RayPacket {
     double room = 0;                        ///< how far rays may be from the walk's
 
     // What is found.
-    alignas(64) Lanes<std::uint32_t> hit{}; ///< nearest or any, or no_triangle
-    alignas(64) Lanes<float> hit_hi{};      ///< nearest: 1/s of the hit is at most this
-    alignas(64) Lanes<float> best_lo{};     ///< nearest: 1/s of the nearest is at least this
-    bool best_raised = false;               ///< since the walk's limits were last lowered
+    alignas(64) Lanes<std::uint32_t> hit{};     ///< nearest or any, or no_triangle
+    alignas(64) Lanes<float> hit_hi{};          ///< nearest: 1/s of the hit is at most this
+    alignas(64) Lanes<float> best_lo{};         ///< nearest: 1/s of the nearest is at least this
+    bool best_raised = false;                   ///< since the walk's limits were last lowered
     alignas(64) Lanes<std::uint32_t> crossed{}; ///< number of triangles met
 };
 

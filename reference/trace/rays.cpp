@@ -10,10 +10,9 @@
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/rays.cpp"
-#include <hwy/foreach_target.h> // must come before highway.h
-
 #include "reference/trace/walk_lines-inl.h"
 
+#include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -83,14 +82,16 @@ Direction normalised(const RayPacket& packet, std::size_t i) {
     const Number error = load(packet.direction_error, i);
     const Number size = largest(given);
     // Beyond 2^+-100 the limits, which are scaled alike, would leave the range of floats.
-    const Mask known = hn::And(hn::And(hn::Gt(size, number(0x1p-100)), hn::Lt(size, number(0x1p100))),
-                               hn::Lt(error, size));
+    const Mask known =
+        hn::And(hn::And(hn::Gt(size, number(0x1p-100)), hn::Lt(size, number(0x1p100))),
+                hn::Lt(error, size));
     const Number unit = hn::IfThenElse(known, power_that_normalises(size), number(1));
     const auto known_or_1 = [&](Number x) {
         return hn::IfThenElse(known, hn::Mul(x, unit), number(1));
     };
     return {{known_or_1(given.x), known_or_1(given.y), known_or_1(given.z)},
-            hn::IfThenElse(known, hn::Mul(error, unit), number(infinity)), unit};
+            hn::IfThenElse(known, hn::Mul(error, unit), number(infinity)),
+            unit};
 }
 
 /// What the tests of triangles read.
@@ -125,8 +126,7 @@ void prepare_from_origin(RayPacket& packet, const OriginView& view) {
         // s is the inverse of 1/s: from its upper limit to its lower one, and a little more, as
         // limits are rounded.
         const auto inverse = [&](const Lanes<float>& limit) {
-            const auto quotient =
-                hn::Div(hn::Set(floats, 1), hn::Load(floats, limit.data() + i));
+            const auto quotient = hn::Div(hn::Set(floats, 1), hn::Load(floats, limit.data() + i));
             return hn::Mul(ratio, hn::PromoteTo(doubles, quotient));
         };
         const Number begin = hn::Mul(inverse(packet.upper_hi), number(1 - 0x1p-20));
@@ -173,11 +173,9 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
         }
         // h = up z / (1 - lean z), and up z = s; where that is beyond the light, from anywhere.
         const Number divisor = hn::Add(number(1), hn::Mul(hn::Mul(up, lean), height));
-        const Mask from_there =
-            hn::And(hn::Gt(divisor, number(0.5)), hn::Gt(height, number(-4)));
+        const Mask from_there = hn::And(hn::Gt(divisor, number(0.5)), hn::Gt(height, number(-4)));
         const Number begin = hn::IfThenElse(
-            from_there,
-            hn::Sub(hn::Mul(hn::Div(height, divisor), number(ratio)), number(0x1p-20)),
+            from_there, hn::Sub(hn::Mul(hn::Div(height, divisor), number(ratio)), number(0x1p-20)),
             number(-infinity));
         const Number most = hn::Max(hn::Abs(u), hn::Abs(v));
         const Mask beside = hn::Gt(hn::Sub(most, error), number(2));

@@ -69,8 +69,7 @@ struct ClusterCorners {
     ClusterCorners(const Cluster& cluster, std::uint32_t front, std::size_t i) {
         const auto corner = [&](std::size_t k) {
             const auto axis = [&](std::size_t n) {
-                return hn::PromoteTo(doubles,
-                                     hn::Load(floats, cluster.corner[k][n].data() + i));
+                return hn::PromoteTo(doubles, hn::Load(floats, cluster.corner[k][n].data() + i));
             };
             return Vector{axis(0), axis(1), axis(2)};
         };
@@ -157,7 +156,8 @@ void make_parallel_records(const OriginView& view, const Cluster& cluster, std::
         const ClusterCorners corners(cluster, front, i);
         const auto world = [&](std::size_t k) {
             const std::array<Number, 3> p{corners[k].x, corners[k].y, corners[k].z};
-            return Vector{p[static_cast<std::size_t>(axes[0])], p[static_cast<std::size_t>(axes[1])],
+            return Vector{p[static_cast<std::size_t>(axes[0])],
+                          p[static_cast<std::size_t>(axes[1])],
                           p[static_cast<std::size_t>(axes[2])]};
         };
         const auto relative = [&](const Vector& p, const Vector& q) {

@@ -17,9 +17,9 @@ enum class Part : std::uint8_t {
     light_facing, ///< those whose front faces the light
 };
 
-/// The triangles of a cluster that take part. For a ray O + s w, in scaled coordinates relative to O, with the triangle oriented so that
-/// det(a, b, c) > 0: the ray meets the closed triangle iff w . edge[k] >= 0 for all k, and then 1/s
-/// = w . inverse.
+/// The triangles of a cluster that take part. For a ray O + s w, in scaled coordinates relative to
+/// O, with the triangle oriented so that det(a, b, c) > 0: the ray meets the closed triangle iff w
+/// . edge[k] >= 0 for all k, and then 1/s = w . inverse.
 ///   edge[0] = a x b, edge[1] = b x c, edge[2] = c x a,  inverse = (b - a) x (c - a) / det.
 /// Where rays are parallel, a = (u, v, 1) and w likewise: the same holds of the ray that runs up at
 /// (u, v), and w . inverse is the height h at which it meets the triangle's plane.

@@ -49,15 +49,13 @@ void measure(const Vectors& directions, PlaneLanes& planes) {
                                   hn::Mul(number(9.1 * u), load(planes.normal_size, i))));
         const Number reciprocal = hn::Div(number(1), denominator);
         const Number depth = hn::Mul(load(planes.numerator, i), reciprocal);
-        const Number relative =
-            hn::Add(hn::Add(load(planes.numerator_error, i),
-                            hn::Mul(denominator_error, hn::Abs(reciprocal))),
-                    number(2 * u));
+        const Number relative = hn::Add(hn::Add(load(planes.numerator_error, i),
+                                                hn::Mul(denominator_error, hn::Abs(reciprocal))),
+                                        number(2 * u));
         // First order; doubled for the rest as long as it is small. Otherwise there is no bound.
-        const Number error =
-            hn::IfThenElse(hn::Lt(relative, number(0.125)),
-                           hn::Mul(hn::Abs(depth), hn::Mul(number(2), relative)),
-                           number(std::numeric_limits<double>::infinity()));
+        const Number error = hn::IfThenElse(hn::Lt(relative, number(0.125)),
+                                            hn::Mul(hn::Abs(depth), hn::Mul(number(2), relative)),
+                                            number(std::numeric_limits<double>::infinity()));
         hn::Store(depth, doubles, planes.depth.data() + i);
         hn::Store(error, doubles, planes.depth_error.data() + i);
     }

@@ -13,9 +13,9 @@ namespace shadowproof {
 /// A plane of each lane, and what is computed from it.
 struct PlaneLanes {
     Vectors normal;
-    alignas(64) Lanes<double> normal_error{}; ///< per component
-    alignas(64) Lanes<double> normal_size{};  ///< the largest component
-    alignas(64) Lanes<double> numerator{};    ///< (a - E) . normal
+    alignas(64) Lanes<double> normal_error{};    ///< per component
+    alignas(64) Lanes<double> normal_size{};     ///< the largest component
+    alignas(64) Lanes<double> numerator{};       ///< (a - E) . normal
     alignas(64) Lanes<double> numerator_error{}; ///< relative
     alignas(64) Lanes<double> depth{};
     alignas(64) Lanes<double> depth_error{};

@@ -34,7 +34,7 @@ struct Tracer::State {
     std::vector<std::int8_t> side_of_light; ///< as OriginView::side, but of all triangles
     std::vector<std::uint8_t> double_sided; ///< one flag per triangle
     std::vector<std::uint8_t> receives;     ///< one flag per triangle
-    std::vector<std::uint8_t> facing;      ///< bits of Facing, per triangle
+    std::vector<std::uint8_t> facing;       ///< bits of Facing, per triangle
     glm::dvec3 eye{0, 0, 0};
     glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
     std::optional<Cone> cone;     ///< of a spot light

@@ -44,10 +44,9 @@ std::vector<std::uint8_t> facing_of(const Tracer::State& state) {
         const int light = state.side_of_light[i];
         const Places& places = state.places;
         const bool copied = places.first[i] != i || places.next[i] != no_triangle;
-        bits[i] = static_cast<std::uint8_t>((eye * light > 0 ? faces_light_bit : 0) |
-                                            (light == 0 ? edge_on_bit : 0) |
-                                            (state.receives[i] != 0 ? receives_bit : 0) |
-                                            (copied ? copied_bit : 0));
+        bits[i] = static_cast<std::uint8_t>(
+            (eye * light > 0 ? faces_light_bit : 0) | (light == 0 ? edge_on_bit : 0) |
+            (state.receives[i] != 0 ? receives_bit : 0) | (copied ? copied_bit : 0));
     }
     return bits;
 }
@@ -145,6 +144,7 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
     for (const auto& prober : probers) {
         statistics.rays += prober->rays();
         statistics.exact_decisions += prober->exact_decisions();
+        statistics.undecided += prober->undecided();
     }
     statistics.milliseconds = milliseconds_since(start);
     statistics.build_milliseconds = state.build_milliseconds;
@@ -170,7 +170,8 @@ void for_packets(const Tracer::State& state, std::size_t rays, const Direction& 
         for (std::size_t first = begin; first < end; first += packet_size) {
             const std::size_t count = std::min<std::size_t>(packet_size, end - first);
             Vectors packet;
-            for (std::size_t lane = 0; lane < count; ++lane) packet.set(lane, direction(first + lane));
+            for (std::size_t lane = 0; lane < count; ++lane)
+                packet.set(lane, direction(first + lane));
             work(*prober, packet, (1U << count) - 1, first);
         }
     });
@@ -182,15 +183,13 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
     std::vector<RayTruth> truths(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
-        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
-            std::size_t first) {
+        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             LitLanes lighting;
             prober.see(packet, lanes, seen);
             prober.light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
-                truths[first + lane] = {lighting.visibility[lane],
-                                        seen.triangle[lane],
+                truths[first + lane] = {lighting.visibility[lane], seen.triangle[lane],
                                         seen.depth[lane],
                                         std::max(seen.exactness[lane], lighting.exactness[lane]),
                                         lighting.in_cone[lane] != 0};
@@ -213,8 +212,7 @@ std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dve
     std::vector<SeenSurface> surfaces(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
-        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
-            std::size_t first) {
+        [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             prober.see(packet, lanes, seen);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
@@ -231,8 +229,7 @@ void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t ray
                    const std::function<glm::dvec3(std::size_t)>& direction,
                    const std::function<void(std::size_t, std::uint32_t)>& found) {
     for_packets(tracer.state(), rays, direction,
-                [&](Prober& prober, const Vectors& packet, std::uint32_t lanes,
-                    std::size_t first) {
+                [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
                     SeenLanes seen;
                     prober.see_triangle(packet, lanes, range, seen);
                     for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)

@@ -22,6 +22,9 @@ struct TraceStatistics {
     double build_milliseconds = 0;     ///< the hierarchy
     std::uint64_t rays = 0;            ///< eye rays and shadow rays
     std::uint64_t exact_decisions = 0; ///< signs of what is met that took exact arithmetic
+    /// How often floats left a triangle undecided: a measure of cost, which may differ a little
+    /// from one instruction set to another, and so is in no report.
+    std::uint64_t undecided = 0;
     std::uint64_t lit = 0;
     std::uint64_t shadowed = 0;
     std::uint64_t background = 0;

@@ -23,10 +23,10 @@ inline Corners corners(const Scene& scene, std::uint32_t triangle) {
 
 /// One bit for each triangle of a cluster.
 struct ClusterSides {
-    std::uint8_t front = 0;        ///< OriginView::side is -1
-    std::uint8_t back = 0;         ///< 1
+    std::uint8_t front = 0; ///< OriginView::side is -1
+    std::uint8_t back = 0;  ///< 1
     std::uint8_t double_sided = 0;
-    std::uint8_t copied = 0;       ///< others have the same corners (Places)
+    std::uint8_t copied = 0; ///< others have the same corners (Places)
 };
 
 struct OriginView {

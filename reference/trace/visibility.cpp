@@ -69,13 +69,13 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
     NearestArbiter arbiter(rays, range, seen);
     find_nearest(packet_, seen_, arbiter);
     exact_decisions_ += rays.exact_decisions;
+    undecided_ += rays.undecided;
     seen.triangle = packet_.hit;
 }
 
 /// A sign of at least zero is in the cone.
 Decision Prober::ask_cone(const glm::dvec3& direction, std::uint32_t seen) {
-    const RayPoint point{.kind = RayPoint::Kind::surface,
-                         .surface = corners(*state_->scene, seen)};
+    const RayPoint point{.kind = RayPoint::Kind::surface, .surface = corners(*state_->scene, seen)};
     const Decision decision = Predicates(filters_).within_cone(
         {state_->eye, direction, state_->light}, point, *state_->cone);
     exact_decisions_ += decision.exactness != Exactness::filtered ? 1 : 0;
@@ -88,9 +88,8 @@ void Prober::set_shadow_rays(const Vectors& directions, std::uint32_t lanes,
     clear(packet_, filters_);
     lead_to_points(*state_, directions, seen.depth, seen.depth_error, packet_);
     packet_.active = lanes;
-    for_lanes(lanes, [&](std::size_t l) {
-        packet_.skip[l] = state_->places.plane[seen.triangle[l]];
-    });
+    for_lanes(lanes,
+              [&](std::size_t l) { packet_.skip[l] = state_->places.plane[seen.triangle[l]]; });
 }
 
 void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
@@ -111,8 +110,7 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
         if ((facing & edge_on_bit) != 0) lighting.exactness[l] = Exactness::degenerate;
         const bool may_be_lit = (facing & faces_light_bit) != 0 && lighting.in_cone[l] != 0;
         const bool receives = (facing & receives_bit) != 0;
-        lighting.visibility[l] =
-            may_be_lit && !receives ? Visibility::lit : Visibility::shadowed;
+        lighting.visibility[l] = may_be_lit && !receives ? Visibility::lit : Visibility::shadowed;
         asked |= may_be_lit && receives ? 1U << l : 0U;
     });
     if (asked == 0) return;
@@ -122,6 +120,7 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
     AnyArbiter arbiter(rays, seen, lighting);
     find_any(packet_, occluding_, arbiter);
     exact_decisions_ += rays.exact_decisions;
+    undecided_ += rays.undecided;
     for_lanes(asked, [&](std::size_t l) {
         if (packet_.hit[l] == no_triangle) lighting.visibility[l] = Visibility::lit;
     });

@@ -35,8 +35,8 @@ public:
     /// depth.
     void see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen);
     /// The triangle alone, within any range.
-    void see_triangle(const Vectors& directions, std::uint32_t lanes,
-                      const SeenRange& range, SeenLanes& seen);
+    void see_triangle(const Vectors& directions, std::uint32_t lanes, const SeenRange& range,
+                      SeenLanes& seen);
 
     /// Whether the light reaches the visible points.
     void light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
@@ -59,6 +59,7 @@ public:
 
     std::uint64_t rays() const { return rays_; }
     std::uint64_t exact_decisions() const { return exact_decisions_; }
+    std::uint64_t undecided() const { return undecided_; }
 
 private:
     const Tracer::State* state_;
@@ -73,6 +74,7 @@ private:
     HitLimits limits_;
     std::uint64_t rays_ = 0;
     std::uint64_t exact_decisions_ = 0;
+    std::uint64_t undecided_ = 0;
 
     void set_shadow_rays(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen);
     Decision ask_cone(const glm::dvec3& direction, std::uint32_t seen);

@@ -1,5 +1,5 @@
-// Cutting rays to the scene's box, for sixteen lanes at once; compiled by each file that includes it
-// for each instruction set (see Highway's own -inl.h files for the guard).
+// Cutting rays to the scene's box, for sixteen lanes at once; compiled by each file that includes
+// it for each instruction set (see Highway's own -inl.h files for the guard).
 #if defined(SHADOWPROOF_WALK_LINES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SHADOWPROOF_WALK_LINES_INL
 #undef SHADOWPROOF_WALK_LINES_INL
@@ -25,7 +25,7 @@ struct WalkLine {
 };
 
 /// The farthest that lines may begin from the scene's centre for cut_lanes to divide in float: then
-/// sides of the box are misplaced by less than 2^-21 of 514, and the box is larger by 2^-10.
+/// sides of the box are misplaced by less than 2^-21 of 514.
 inline constexpr double near_scene = 512;
 
 /// As cut_to_scene, for the lanes from the i-th on. `near`: all begin within near_scene.
@@ -39,9 +39,9 @@ inline void cut_lanes(const WalkLine& line, bool near, WalkRays& rays, Lanes<dou
     const auto store = [&](Number value, Lanes<float>& to) {
         hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
     };
-    // Half the side of the box: that of all clusters which are not outlying, and more by far than a
-    // line may be off by, so that no true line meets the scene where this one misses the box.
-    constexpr double box = 1 + 0x1p-10;
+    // Half the side of the box: that of all clusters which are not outlying, and more than any line
+    // may be off by (BoxTrees), so that no true line meets the scene where this one misses the box.
+    constexpr double box = 1.5;
     Number enter = line.begin;
     Number leave = line.end;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -63,7 +63,7 @@ inline void cut_lanes(const WalkLine& line, bool near, WalkRays& rays, Lanes<dou
         const Number at = hn::Add(line.p[axis], hn::Mul(enter, w));
         const Number within = hn::Min(hn::Max(at, number(-2)), number(2));
         // Where it misses: outside all boxes but those that hold everything, and short.
-        store(hn::IfThenElse(misses, number(1.5), within), rays.start[axis]);
+        store(hn::IfThenElse(misses, number(2), within), rays.start[axis]);
         // Embree's coherent packets may lose boxes where some component is between this and 0
         // (docs/how-it-decides.md); made +0, which Embree takes for 1e-18, it is harmless.
         const auto dangerous = hn::And(hn::Lt(w, number(0)), hn::Gt(w, number(-1.0001e-18)));

@@ -3,9 +3,9 @@
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/walk_lines.cpp"
-#include <hwy/foreach_target.h> // must come before highway.h
 #include "reference/trace/walk_lines-inl.h"
 
+#include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();

@@ -16,7 +16,8 @@ struct WalkLines {
 };
 
 /// Sets the walk's rays, but for `lanes`, and the s at which each starts, rounded down. A ray that
-/// misses the scene's box by 2^-10 reaches none but the boxes that hold everything.
+/// misses the scene's box, and half as much around it, reaches none but the boxes that hold
+/// everything.
 void cut_to_scene(const WalkLines& lines, WalkRays& rays, Lanes<double>& start);
 
 } // namespace shadowproof
