@@ -20,7 +20,7 @@ struct AnyRay {
     double far = std::numeric_limits<double>::infinity();
 };
 
-/// Up to sixteen rays that go through the hierarchy together.
+/// Up to sixteen rays that are sent together.
 struct AnyRays {
     alignas(64) std::array<Lanes<double>, 3> origin{};
     alignas(64) std::array<Lanes<double>, 3> direction{};

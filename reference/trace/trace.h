@@ -11,6 +11,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ namespace shadowproof {
 
 struct TraceStatistics {
     double milliseconds = 0;           ///< tracing alone
-    double build_milliseconds = 0;     ///< the hierarchy
+    double build_milliseconds = 0;     ///< of what Embree walks
     std::uint64_t rays = 0;            ///< eye rays and shadow rays
     std::uint64_t exact_decisions = 0; ///< signs of what is met that took exact arithmetic
     /// How often floats left a triangle undecided: a measure of cost, which may differ a little
@@ -41,7 +42,7 @@ struct GroundTruth {
     TraceStatistics statistics;
 };
 
-/// A scene prepared for tracing: hierarchy, light and camera. Keeps a reference to the scene.
+/// A scene prepared for tracing: its trees, light and camera. Keeps a reference to the scene.
 class Tracer {
 public:
     /// threads 0: one per core. Coordinates must be finite. Throws Error where there are no
@@ -121,5 +122,7 @@ TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle);
 
 /// Version of the Embree library in use, "3.13.5".
 std::string embree_version();
+/// What to say of a version whose walk was not looked into; nothing of the one that was.
+std::optional<std::string> note_on_embree(const std::string& version);
 
 } // namespace shadowproof

@@ -3,10 +3,12 @@
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/walk_lines.cpp"
-#include "reference/trace/walk_lines-inl.h"
-
-#include <hwy/foreach_target.h> // must come before highway.h
+// The order matters.
+// clang-format off
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "reference/trace/walk_lines-inl.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {

@@ -25,8 +25,8 @@ SHADOWPROOF_SEND_ALL(Light, name, choice, kind, position, direction, inner_cone,
                      intensity, range)
 SHADOWPROOF_SEND_ALL(Camera, eye, right, up, forward, tan_half_height, near, far, width, height)
 SHADOWPROOF_SEND_ALL(Mesh, name, first_triangle, triangle_count, material, casts, receives)
-SHADOWPROOF_SEND_ALL(TraceStatistics, milliseconds, build_milliseconds, rays, exact_decisions, lit,
-                     shadowed, background, degenerate)
+SHADOWPROOF_SEND_ALL(TraceStatistics, milliseconds, build_milliseconds, rays, exact_decisions,
+                     undecided, lit, shadowed, background, degenerate)
 
 template <class Archive>
 void serialize(Archive& archive, GroundTruth& truth) {

@@ -154,6 +154,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
         result.notes.push_back(note);
         run.setup.console.line("  note: " + note);
     };
+    if (const std::optional<std::string> note = note_on_embree(embree_version())) add_note(*note);
     refuse_blank_truth(result.argument, result.truth);
     if (const std::optional<std::string> note = note_if_one_class_is_seen(result.truth)) {
         result.notes.push_back(*note);

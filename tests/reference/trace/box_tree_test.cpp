@@ -2,6 +2,7 @@
 // and however little of them is known.
 #include "reference/trace/box_trees.h"
 #include "reference/trace/instruction_set.h"
+#include "reference/trace/trace.h"
 #include "reference/trace/walk_lines.h"
 #include "scenes/error.h"
 #include "tests/dice.h"
@@ -17,6 +18,12 @@
 
 namespace shadowproof {
 namespace {
+
+TEST(Embree, another_version_than_the_one_that_was_looked_into_is_told) {
+    EXPECT_FALSE(note_on_embree("3.13.5"));
+    EXPECT_EQ(note_on_embree("3.13.6"),
+              "Embree 3.13.6 finds what rays may meet; that it loses nothing was shown of 3.13.5");
+}
 
 enum class Query : std::uint8_t { nearest, any, all };
 
@@ -119,8 +126,8 @@ protected:
                 w[static_cast<int>(dice_.below(3))] =
                     (dice_.one_in(2) ? 1 : -1) * dice_.between(1, 1.99);
                 // Far away, or within the box.
-                const double s = dice_.one_in(2) ? dice_.between(0, 2)
-                                                 : std::exp2(dice_.between(0, 20));
+                const double s =
+                    dice_.one_in(2) ? dice_.between(0, 2) : std::exp2(dice_.between(0, 20));
                 glm::dvec3 p;
                 for (int axis = 0; axis < 3; ++axis) {
                     const bool at_lower = dice_.one_in(2);
@@ -172,8 +179,7 @@ TEST_P(BoxTreeTest, further_aside_than_the_margin_boxes_are_lost) {
 
 TEST_P(BoxTreeTest, what_lies_very_far_out_is_reached_by_every_ray) {
     const auto first = static_cast<std::uint32_t>(scene_.positions.size());
-    scene_.positions.insert(scene_.positions.end(),
-                            {{1e12F, 0, 0}, {1e12F, 1, 0}, {1e12F, 0, 1}});
+    scene_.positions.insert(scene_.positions.end(), {{1e12F, 0, 0}, {1e12F, 1, 0}, {1e12F, 0, 1}});
     scene_.triangles.emplace_back(first, first + 1, first + 2);
     triangles_ = numbers(scene_.triangles.size());
     clusters_ = build_clusters(scene_, triangles_, triangles_, 1);
@@ -188,7 +194,9 @@ TEST_P(BoxTreeTest, what_lies_very_far_out_is_reached_by_every_ray) {
         WalkRays rays;
         rays.lanes = 1U << dice_.below(packet_size);
         for (std::size_t lane = 0; lane < packet_size; ++lane) {
-            const auto anywhere = [&] { return dice_.between(-1, 1) * std::exp2(dice_.between(0, 9)); };
+            const auto anywhere = [&] {
+                return dice_.between(-1, 1) * std::exp2(dice_.between(0, 9));
+            };
             lines.p.set(lane, {anywhere(), anywhere(), anywhere()});
             lines.w.set(lane, {component(), component(), dice_.between(1, 1.99)});
             lines.end[lane] = std::numeric_limits<double>::infinity();
