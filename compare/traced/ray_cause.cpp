@@ -16,7 +16,10 @@ public:
     void visit(AnyRays& /*rays*/, std::uint32_t triangle, std::uint32_t /*lanes*/) override {
         triangles_.push_back(triangle);
     }
-    const std::vector<std::uint32_t>& triangles() const { return triangles_; }
+    std::vector<std::uint32_t> in_order() {
+        std::ranges::sort(triangles_);
+        return std::move(triangles_);
+    }
 
 private:
     std::vector<std::uint32_t> triangles_;
@@ -28,7 +31,7 @@ std::vector<std::uint32_t> nearby(const Tracer& tracer, const AnyRay& ray,
     rays.set(0, ray);
     Collected collected;
     find_nearby(tracer, share, rays, collected);
-    return collected.triangles();
+    return collected.in_order();
 }
 
 double place_on(const AnyRay& ray, const Corners& t) {
@@ -83,7 +86,7 @@ std::vector<ExactHit> hits_of(const TracedClaim& claim, PixelPlace p, const AnyR
         if (claim.may_stop(p, triangle) && meets(ray, t))
             hits.push_back({triangle, place_on(ray, t)});
     }
-    std::ranges::sort(hits, {}, &ExactHit::t);
+    std::ranges::stable_sort(hits, {}, &ExactHit::t);
     return hits;
 }
 

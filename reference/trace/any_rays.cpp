@@ -3,7 +3,7 @@
 #include "reference/exact/norms.h"
 #include "reference/trace/lanes.h"
 #include "reference/trace/state.h"
-#include "reference/trace/walk_lines.h"
+#include "reference/walk/walk_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,8 @@ void set_line(Walked& walked, int lane, const AnyRay& ray, const WalkFrame& fram
     const glm::dvec3 p = (ray.origin - frame.center) * frame.scale;
     const glm::dvec3 d = ray.direction * frame.scale;
     const double size = largest(d);
-    const bool known = size > 0x1p-1000 && size < 0x1p1000 && largest(p) < 0x1p1000;
+    // A sum is no number where a component is none.
+    const bool known = size > 0x1p-1000 && sum_of(d) < 0x1p1000 && sum_of(p) < 0x1p1000;
     const double stretch = known ? std::exp2(std::ilogb(size)) : 1;
     double error = 0x1p-50;
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,8 +107,8 @@ struct NearbySearch {
     AnyRays& rays;
     NearbyTriangles& found;
 
-    void meet(std::uint32_t number) const {
-        const std::uint32_t lanes = lanes_near(rays, slabs, clusters.boxes[number]);
+    void meet(std::uint32_t number, std::uint32_t asked) const {
+        const std::uint32_t lanes = lanes_near(rays, slabs, clusters.boxes[number]) & asked;
         if (lanes == 0) return;
         for (const std::uint32_t first : clusters.all[number].triangles) {
             if (first == no_triangle) return;
@@ -119,7 +120,7 @@ struct NearbySearch {
 
     static void visit(void* visitor, std::uint32_t cluster, int first, int count, float* far) {
         const auto& search = *static_cast<const NearbySearch*>(visitor);
-        search.meet(cluster);
+        search.meet(cluster, ((1U << count) - 1) << first);
         for (int i = 0; i < count; ++i) {
             const auto l = static_cast<std::size_t>(first + i);
             const bool goes_on = (search.rays.lanes >> l & 1U) != 0;
@@ -153,7 +154,8 @@ void find_nearby(const Tracer& tracer, double share, AnyRays& rays, NearbyTriang
         cut_to_scene(walked.lines, walk, walked.start);
         tree->find_all(walk, NearbySearch::visit, &search);
     } else {
-        for (std::uint32_t i = 0; i < clusters.all.size() && rays.lanes != 0; ++i) search.meet(i);
+        for (std::uint32_t i = 0; i < clusters.all.size() && rays.lanes != 0; ++i)
+            search.meet(i, rays.lanes);
     }
 }
 

@@ -65,13 +65,14 @@ std::pair<float, float> inverse_depth(const PacketRays& rays, const EyeRay& ray,
     return {std::max(float_below(inverse - error), 0.0F), float_above(inverse + error)};
 }
 
-void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) {
     ++rays_.undecided;
     std::optional<Candidate> candidate = met(lane, triangle);
     if (!candidate) return;
-    const auto [lo, hi] = inverse_depth(rays_, rays_.ray(lane), rays_.triangle(triangle));
+    const auto [lo, most] = inverse_depth(rays_, rays_.ray(lane), rays_.triangle(triangle));
     const float unit = packet.unit[static_cast<std::size_t>(lane)];
-    candidate->hi = hi * unit;
+    // By the floats' own bound, too: what came later would have been left out by it.
+    candidate->hi = std::min(most * unit, hi);
     add(packet, *candidate, lo * unit);
 }
 
@@ -224,7 +225,7 @@ Between between(const PacketRays& rays, int lane, std::uint32_t seen, std::uint3
 
 } // namespace
 
-void AnyArbiter::decide(RayPacket& /*packet*/, int lane, std::uint32_t triangle) {
+void AnyArbiter::decide(RayPacket& /*packet*/, int lane, std::uint32_t triangle, float /*hi*/) {
     ++rays_.undecided;
     candidates_.push_back({lane, triangle});
     if (candidates_.size() >= many_) leave_out_what_is_beside();
@@ -270,13 +271,13 @@ void AnyArbiter::settle(RayPacket& packet) {
     }
 }
 
-void LowestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+void LowestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, float /*hi*/) {
     const auto l = static_cast<std::size_t>(lane);
     if (triangle < packet.hit[l] && between(rays_, lane, seen_.triangle[l], triangle).blocks)
         packet.hit[l] = triangle;
 }
 
-void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle) {
+void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, float /*hi*/) {
     const auto l = static_cast<std::size_t>(lane);
     const EyeRay ray = rays_.ray(lane);
     const RayPoint q = exact_point(points_[l]);

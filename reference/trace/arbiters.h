@@ -49,7 +49,7 @@ public:
     NearestArbiter(PacketRays& rays, const SeenRange& range, SeenLanes& seen)
         : rays_(rays), range_(range), seen_(seen) {}
 
-    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) override;
     void compare(RayPacket& packet, int lane, std::uint32_t triangle, float lo, float hi) override;
     void settle(RayPacket& packet) override;
 
@@ -97,7 +97,7 @@ public:
     AnyArbiter(PacketRays& rays, const SeenLanes& seen, LitLanes& lighting)
         : rays_(rays), seen_(seen), lighting_(lighting) {}
 
-    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) override;
     void settle(RayPacket& packet) override;
 
 private:
@@ -121,7 +121,7 @@ class LowestArbiter final : public Arbiter {
 public:
     LowestArbiter(PacketRays& rays, const SeenLanes& seen) : rays_(rays), seen_(seen) {}
 
-    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) override;
 
 private:
     PacketRays& rays_;
@@ -135,7 +135,7 @@ public:
     CountArbiter(PacketRays& rays, const Lanes<Prober::Point>& points, const RecordCache& records)
         : rays_(rays), points_(points), records_(records) {}
 
-    void decide(RayPacket& packet, int lane, std::uint32_t triangle) override;
+    void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) override;
 
 private:
     PacketRays& rays_;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "reference/trace/any_rays.h"
-#include "reference/trace/clusters.h"
+#include "reference/walk/clusters.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>

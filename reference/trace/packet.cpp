@@ -1,11 +1,8 @@
 #include "reference/trace/packet.h"
 
-#include "reference/exact/norms.h"
 #include "reference/trace/rays.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
@@ -69,14 +66,15 @@ Vector dot(const RayPacket& packet, int i, const std::array<PerTriangle<float>, 
 /// Comparisons with NaN are false, so whatever overflows is undecided. What is certain does not
 /// depend on what was found before.
 template <Query query>
-Answer test(const RayPacket& packet, int i, const ClusterRecord& cluster, std::size_t t) {
+Answer test(const RayPacket& packet, int i, std::uint32_t lanes, const ClusterRecord& cluster,
+            std::size_t t) {
     const Vector magnitude = load(packet.magnitude, i);
     const Vector inner =
         hn::Min(hn::Min(dot(packet, i, cluster.edge[0], t), dot(packet, i, cluster.edge[1], t)),
                 dot(packet, i, cluster.edge[2], t));
     Answer answer;
     const Mask maybe_inside =
-        hn::AndNot(hn::Lt(inner, hn::Neg(magnitude)), mask_of(packet.active, i));
+        hn::AndNot(hn::Lt(inner, hn::Neg(magnitude)), mask_of(packet.active & lanes, i));
     if (hn::AllFalse(floats, maybe_inside)) {
         answer.met = answer.undecided = maybe_inside;
         answer.lo = answer.hi = inner;
@@ -138,12 +136,14 @@ void keep(RayPacket& packet, std::uint32_t lanes, std::uint32_t triangle, std::u
     }
 }
 
+/// Of some lanes of the packet.
 template <Query query>
-void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t t, int first,
-                   int end, Arbiter& arbiter) {
+void meet_triangle(RayPacket& packet, std::uint32_t lanes, const ClusterRecord& cluster,
+                   std::size_t t, Arbiter& arbiter) {
     const std::uint32_t triangle = cluster.triangle[t];
-    for (int i = first; i < end; i += step()) {
-        const Answer answer = test<query>(packet, i, cluster, t);
+    for (int i = 0; i < packet_size; i += step()) {
+        if ((lanes >> i & ((1U << step()) - 1)) == 0) continue;
+        const Answer answer = test<query>(packet, i, lanes, cluster, t);
         if (!hn::AllFalse(floats, answer.met)) {
             if constexpr (query == Query::nearest)
                 keep_nearest(packet, i, answer, triangle, arbiter);
@@ -151,8 +151,12 @@ void meet_triangle(RayPacket& packet, const ClusterRecord& cluster, std::size_t 
                 keep<query>(packet, bits_of(answer.met, i), triangle, cluster.copies[t]);
         }
         if (hn::AllFalse(floats, answer.undecided)) continue;
-        for (std::uint32_t left = bits_of(answer.undecided, i); left != 0; left &= left - 1)
-            arbiter.decide(packet, __builtin_ctz(left), triangle);
+        alignas(64) Lanes<float> hi; // NOLINT: those that are read are set
+        hn::Store(answer.hi, floats, hi.data());
+        for (std::uint32_t left = bits_of(answer.undecided, 0); left != 0; left &= left - 1) {
+            const int lane = __builtin_ctz(left);
+            arbiter.decide(packet, i + lane, triangle, hi[static_cast<std::size_t>(lane)]);
+        }
     }
 }
 
@@ -190,13 +194,14 @@ std::uint32_t members_near(const RayPacket& packet, const ClusterRecord& cluster
     return near & cluster.members;
 }
 
-/// Whole vectors that hold the lanes from `first` on.
+constexpr std::uint32_t all_lanes = (1U << packet_size) - 1;
+
 template <Query query>
-void meet_cluster(Search& search, std::uint32_t number, int first, int count) {
+void meet_cluster(Search& search, std::uint32_t number, std::uint32_t lanes) {
     const ClusterRecord& cluster = search.records.of(number);
     for (std::uint32_t left = members_near(search.packet, cluster); left != 0; left &= left - 1)
-        meet_triangle<query>(search.packet, cluster, static_cast<std::size_t>(__builtin_ctz(left)),
-                             first - first % step(), first + count, search.arbiter);
+        meet_triangle<query>(search.packet, lanes, cluster,
+                             static_cast<std::size_t>(__builtin_ctz(left)), search.arbiter);
 }
 
 /// How far the walk must still look: where 1/s is best_lo, and a little further.
@@ -215,7 +220,7 @@ template <Query query>
 void visit(void* visitor, std::uint32_t cluster, int first, int count, float* far) {
     auto& search = *static_cast<Search*>(visitor);
     [[maybe_unused]] const std::uint32_t before = search.packet.active;
-    meet_cluster<query>(search, cluster, first, count);
+    meet_cluster<query>(search, cluster, ((1U << count) - 1) << first);
     if constexpr (query == Query::nearest) {
         if (search.packet.best_raised) lower_limits(search, first, count, far);
         search.packet.best_raised = false;
@@ -238,7 +243,7 @@ void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
         if (const BoxTree* tree = trees.with_room(packet.room)) {
             if constexpr (query == Query::any) {
                 // A shadow needs one witness, and a neighbour's often is one.
-                meet_cluster<query>(search, records.last_met(), 0, packet_size);
+                meet_cluster<query>(search, records.last_met(), all_lanes);
                 packet.walk.lanes = packet.active;
             }
             if constexpr (query == Query::any)
@@ -250,7 +255,7 @@ void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
         } else {
             const std::size_t count = trees.clusters().all.size();
             for (std::size_t i = 0; i < count && packet.active != 0; ++i)
-                meet_cluster<query>(search, static_cast<std::uint32_t>(i), 0, packet_size);
+                meet_cluster<query>(search, static_cast<std::uint32_t>(i), all_lanes);
         }
     }
     arbiter.settle(packet);

@@ -32,7 +32,7 @@ struct HitLimits {
 /// Rays are O + s w, O the view's origin, with coordinates scaled as in the view. A hit must have
 /// 1/s above `lower` and below `upper`, each known to lie in an interval [lo, hi]. Parallel rays
 /// run up at (u, v): w = (u, v, 1), and heights take the place of 1/s. What is computed from the
-/// inputs of set_lane, and its bounds, are explained in packet.cpp.
+/// inputs of set_lane, and its bounds, are explained in rays.cpp.
 struct RayPacket {
     // As given.
     Vectors direction;
@@ -81,9 +81,10 @@ public:
     Arbiter(const Arbiter&) = delete;
     Arbiter& operator=(const Arbiter&) = delete;
     virtual ~Arbiter() = default;
-    /// Whether the lane's ray meets the triangle within its limits is not known. May raise best_lo,
-    /// count in `crossed`, or end the lane's search.
-    virtual void decide(RayPacket& packet, int lane, std::uint32_t triangle) = 0;
+    /// Whether the lane's ray meets the triangle within its limits is not known; if it does, 1/s is
+    /// at most `hi`, which may be no number. May raise best_lo, count in `crossed`, or end the
+    /// lane's search.
+    virtual void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) = 0;
     /// Nearest: the triangle is met, with 1/s in [lo, hi], as may be the hit.
     virtual void compare(RayPacket& /*packet*/, int /*lane*/, std::uint32_t /*triangle*/,
                          float /*lo*/, float /*hi*/) {}

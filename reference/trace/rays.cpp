@@ -14,7 +14,7 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "reference/trace/walk_lines-inl.h"
+#include "reference/walk/walk_lines-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -101,16 +101,16 @@ void store_direction(const Direction& of, RayPacket& packet, std::size_t i) {
     store(of.w, packet.w, i);
     store(of.unit, packet.unit, i);
     const Mask trusted = hn::Le(of.error, number(packet.trusted_error));
-    // Rounded to float, and a little up: the bounds of records.cpp hold the rounding.
     store(hn::IfThenElse(trusted, largest(of.w), number(infinity)), packet.magnitude, i);
     for (Lanes<float>* limit :
          {&packet.lower_lo, &packet.lower_hi, &packet.upper_lo, &packet.upper_hi})
         store(hn::Mul(load(*limit, i), of.unit), *limit, i);
 }
 
-/// Of the lanes that are active.
+/// Of the lanes that are active; infinite where it is no number.
 Number of_active(const RayPacket& packet, std::size_t i, Number room) {
-    return hn::IfThenElseZero(mask_of(packet.active, i), room);
+    const Number known = hn::IfThenElse(hn::Lt(room, number(infinity)), room, number(infinity));
+    return hn::IfThenElseZero(mask_of(packet.active, i), known);
 }
 
 // From the view's origin O. O in the walk's frame is rounded twice and known to 2^-51 |O|; at s,
@@ -132,7 +132,11 @@ void prepare_from_origin(RayPacket& packet, const OriginView& view) {
             return hn::Mul(ratio, hn::PromoteTo(doubles, quotient));
         };
         const Number begin = hn::Mul(inverse(packet.upper_hi), number(1 - 0x1p-20));
-        const Number end = hn::Mul(inverse(packet.lower_lo), number(1 + 0x1p-20));
+        // A limit of 0, or below by rounding, is none.
+        const Number lower = load(packet.lower_lo, i);
+        const Number end = hn::IfThenElse(hn::Gt(lower, number(0)),
+                                          hn::Mul(inverse(packet.lower_lo), number(1 + 0x1p-20)),
+                                          number(infinity));
         cut_lanes({{number(origin.x), number(origin.y), number(origin.z)},
                    {of.w.x, of.w.y, of.w.z},
                    begin,

@@ -1,6 +1,6 @@
 #include "reference/trace/records.h"
 
-#include "scenes/driver.h"
+#include "scenes/roundoff.h"
 
 #include <limits>
 
@@ -95,7 +95,7 @@ void store(const Vector& value, std::array<PerTriangle<float>, 3>& to, std::size
 
 // The bound of a float dot product w . N, N known in double to within e per component.
 //   w: its float differs from the true direction by v |w_i| of rounding, and by at most v |w| / 2
-//      of error in the surface point it leads to (otherwise prepare(), packet.cpp, makes |w|
+//      of error in the surface point it leads to (otherwise prepare(), rays.cpp, makes |w|
 //      infinite);
 //   N: its float by v |N_i| + e;
 //   the products and two sums: 3 roundings.

@@ -2,7 +2,7 @@
 // their errors.
 #pragma once
 
-#include "reference/trace/box_tree.h"
+#include "reference/walk/box_tree.h"
 #include "scenes/scene.h"
 
 #include <cstdint>

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "reference/exact/predicates.h"
-#include "reference/trace/box_trees.h"
 #include "reference/trace/places.h"
 #include "reference/trace/shells.h"
 #include "reference/trace/trace.h"
 #include "reference/trace/view.h"
+#include "reference/walk/box_trees.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,11 @@
 #include "reference/trace/trace.h"
 
-#include "reference/trace/instruction_set.h"
 #include "reference/trace/tiles.h"
+#include "reference/walk/embree_device.h"
+#include "reference/walk/instruction_set.h"
 #include "scenes/error.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -239,6 +242,27 @@ void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t ray
 
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
     return trace_rays(tracer, std::span(&direction, 1)).front();
+}
+
+namespace {
+/// The version whose walk the bound in box_tree.cpp was read off.
+constexpr const char* proven_embree = "3.13.5";
+} // namespace
+
+std::string embree_version() {
+    const EmbreeDevice device(rtcNewDevice(nullptr));
+    const auto part = [&](RTCDeviceProperty property) {
+        return static_cast<long>(rtcGetDeviceProperty(device.get(), property));
+    };
+    return fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                       part(RTC_DEVICE_PROPERTY_VERSION_MINOR),
+                       part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+}
+
+std::optional<std::string> note_on_embree(const std::string& version) {
+    if (version == proven_embree) return std::nullopt;
+    return fmt::format("Embree {} finds what rays may meet; that it loses nothing was shown of {}",
+                       version, proven_embree);
 }
 
 TriangleSides sides_of(const Tracer& tracer, std::uint32_t triangle) {

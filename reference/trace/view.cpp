@@ -2,7 +2,7 @@
 
 #include "reference/exact/norms.h"
 #include "reference/parallel.h"
-#include "reference/trace/reach.h"
+#include "reference/walk/reach.h"
 #include "scenes/roundoff.h"
 
 #include <algorithm>

@@ -1,14 +1,14 @@
 // The scene as seen from one point, the common origin of all rays of a query: the eye, or the light
 // (shadow rays run from the light to the surface). Relative to its origin, the distance at which a
-// ray meets a box or a plane is a single product, so rounding errors stay relative and bounds
-// tight. The rays of a directional light have a common direction instead, and the scene is sheared;
-// the same is done where a light is so far away that the scene would look tiny from there.
+// ray meets a plane is a single product, so rounding errors stay relative. The rays of a
+// directional light have a common direction instead, and the scene is sheared; the same is done
+// where a light is so far away that the scene would look tiny from there.
 #pragma once
 
 #include "reference/exact/predicates.h"
-#include "reference/trace/box_trees.h"
 #include "reference/trace/places.h"
 #include "reference/trace/shear.h"
+#include "reference/walk/box_trees.h"
 #include "scenes/scene.h"
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include "reference/trace/light_rays.h"
 #include "reference/trace/plane_edges.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -56,7 +57,8 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
     if (range != range_) {
         range_ = range;
         const double scale = state_->from_eye.scale;
-        limits_.lower_lo = std::isinf(range.far) ? 0 : float_below(1 / (range.far * scale));
+        limits_.lower_lo =
+            std::isinf(range.far) ? 0 : std::max(0.0F, float_below(1 / (range.far * scale)));
         limits_.lower_hi = std::isinf(range.far) ? 0 : float_above(1 / (range.far * scale));
         limits_.upper_lo = float_below(1 / (range.near * scale));
         limits_.upper_hi = float_above(1 / (range.near * scale));

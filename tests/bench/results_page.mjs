@@ -191,7 +191,7 @@ ${gains}
 ## What the truth costs
 
 The truth's time is that of all eye and shadow rays, with their exact decisions; without filters each
-decision is one of exact arithmetic. Its hierarchy is there
+decision is one of exact arithmetic. Its tree of boxes is there
 already. That of \`zfail_reversed\` includes making the volumes.
 
 ${truths}

@@ -328,6 +328,11 @@ std::vector<HardScene> hard_scenes() {
     scenes.push_back({"soup_1e6_away", [] { return soup(7, 1, {1e6F, -1e6F, 1e6F}); }});
     scenes.push_back({"soup_scaled_by_1e-30", [] { return soup(8, 1e-30F, {0, 0, 0}); }});
     scenes.push_back({"soup_scaled_by_1e25", [] { return soup(9, 1e25F, {0, 0, 0}); }});
+    scenes.push_back({"far_plane_whose_inverse_is_no_float", [] {
+                          Scene scene = soup(5, 1e-7F, {0, 0, 0});
+                          scene.camera.far = 3e38;
+                          return scene;
+                      }});
     scenes.push_back({"rays_through_vertices_and_edges", vertices_on_rays});
     scenes.push_back({"ordinary_light", [] { return boxes({2.1, 3.3, -1.7}); }});
     scenes.push_back({"light_in_plane_of_a_face", [] { return boxes({3.5, 0, -1}); }});

@@ -1,8 +1,8 @@
 // Rays from anywhere: geometry whose answer is known by hand, and candidates against all triangles.
 #include "reference/trace/any_rays.h"
-#include "reference/trace/instruction_set.h"
 #include "reference/trace/lanes.h"
 #include "reference/trace/view.h"
+#include "reference/walk/instruction_set.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
 #include "tests/dice.h"

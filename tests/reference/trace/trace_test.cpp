@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -41,6 +42,36 @@ TEST(FarLight, leaves_no_more_undecided_than_one_near_by) {
         scene.lights[0].position = factor * place;
         const TraceStatistics statistics = trace(Tracer(scene)).statistics;
         EXPECT_LT(statistics.undecided, statistics.rays / 50) << factor;
+    }
+}
+
+/// A needle whose normal doubles take for 0, and so no depth is known where a ray meets it.
+TEST(Needle, whose_depth_no_double_knows_is_shadowed_by_what_stands_between) {
+    Scene scene = empty_scene(4);
+    const glm::vec3 tip(std::ldexp(1.0F, -35) - std::ldexp(1.0F, -24), std::ldexp(1.0F, -35), -1);
+    add_triangle(scene, tip, {1, 1, -1}, {-1 - std::ldexp(1.0F, -23), -1, -1});
+    for (int i = -10; i < 10; ++i)
+        for (int j = -10; j < 10; ++j) {
+            const glm::vec3 at(0.5F * static_cast<float>(i), 0.5F * static_cast<float>(j), 0.5F);
+            add_triangle(scene, at, at + glm::vec3(0.5F, 0, 0), at + glm::vec3(0, 0.5F, 0));
+            add_triangle(scene, at + glm::vec3(0, 0.5F, 0), at + glm::vec3(0.5F, 0, 0),
+                         at + glm::vec3(0.5F, 0.5F, 0));
+        }
+    finish(scene, true);
+    scene.camera.near = 0.01;
+    const glm::dvec3 direction(tip);
+    for (const Light::Kind kind : {Light::Kind::directional, Light::Kind::point}) {
+        scene.lights[0].kind = kind;
+        scene.lights[0].direction = {-0.1, -0.05, -1};
+        scene.lights[0].position = {0.1, 0.05, 10};
+        const Tracer tracer(scene);
+        const witness::Answer expected = witness::Witness(scene).look(direction);
+        EXPECT_EQ(expected.visibility, Visibility::shadowed);
+        const RayTruth truth = trace_ray(tracer, direction);
+        EXPECT_EQ(truth.triangle, 0U);
+        EXPECT_EQ(truth.visibility, expected.visibility);
+        EXPECT_TRUE(stands_between(tracer, {scene.camera.eye, direction}, 0,
+                                   occluder_of(tracer, direction)));
     }
 }
 

@@ -1,4 +1,4 @@
-#include "reference/trace/reach.h"
+#include "reference/walk/reach.h"
 
 #include <algorithm>
 #include <array>

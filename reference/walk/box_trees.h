@@ -2,7 +2,7 @@
 // rays are known well enough for the first.
 #pragma once
 
-#include "reference/trace/box_tree.h"
+#include "reference/walk/box_tree.h"
 
 #include <array>
 #include <memory>

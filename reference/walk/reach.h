@@ -2,7 +2,7 @@
 // what coordinates are scaled by.
 #pragma once
 
-#include "reference/trace/clusters.h"
+#include "reference/walk/clusters.h"
 
 #include <glm/vec3.hpp>
 

@@ -3,8 +3,8 @@
 // by more than its rounding can take. What is in a box is decided by whoever is called back.
 #pragma once
 
-#include "reference/trace/clusters.h"
-#include "reference/trace/embree_device.h"
+#include "reference/walk/clusters.h"
+#include "reference/walk/embree_device.h"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Rays reach every cluster that they meet, with each instruction set, however far away they begin
 // and however little of them is known.
-#include "reference/trace/box_trees.h"
-#include "reference/trace/instruction_set.h"
 #include "reference/trace/trace.h"
-#include "reference/trace/walk_lines.h"
+#include "reference/walk/box_trees.h"
+#include "reference/walk/instruction_set.h"
+#include "reference/walk/walk_lines.h"
 #include "scenes/error.h"
 #include "tests/dice.h"
 
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -208,6 +209,30 @@ TEST_P(BoxTreeTest, what_lies_very_far_out_is_reached_by_every_ray) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rays.lanes));
         EXPECT_NE(std::ranges::find(visits.of_lane[lane], outlying), visits.of_lane[lane].end());
     }
+}
+
+TEST_P(BoxTreeTest, what_a_visit_throws_is_thrown_on) {
+    const BoxTrees trees(clusters_, 1);
+    WalkLines lines;
+    WalkRays rays;
+    rays.lanes = 0xffff;
+    for (std::size_t lane = 0; lane < packet_size; ++lane) {
+        lines.p.set(lane, in_frame(trees.frame(), scene_.positions[0]) - glm::dvec3(3, 0, 0));
+        lines.w.set(lane, {1, 0, 0});
+        lines.end[lane] = 10;
+    }
+    Lanes<double> start{};
+    cut_to_scene(lines, rays, start);
+    int visits = 0;
+    const VisitCluster out_of_memory = [](void* count, std::uint32_t, int, int, float*) {
+        ++*static_cast<int*>(count);
+        throw std::bad_alloc();
+    };
+    const BoxTree& tree = *trees.with_room(0);
+    EXPECT_THROW(tree.find_nearest(rays, out_of_memory, &visits), std::bad_alloc);
+    EXPECT_THROW(tree.find_any(rays, out_of_memory, &visits), std::bad_alloc);
+    EXPECT_THROW(tree.find_all(rays, out_of_memory, &visits), std::bad_alloc);
+    EXPECT_EQ(visits, 3);
 }
 
 std::vector<Sent> all_ways() {

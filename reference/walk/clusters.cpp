@@ -1,6 +1,6 @@
-#include "reference/trace/clusters.h"
+#include "reference/walk/clusters.h"
 
-#include "reference/trace/embree_device.h"
+#include "reference/walk/embree_device.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>

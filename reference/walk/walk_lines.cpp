@@ -1,13 +1,13 @@
-#include "reference/trace/walk_lines.h"
+#include "reference/walk/walk_lines.h"
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reference/trace/walk_lines.cpp"
+#define HWY_TARGET_INCLUDE "reference/walk/walk_lines.cpp"
 // The order matters.
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "reference/trace/walk_lines-inl.h"
+#include "reference/walk/walk_lines-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

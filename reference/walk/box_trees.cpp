@@ -1,6 +1,6 @@
-#include "reference/trace/box_trees.h"
+#include "reference/walk/box_trees.h"
 
-#include "reference/trace/reach.h"
+#include "reference/walk/reach.h"
 
 #include <cmath>
 

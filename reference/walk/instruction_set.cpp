@@ -1,4 +1,4 @@
-#include "reference/trace/instruction_set.h"
+#include "reference/walk/instruction_set.h"
 
 #include "scenes/error.h"
 

@@ -3,7 +3,7 @@
 // their precision.
 #pragma once
 
-#include "reference/trace/box_tree.h"
+#include "reference/walk/box_tree.h"
 
 namespace shadowproof {
 
@@ -15,7 +15,7 @@ struct WalkLines {
     alignas(64) Lanes<double> end{};
 };
 
-/// Sets the walk's rays, but for `lanes`, and the s at which each starts, rounded down. A ray that
+/// Sets the walk's rays, but for `lanes`, and the s at which each starts. A ray that
 /// misses the scene's box, and half as much around it, reaches none but the boxes that hold
 /// everything.
 void cut_to_scene(const WalkLines& lines, WalkRays& rays, Lanes<double>& start);

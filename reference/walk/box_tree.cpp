@@ -1,4 +1,4 @@
-#include "reference/trace/box_tree.h"
+#include "reference/walk/box_tree.h"
 
 #include "scenes/error.h"
 #include "scenes/roundoff.h"
@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace shadowproof {
@@ -25,6 +26,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 //     holds the rest.
 // Rounding o to float moves a ray by u |o| <= 2 u, rounding d by s u |d| <= 4 u. In all 40 u.
 constexpr double walk_error = 40 * float_roundoff;
+// BoxTrees leaves half of a margin to it.
+static_assert(walk_error <= 0.5 * BoxTree::smallest_margin);
 
 /// Boxes that every ray meets: rays start within [-2, 2].
 constexpr float everywhere = 8;
@@ -54,14 +57,21 @@ struct Walk {
     RTCIntersectContext context{}; ///< first, so that callbacks find the rest
     VisitCluster visit = nullptr;
     void* visitor = nullptr;
-    int first = 0; ///< the packet's first lane
+    int first = 0;               ///< the packet's first lane
+    std::exception_ptr thrown{}; ///< by a visit: Embree would take it for its own
 };
 
 template <class Arguments, class Rays>
 void call_back(const Arguments* at, Rays* rays) {
     auto& walk = *reinterpret_cast<Walk*>(at->context); // NOLINT: is its first member
-    walk.visit(walk.visitor, at->primID, walk.first, static_cast<int>(at->N),
-               &RTCRayN_tfar(rays, at->N, 0));
+    float* const far = &RTCRayN_tfar(rays, at->N, 0);
+    try {
+        if (!walk.thrown)
+            walk.visit(walk.visitor, at->primID, walk.first, static_cast<int>(at->N), far);
+    } catch (...) {
+        walk.thrown = std::current_exception();
+    }
+    if (walk.thrown) std::fill_n(far, at->N, 0.0F); // nothing further is looked for
 }
 
 /// What bounds are asked for of.
@@ -152,6 +162,7 @@ void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) cons
             send(static_cast<const RTCRayHit16*>(nullptr), rtcIntersect16, rtcOccluded16);
         if (width_ == 8) send(static_cast<const RTCRayHit8*>(nullptr), rtcIntersect8, rtcOccluded8);
         if (width_ == 4) send(static_cast<const RTCRayHit4*>(nullptr), rtcIntersect4, rtcOccluded4);
+        if (walk.thrown) std::rethrow_exception(walk.thrown);
     }
 }
 

@@ -1,13 +1,13 @@
 // Cutting rays to the scene's box, for sixteen lanes at once; compiled by each file that includes
 // it for each instruction set (see Highway's own -inl.h files for the guard).
-#if defined(SHADOWPROOF_WALK_LINES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef SHADOWPROOF_WALK_LINES_INL
-#undef SHADOWPROOF_WALK_LINES_INL
+#if defined(SHADOWPROOF_REFERENCE_WALK_LINES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SHADOWPROOF_REFERENCE_WALK_LINES_INL
+#undef SHADOWPROOF_REFERENCE_WALK_LINES_INL
 #else
-#define SHADOWPROOF_WALK_LINES_INL
+#define SHADOWPROOF_REFERENCE_WALK_LINES_INL
 #endif
 
-#include "reference/trace/walk_lines.h"
+#include "reference/walk/walk_lines.h"
 
 #include <hwy/highway.h>
 
@@ -71,7 +71,7 @@ inline void cut_lanes(const WalkLine& line, bool near, WalkRays& rays, Lanes<dou
     }
     const Number length = hn::IfThenElse(misses, number(0), hn::Sub(leave, enter));
     store(hn::Add(hn::Mul(length, number(1 + 0x1p-20)), number(0x1p-20)), rays.far);
-    hn::Store(hn::IfThenElse(misses, line.begin, enter), doubles, start.data() + i);
+    hn::StoreU(hn::IfThenElse(misses, line.begin, enter), doubles, start.data() + i);
 }
 
 } // namespace shadowproof::HWY_NAMESPACE
