@@ -54,7 +54,8 @@ TEST(Determinism, of_slivers_before_a_wall_every_instruction_set_records_the_sam
         const auto gap = static_cast<float>(std::exp2(dice.between(-17, -13)));
         Scene scene = empty_scene(5);
         add_triangle(scene, {32, 0, -65 - gap}, {0, 0, -1 - gap}, {-0.25F, width, -0.5F - gap});
-        const auto slope = [&] { return static_cast<float>(dice.between(-0.75, 0.75)); };
+        // In sixteenths, so that the wall lies at -1 on the axis exactly.
+        const auto slope = [&] { return static_cast<float>(dice.below(25)) / 16 - 0.75F; };
         const float along_x = slope();
         const float along_y = slope();
         const auto wall = [&](float x, float y) {
@@ -62,8 +63,9 @@ TEST(Determinism, of_slivers_before_a_wall_every_instruction_set_records_the_sam
         };
         add_triangle(scene, wall(-1, -1), wall(1, -1), wall(0, 1));
         for (int i = 0; i < 60; ++i) {
-            const auto aside = [&] { return static_cast<float>(dice.between(0.3, 2)); };
-            const glm::vec3 at(dice.one_in(2) ? aside() : -aside(), aside(), -2 * aside());
+            const auto side = [&] { return static_cast<float>(dice.between(-2, 2)); };
+            const glm::vec3 at(side(), side(), static_cast<float>(dice.between(-4, -0.3)));
+            if (std::abs(at.x) < 0.3F && std::abs(at.y) < 0.3F) continue;
             add_triangle(scene, at, at + glm::vec3(0.05F, 0, 0.02F),
                          at + glm::vec3(0, 0.05F, -0.02F));
         }
