@@ -204,14 +204,15 @@ bool NearestArbiter::within_planes(const EyeRay& ray, const Corners& t, Signs& s
 
 namespace {
 
-Between between(const PacketRays& rays, int lane, std::uint32_t seen, std::uint32_t triangle) {
+Occlusion occlusion_by(const PacketRays& rays, int lane, std::uint32_t seen,
+                       std::uint32_t triangle) {
     const EyeRay ray = rays.ray(lane);
     const RayPoint q{.kind = RayPoint::Kind::surface, .surface = rays.triangle(seen)};
     const Predicates& predicates = rays.predicates;
     const Corners t = rays.triangle(triangle);
     const int orientation = rays.state->from_light.side[triangle];
     Signs signs;
-    Between found;
+    Occlusion found;
     const Decision beyond = predicates.side_of_point(ray, q, t);
     found.touched = signs.at_least_zero(beyond, orientation) &&
                     signs.at_least_zero(predicates.shadow_edge(ray, q, t.a, t.b), orientation) &&
@@ -237,13 +238,13 @@ void AnyArbiter::leave_out_what_is_beside() {
     for (Candidate& candidate : candidates_) {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if (candidate.triangle > blocking[l]) continue;
-        if (!candidate.between)
-            candidate.between =
-                between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
-        if (candidate.between->blocks) blocking[l] = candidate.triangle;
+        if (!candidate.occlusion)
+            candidate.occlusion =
+                occlusion_by(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
+        if (candidate.occlusion->blocks) blocking[l] = candidate.triangle;
     }
     std::erase_if(candidates_, [&](const Candidate& c) {
-        return c.triangle > blocking[static_cast<std::size_t>(c.lane)] || !c.between->touched;
+        return c.triangle > blocking[static_cast<std::size_t>(c.lane)] || !c.occlusion->touched;
     });
     many_ = std::max(many_, 2 * candidates_.size());
 }
@@ -259,13 +260,13 @@ void AnyArbiter::settle(RayPacket& packet) {
     for (Candidate& candidate : candidates_) {
         const auto l = static_cast<std::size_t>(candidate.lane);
         if ((packet.active >> l & 1U) == 0) continue;
-        if (!candidate.between)
-            candidate.between =
-                between(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
-        if (!candidate.between->touched) continue;
-        rays_.exact_decisions += candidate.between->exact_decisions;
-        lighting_.exactness[l] = std::max(lighting_.exactness[l], candidate.between->exactness);
-        if (!candidate.between->blocks) continue;
+        if (!candidate.occlusion)
+            candidate.occlusion =
+                occlusion_by(rays_, candidate.lane, seen_.triangle[l], candidate.triangle);
+        if (!candidate.occlusion->touched) continue;
+        rays_.exact_decisions += candidate.occlusion->exact_decisions;
+        lighting_.exactness[l] = std::max(lighting_.exactness[l], candidate.occlusion->exactness);
+        if (!candidate.occlusion->blocks) continue;
         packet.hit[l] = candidate.triangle;
         packet.active &= ~(1U << l);
     }
@@ -273,7 +274,7 @@ void AnyArbiter::settle(RayPacket& packet) {
 
 void LowestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, float /*hi*/) {
     const auto l = static_cast<std::size_t>(lane);
-    if (triangle < packet.hit[l] && between(rays_, lane, seen_.triangle[l], triangle).blocks)
+    if (triangle < packet.hit[l] && occlusion_by(rays_, lane, seen_.triangle[l], triangle).blocks)
         packet.hit[l] = triangle;
 }
 

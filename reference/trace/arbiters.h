@@ -34,7 +34,7 @@ struct PacketRays {
 };
 
 /// Whether a triangle lies between a visible point and the light, exactly.
-struct Between {
+struct Occlusion {
     bool touched = false; ///< no sign was strictly against it
     bool blocks = false;
     Exactness exactness = Exactness::filtered;
@@ -104,7 +104,7 @@ private:
     struct Candidate {
         int lane = 0;
         std::uint32_t triangle = no_triangle;
-        std::optional<Between> between{}; ///< once decided
+        std::optional<Occlusion> occlusion{}; ///< once decided
     };
 
     PacketRays& rays_;
