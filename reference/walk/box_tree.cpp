@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -81,6 +82,22 @@ struct BoxesToBuild {
     float margin = 0;
 };
 
+/// Whether rays are as walk_error has them; Embree aborts on some that are not, and loses boxes of
+/// others.
+[[maybe_unused]] bool are_walkable(const WalkRays& rays) {
+    for (std::uint32_t left = rays.lanes; left != 0; left &= left - 1) {
+        const auto l = static_cast<std::size_t>(__builtin_ctz(left));
+        float size = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float d = rays.way[axis][l];
+            size = std::max(size, std::abs(d));
+            if (!(std::abs(rays.start[axis][l]) <= 2) || (d < 0 && d > -1e-18F)) return false;
+        }
+        if (!(size >= 1 && size <= 2) || !(rays.far[l] > 0)) return false;
+    }
+    return true;
+}
+
 int native_width(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
@@ -126,6 +143,7 @@ double BoxTree::room() const {
 // be reported each time.
 template <BoxTree::Query query>
 void BoxTree::walk(const WalkRays& rays, VisitCluster visit, void* visitor) const {
+    assert(are_walkable(rays));
     Walk walk;
     rtcInitIntersectContext(&walk.context);
     walk.context.flags = query == Query::all ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
