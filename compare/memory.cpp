@@ -13,7 +13,8 @@ std::uint64_t pixels_of(int width, int height) {
     return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
 }
 
-/// Bytes per triangle: the tracer's clusters, trees and planes, and what lighting stores for its corners.
+/// Bytes per triangle: the tracer's clusters, trees and planes, and what lighting stores for its
+/// corners.
 std::uint64_t triangle_bytes(Workload work, bool lit) {
     if (work != Workload::comparison) return lit ? 400 : 150;
     return lit ? 500 : 200;
