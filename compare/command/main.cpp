@@ -9,8 +9,8 @@
 #include "compare/command/process/standard_output.h"
 #include "compare/command/wrapped.h"
 #include "raster/gl/context.h"
-#include "reference/walk/instruction_set.h"
 #include "reference/trace/trace.h"
+#include "reference/walk/instruction_set.h"
 #include "scenes/error.h"
 #include "scenes/load/common/nearest_name.h"
 
