@@ -10,35 +10,19 @@
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/light_rays.cpp"
-#include <hwy/foreach_target.h> // must come before highway.h
+// The order matters.
+// clang-format off
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "reference/walk/double_lanes-inl.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, packet_size>;
-using Floats = hn::Rebind<float, Doubles>;
-using Number = hn::Vec<Doubles>;
-
-constexpr Doubles doubles;
-constexpr Floats floats;
 constexpr double u = double_roundoff;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Number number(double x) {
-    return hn::Set(doubles, x);
-}
-Number load(const Lanes<double>& values, std::size_t i) {
-    return hn::LoadU(doubles, values.data() + i);
-}
-void store(Number value, Lanes<double>& to, std::size_t i) {
-    hn::Store(value, doubles, to.data() + i);
-}
-void store(Number value, Lanes<float>& to, std::size_t i) {
-    hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
-}
 
 struct Vector {
     std::array<Number, 3> axis;

@@ -21,21 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, packet_size>;
-using Floats = hn::Rebind<float, Doubles>;
 using Bits = hn::RebindToUnsigned<Doubles>;
-using Number = hn::Vec<Doubles>;
 using Mask = hn::Mask<Doubles>;
 
-constexpr Doubles doubles;
-constexpr Floats floats;
 constexpr Bits bits;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Number number(double x) {
-    return hn::Set(doubles, x);
-}
 
 struct Vector {
     Number x, y, z;
@@ -43,19 +33,10 @@ struct Vector {
 Number largest(const Vector& p) {
     return hn::Max(hn::Max(hn::Abs(p.x), hn::Abs(p.y)), hn::Abs(p.z));
 }
-Number load(const Lanes<double>& values, std::size_t i) {
-    return hn::Load(doubles, values.data() + i);
-}
-Vector load(const Vectors& vectors, std::size_t i) {
+Vector load_vector(const Vectors& vectors, std::size_t i) {
     return {load(vectors.axis[0], i), load(vectors.axis[1], i), load(vectors.axis[2], i)};
 }
-Number load(const Lanes<float>& values, std::size_t i) {
-    return hn::PromoteTo(doubles, hn::Load(floats, values.data() + i));
-}
-void store(Number value, Lanes<float>& to, std::size_t i) {
-    hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
-}
-void store(const Vector& value, std::array<Lanes<float>, 3>& to, std::size_t i) {
+void store_vector(const Vector& value, std::array<Lanes<float>, 3>& to, std::size_t i) {
     store(value.x, to[0], i);
     store(value.y, to[1], i);
     store(value.z, to[2], i);
@@ -80,7 +61,7 @@ struct Direction {
 };
 
 Direction normalised(const RayPacket& packet, std::size_t i) {
-    const Vector given = load(packet.direction, i);
+    const Vector given = load_vector(packet.direction, i);
     const Number error = load(packet.direction_error, i);
     const Number size = largest(given);
     // Beyond 2^+-100 the limits, which are scaled alike, would leave the range of floats.
@@ -98,7 +79,7 @@ Direction normalised(const RayPacket& packet, std::size_t i) {
 
 /// What the tests of triangles read.
 void store_direction(const Direction& of, RayPacket& packet, std::size_t i) {
-    store(of.w, packet.w, i);
+    store_vector(of.w, packet.w, i);
     store(of.unit, packet.unit, i);
     const Mask trusted = hn::Le(of.error, number(packet.trusted_error));
     store(hn::IfThenElse(trusted, largest(of.w), number(infinity)), packet.magnitude, i);

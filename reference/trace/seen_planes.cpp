@@ -12,26 +12,18 @@
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/trace/seen_planes.cpp"
-#include <hwy/foreach_target.h> // must come before highway.h
+// The order matters.
+// clang-format off
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+#include "reference/walk/double_lanes-inl.h"
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::CappedTag<double, packet_size>;
-using Number = hn::Vec<Doubles>;
-
-constexpr Doubles doubles;
 constexpr double u = double_roundoff;
-
-Number number(double x) {
-    return hn::Set(doubles, x);
-}
-Number load(const Lanes<double>& values, std::size_t i) {
-    return hn::Load(doubles, values.data() + i);
-}
 
 /// t = numerator / denominator with running bounds; the bounds of both as in view.cpp.
 void measure(const Vectors& directions, PlaneLanes& planes) {
@@ -56,8 +48,8 @@ void measure(const Vectors& directions, PlaneLanes& planes) {
         const Number error = hn::IfThenElse(hn::Lt(relative, number(0.125)),
                                             hn::Mul(hn::Abs(depth), hn::Mul(number(2), relative)),
                                             number(std::numeric_limits<double>::infinity()));
-        hn::Store(depth, doubles, planes.depth.data() + i);
-        hn::Store(error, doubles, planes.depth_error.data() + i);
+        store(depth, planes.depth, i);
+        store(error, planes.depth_error, i);
     }
 }
 

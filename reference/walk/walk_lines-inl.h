@@ -7,6 +7,7 @@
 #define SHADOWPROOF_REFERENCE_WALK_LINES_INL
 #endif
 
+#include "reference/walk/double_lanes-inl.h"
 #include "reference/walk/walk_lines.h"
 
 #include <hwy/highway.h>
@@ -16,8 +17,6 @@ namespace shadowproof::HWY_NAMESPACE {
 
 /// Rays of some lanes: p + s w, for s from begin to end.
 struct WalkLine {
-    using Doubles = hwy::HWY_NAMESPACE::CappedTag<double, packet_size>;
-    using Number = hwy::HWY_NAMESPACE::Vec<Doubles>;
     Number p[3]; // NOLINT: vectors may not lie in std::array
     Number w[3]; // NOLINT
     Number begin;
@@ -31,14 +30,6 @@ inline constexpr double near_scene = 512;
 /// As cut_to_scene, for the lanes from the i-th on. `near`: all begin within near_scene.
 inline void cut_lanes(const WalkLine& line, bool near, WalkRays& rays, Lanes<double>& start,
                       std::size_t i) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    using Number = WalkLine::Number;
-    const WalkLine::Doubles doubles;
-    const hn::Rebind<float, WalkLine::Doubles> floats;
-    const auto number = [&](double x) { return hn::Set(doubles, x); };
-    const auto store = [&](Number value, Lanes<float>& to) {
-        hn::Store(hn::DemoteTo(floats, value), floats, to.data() + i);
-    };
     // Half the side of the box: that of all clusters which are not outlying, and more than any line
     // may be off by (BoxTrees), so that no true line meets the scene where this one misses the box.
     constexpr double box = 1.5;
@@ -63,15 +54,15 @@ inline void cut_lanes(const WalkLine& line, bool near, WalkRays& rays, Lanes<dou
         const Number at = hn::Add(line.p[axis], hn::Mul(enter, w));
         const Number within = hn::Min(hn::Max(at, number(-2)), number(2));
         // Where it misses: outside all boxes but those that hold everything, and short.
-        store(hn::IfThenElse(misses, number(2), within), rays.start[axis]);
+        store(hn::IfThenElse(misses, number(2), within), rays.start[axis], i);
         // Embree's coherent packets may lose boxes where some component is between this and 0
         // (docs/how-it-decides.md); made +0, which Embree takes for 1e-18, it is harmless.
         const auto dangerous = hn::And(hn::Lt(w, number(0)), hn::Gt(w, number(-1.0001e-18)));
-        store(hn::IfThenElse(dangerous, number(0), w), rays.way[axis]);
+        store(hn::IfThenElse(dangerous, number(0), w), rays.way[axis], i);
     }
     const Number length = hn::IfThenElse(misses, number(0), hn::Sub(leave, enter));
-    store(hn::Add(hn::Mul(length, number(1 + 0x1p-20)), number(0x1p-20)), rays.far);
-    hn::StoreU(hn::IfThenElse(misses, line.begin, enter), doubles, start.data() + i);
+    store(hn::Add(hn::Mul(length, number(1 + 0x1p-20)), number(0x1p-20)), rays.far, i);
+    store(hn::IfThenElse(misses, line.begin, enter), start, i);
 }
 
 } // namespace shadowproof::HWY_NAMESPACE

@@ -14,13 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace shadowproof::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 void cut_to_scene(const WalkLines& lines, WalkRays& rays, Lanes<double>& start) {
-    const WalkLine::Doubles doubles;
-    const auto load = [&](const Lanes<double>& values, std::size_t i) {
-        return hn::Load(doubles, values.data() + i);
-    };
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
         const auto axis = [&](const Vectors& of, std::size_t k) { return load(of.axis[k], i); };
         const WalkLine line{{axis(lines.p, 0), axis(lines.p, 1), axis(lines.p, 2)},

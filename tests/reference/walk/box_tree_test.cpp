@@ -70,6 +70,7 @@ protected:
         try {
             choose_instruction_set();
         } catch (const Error& error) {
+            ASSERT_NE(GetParam().instruction_set, "sse2") << error.what();
             GTEST_SKIP() << error.what();
         }
         clusters_ = build_clusters(scene_, triangles_, triangles_, 1);
