@@ -23,6 +23,19 @@ void expect_same(const GroundTruth& one, const GroundTruth& other) {
     EXPECT_EQ(one.statistics.exact_decisions, other.statistics.exact_decisions);
 }
 
+void expect_same_with_every_instruction_set(const Scene& scene, const GroundTruth& expected) {
+    for (const char* set : {"sse2", "ssse3", "sse4", "avx2", "avx512"}) {
+        setenv("SHADOWPROOF_INSTRUCTION_SET", set, 1);
+        try {
+            const Tracer tracer(scene, 1);
+            expect_same(trace(tracer), expected);
+        } catch (const Error& error) {
+            EXPECT_STRNE(set, "sse2") << error.what(); // the processor lacks another
+        }
+    }
+    unsetenv("SHADOWPROOF_INSTRUCTION_SET");
+}
+
 TEST_P(DeterminismTest, one_thread_and_five_find_the_same_bits) {
     const Scene scene = GetParam().make();
     const GroundTruth one = trace(Tracer(scene, 1));
@@ -33,16 +46,7 @@ TEST_P(DeterminismTest, one_thread_and_five_find_the_same_bits) {
 TEST_P(DeterminismTest, every_instruction_set_finds_the_same_bits) {
     const Scene scene = GetParam().make();
     const GroundTruth widest = trace(Tracer(scene, 1));
-    for (const char* set : {"sse2", "ssse3", "sse4", "avx2", "avx512"}) {
-        setenv("SHADOWPROOF_INSTRUCTION_SET", set, 1);
-        try {
-            const Tracer tracer(scene, 1);
-            expect_same(trace(tracer), widest);
-        } catch (const Error& error) {
-            EXPECT_STRNE(set, "sse2") << error.what(); // the processor lacks another
-        }
-    }
-    unsetenv("SHADOWPROOF_INSTRUCTION_SET");
+    expect_same_with_every_instruction_set(scene, widest);
 }
 
 /// Slivers before a wall, of which the floats' bounds and those of doubles say different things:
@@ -72,16 +76,7 @@ TEST(Determinism, of_slivers_before_a_wall_every_instruction_set_records_the_sam
         finish(scene, true);
         scene.camera.near = 0.01;
         const GroundTruth widest = trace(Tracer(scene, 1));
-        for (const char* set : {"sse2", "avx2", "avx512"}) {
-            setenv("SHADOWPROOF_INSTRUCTION_SET", set, 1);
-            try {
-                const Tracer tracer(scene, 1);
-                expect_same(trace(tracer), widest);
-            } catch (const Error& error) {
-                EXPECT_STRNE(set, "sse2") << error.what(); // the processor lacks another
-            }
-        }
-        unsetenv("SHADOWPROOF_INSTRUCTION_SET");
+        expect_same_with_every_instruction_set(scene, widest);
     }
 }
 
