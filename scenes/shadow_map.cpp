@@ -38,9 +38,12 @@ std::array<glm::dvec3, 3> axes_along(const glm::dvec3& forward) {
     return {right, glm::cross(right, forward), forward};
 }
 
-/// Fits a sun's square and planes to all that casts or receives. A margin around them is far more
-/// than floats move anything, so that nothing is clipped; what has no extent has a map all the
-/// same.
+[[noreturn]] void refuse(const Scene& scene, const std::string& what, const std::string& remedy) {
+    throw Error(scene.file.empty() ? scene.name : scene.file.string(), what, remedy);
+}
+
+} // namespace
+
 void fit_sun(MapModel& model, const Scene& scene) {
     const std::vector<std::uint8_t> casts = casting_triangles(scene);
     const std::vector<std::uint8_t> receives = receiving_triangles(scene);
@@ -65,12 +68,6 @@ void fit_sun(MapModel& model, const Scene& scene) {
     model.near = margin;
     model.far = extent.z + 3 * margin;
 }
-
-[[noreturn]] void refuse(const Scene& scene, const std::string& what, const std::string& remedy) {
-    throw Error(scene.file.empty() ? scene.name : scene.file.string(), what, remedy);
-}
-
-} // namespace
 
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene) {
     const Light& light = chosen_light(scene);

@@ -199,6 +199,11 @@ struct MapEvidence {
 /// user's planes are no range, a spot is too wide, or distances shall have a polygon offset.
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene);
 
+/// Fits a sun's square and planes to all that casts or receives. A margin around them is far more
+/// than floats move anything, so that nothing is clipped; what has no extent has a map all the
+/// same.
+void fit_sun(MapModel& model, const Scene& scene);
+
 /// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its
 /// rows and columns are those of OpenGL's face, from the last row up (cube_map.h). For a spot it
 /// looks along the light's axis and holds the whole cone. For a sun it looks along the light, in

@@ -133,11 +133,11 @@ std::vector<Control> controls_of(const TracedScene& traced) {
     add_casters(traced, controls);
     add_moved_lights(traced, shadowed.median, controls);
     const Light::Kind kind = chosen_light(traced.scene()).kind;
-    if (kind == Light::Kind::point && shadowed.median > 0)
+    if (kind != Light::Kind::directional && shadowed.median > 0)
         controls.push_back(
             {"bias",
              fmt::format("shadow rays miss what is closer than {:.3g}", 0.01 * shadowed.median),
-             lit_within(traced, {}, 0.01 * shadowed.median)});
+             lit_within(traced, {}, {.constant = 0.01 * shadowed.median})});
     if (kind != Light::Kind::directional && shadowed.furthest > 0)
         controls.push_back(
             {"range", fmt::format("shadows end {:.4g} from the light", 0.9 * shadowed.furthest),

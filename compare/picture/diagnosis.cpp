@@ -19,7 +19,8 @@ Diagnosed diagnose(const TracedScene& traced, const Frame& frame,
              [&] { try_one_sided(trial); }, [&] { try_counters(trial, counts); },
              [&] { try_near_plane(trial, counts); }, [&] { try_far_plane(trial, counts); },
              [&] { try_length(trial, counts); }, [&] { try_range(trial); },
-             [&] { try_light_view(trial); }, [&] { try_moved_light(trial); }})
+             [&] { try_epsilon(trial); }, [&] { try_cube_maps(trial); },
+             [&] { try_plane_maps(trial); }, [&] { try_moved_light(trial); }})
         if (!trial.is_settled()) attempt();
     return trial.best(most);
 }

@@ -1,10 +1,10 @@
+#include "compare/picture/fitted_bias.h"
 #include "compare/picture/hypotheses.h"
 #include "compare/picture/light_sampling.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
@@ -16,73 +16,71 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A pixel of the sample, by what lights it.
-struct Threshold {
-    double excess = 0;
-    std::int64_t gain = 0; ///< of the score, once the bias reaches it
-};
-
-struct BestBias {
-    double bias = 0;
-    std::int64_t score = 0; ///< pixels that agree with the picture, but for a constant
-};
-
-/// The bias by which most is explained less what is contradicted: half way between the pixels that
-/// it must light and those that it must not.
-std::optional<BestBias> best_bias(const Trial& trial, const std::vector<double>& excess) {
-    std::vector<Threshold> thresholds;
-    auto next = excess.begin();
-    const auto width = static_cast<std::size_t>(trial.truth().depth.width);
-    for (const Patch& patch : trial.sample())
-        for_each_pixel(patch, [&](int x, int y) {
-            const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            if (!faces_light(trial.traced(), i)) return;
-            const double reached = *next++;
-            if (!trial.is_wrong(x, y) && !trial.is_right(x, y)) return;
-            const bool is_lit = trial.frame().claim.at(x, y) == Visibility::lit;
-            thresholds.push_back({reached, is_lit ? 1 : -1});
-        });
-    std::sort(thresholds.begin(), thresholds.end(),
-              [](const Threshold& a, const Threshold& b) { return a.excess < b.excess; });
-    std::int64_t score = 0;
-    std::optional<BestBias> best;
-    for (std::size_t i = 0; i + 1 < thresholds.size(); ++i) {
-        score += thresholds[i].gain;
-        const double middle = (thresholds[i].excess + thresholds[i + 1].excess) / 2;
-        if (std::isfinite(middle) && (!best || score > best->score)) best = {middle, score};
-    }
-    return best;
-}
-
-void consider_map(Trial& trial, const LightSampling& view, double bias) {
-    Parameters parameters{{"resolution", view.texels}, {"bias", bias}};
-    std::string words =
-        fmt::format("a shadow map, cube of {} texels a side, bias {:.3g}", view.texels, bias);
-    if (view.culled != LightSampling::Culled::none) {
-        const bool front = view.culled == LightSampling::Culled::front;
-        parameters.emplace_back(front ? "culls_front" : "culls_back", 1);
-        words += front ? ", of back faces" : ", of front faces";
-    }
+void consider_cube(Trial& trial, const LightSampling& view, const MapBias& bias) {
+    MapWords words;
+    words.parameters = {{"resolution", view.texels}};
+    words.text = fmt::format("a shadow map, cube of {} texels a side", view.texels);
+    add_bias(words, bias);
+    add_culling(words, view.culled);
+    add_filter(words, view.filter);
     if (view.inset > 0) {
-        parameters.emplace_back("inset", view.inset);
-        words += ", whose faces are asked as if a texel narrower";
+        words.parameters.emplace_back("inset", view.inset);
+        words.text += ", whose faces are asked as if a texel narrower";
     }
     if (view.range < infinity) {
-        parameters.emplace_back("range", view.range);
-        words += fmt::format(", range {:.4g}", view.range);
+        words.parameters.emplace_back("range", view.range);
+        words.text += fmt::format(", range {:.4g}", view.range);
+        if (view.beyond_range == Visibility::shadowed) {
+            words.parameters.emplace_back("dark_outside", 1);
+            words.text += dark_beyond;
+        }
     }
-    trial.consider("shadow_map", parameters, words, lit_within(trial.traced(), view, bias));
-}
-
-void try_epsilon(Trial& trial, const Tracer& light_tracer) {
-    const auto best = best_bias(trial, excesses(trial.traced(), light_tracer, {}, trial.sample()));
-    if (best && best->bias > 0)
-        trial.consider("ray_epsilon", {{"epsilon", best->bias}},
-                       fmt::format("shadow rays miss what is closer than {:.3g}", best->bias),
-                       lit_within(trial.traced(), {}, best->bias));
+    trial.consider("shadow_map", words.parameters, words.text,
+                   lit_within(trial.traced(), view, bias));
 }
 
 } // namespace
+
+void add_bias(MapWords& words, const MapBias& bias) {
+    words.parameters.emplace_back("bias", bias.constant);
+    words.text += fmt::format(", bias {:.3g}", bias.constant);
+    if (bias.of == BiasOf::depth) words.text += " of depth";
+    if (bias.of == BiasOf::inverse_depth) {
+        words.parameters.emplace_back("inverse_depth", 1);
+        words.text += " of inverse depth";
+    }
+    if (bias.slope == 0) return;
+    words.parameters.emplace_back("slope_bias", bias.slope);
+    words.text += fmt::format(", slope bias {:.3g}", bias.slope);
+}
+
+void add_culling(MapWords& words, LightSampling::Culled culled) {
+    if (culled == LightSampling::Culled::none) return;
+    const bool front = culled == LightSampling::Culled::front;
+    words.parameters.emplace_back(front ? "culls_front" : "culls_back", 1);
+    words.text += front ? ", of back faces" : ", of front faces";
+}
+
+void add_filter(MapWords& words, const MapFilter& filter) {
+    if (filter.width == 0) return;
+    words.parameters.emplace_back("filter", filter.width);
+    words.text += fmt::format(", over {} x {} texels", filter.width, filter.width);
+    if (!filter.smooth) return;
+    words.parameters.emplace_back("smooth", 1);
+    words.text += " smoothly";
+}
+
+std::vector<LightSampling> with_filters(const Trial& trial, const LightSampling& view) {
+    std::vector<LightSampling> all;
+    if (!trial.is_soft()) return all;
+    for (const double lit_from : usual_lit_from)
+        for (MapFilter filter : usual_filters) {
+            filter.lit_from = lit_from;
+            all.push_back(view);
+            all.back().filter = filter;
+        }
+    return all;
+}
 
 void try_range(Trial& trial) {
     const Scene& scene = trial.scene();
@@ -102,32 +100,58 @@ void try_range(Trial& trial) {
         }
     if (!(nearest > 0) || !(furthest > nearest)) return;
     const auto shared = std::make_shared<const Image<double>>(std::move(distance));
-    trial.search(
-        {.hypothesis = "shadow_map",
-         .parameter = "range",
-         .predict =
-             [&](double range) {
-                 return changed(trial.traced(),
-                                [&truth, shared, range](std::size_t i, Visibility was) {
-                                    const bool beyond = shared->pixels[i] > range;
-                                    return beyond && in_cone(truth, i) ? Visibility::lit : was;
-                                });
-             },
-         .words =
-             [](double range) {
-                 return fmt::format("a shadow map that reaches {:.4g} from the light", range);
-             }},
-        nearest, furthest);
+    for (const Visibility there : {Visibility::lit, Visibility::shadowed}) {
+        const bool dark = there == Visibility::shadowed;
+        trial.search(
+            {.hypothesis = "shadow_map",
+             .parameter = "range",
+             .predict =
+                 [&truth, &trial, shared, there](double range) {
+                     return changed(trial.traced(),
+                                    [&truth, shared, range, there](std::size_t i, Visibility was) {
+                                        const bool beyond = shared->pixels[i] > range;
+                                        return beyond && in_cone(truth, i) ? there : was;
+                                    });
+                 },
+             .words =
+                 [dark](double range) {
+                     return fmt::format("a shadow map that reaches {:.4g} from the light{}", range,
+                                        dark ? dark_beyond : "");
+                 },
+             .also = dark ? Parameters{{"dark_outside", 1}} : Parameters{}},
+            nearest, furthest);
+    }
 }
 
-void try_light_view(Trial& trial) {
+void try_epsilon(Trial& trial) {
+    const Scene from_light = seen_from_light(trial.scene(), LightSampling::Culled::none);
+    if (from_light.triangles.empty()) return;
+    const Tracer tracer(from_light, trial.traced().tracer().threads());
+    const auto best =
+        fitted_bias(trial, sample_light(trial.traced(), tracer, {}, trial.sample()), MapBias{});
+    if (best && best->bias.constant > 0)
+        trial.consider(
+            "ray_epsilon", {{"epsilon", best->bias.constant}},
+            fmt::format("shadow rays miss what is closer than {:.3g}", best->bias.constant),
+            lit_within(trial.traced(), {}, best->bias));
+}
+
+void try_cube_maps(Trial& trial) {
     if (chosen_light(trial.scene()).kind != Light::Kind::point) return;
     constexpr int smallest = 64; // texels: engines offer powers of two
     constexpr int largest = 8192;
-    std::optional<BestBias> best;
+    LightSampling ended; // at the range that explains something by itself
+    if (const Parameters* found = trial.best_of("shadow_map")) {
+        ended.range = found->front().second;
+        if (found->size() > 1) ended.beyond_range = Visibility::shadowed;
+    }
+    std::optional<FittedBias> best;
     LightSampling best_view;
-    const auto look = [&](const Tracer& tracer, const LightSampling& view) {
-        const auto found = best_bias(trial, excesses(trial.traced(), tracer, view, trial.sample()));
+    const auto look = [&](const Tracer& tracer, const LightSampling& view, bool finely) {
+        const std::vector<LightSample> samples =
+            sample_light(trial.traced(), tracer, view, trial.sample());
+        const auto found =
+            finely ? fitted_bias(trial, samples) : fitted_bias(trial, samples, MapBias{});
         if (!found || (best && found->score <= best->score)) return;
         best = found;
         best_view = view;
@@ -137,19 +161,22 @@ void try_light_view(Trial& trial) {
         const Scene from_light = seen_from_light(trial.scene(), culled);
         if (from_light.triangles.empty()) return;
         const Tracer tracer(from_light, trial.traced().tracer().threads());
-        for (const int inset : {0, 1})
-            for (int texels = smallest; texels <= largest; texels *= 2)
-                look(tracer, {.culled = culled, .texels = texels, .inset = inset});
-        if (culled == Culled::none) try_epsilon(trial, tracer);
+        LightSampling view = ended;
+        view.culled = culled;
+        for (view.inset = 0; view.inset <= 1; ++view.inset)
+            for (view.texels = smallest; view.texels <= largest; view.texels *= 2)
+                look(tracer, view, false);
     }
     if (!best) return;
-    if (const Parameters* found = trial.best_of("shadow_map")) { // the range alone
-        const Scene from_light = seen_from_light(trial.scene(), best_view.culled);
-        LightSampling ended = best_view;
-        ended.range = found->front().second;
-        look(Tracer(from_light, trial.traced().tracer().threads()), ended);
-    }
-    consider_map(trial, best_view, best->bias);
+    const Scene from_light = seen_from_light(trial.scene(), best_view.culled);
+    const Tracer tracer(from_light, trial.traced().tracer().threads());
+    look(tracer, best_view, true);
+    LightSampling endless = best_view;
+    endless.range = infinity;
+    look(tracer, endless, true);
+    for (const LightSampling& filtered : with_filters(trial, best_view))
+        look(tracer, filtered, true);
+    consider_cube(trial, best_view, best->bias);
 }
 
 } // namespace shadowproof

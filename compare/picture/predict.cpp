@@ -90,6 +90,10 @@ bool in_cone(const GroundTruth& truth, std::size_t pixel) {
     return truth.in_cone.pixels.empty() || truth.in_cone.pixels[pixel] != 0;
 }
 
+bool may_be_lit(const TracedScene& traced, std::size_t pixel) {
+    return faces_light(traced, pixel) && in_cone(traced.truth(), pixel);
+}
+
 glm::dvec3 seen_point(const TracedScene& traced, int x, int y) {
     const Camera& camera = traced.scene().camera;
     return camera.eye + traced.truth().depth.at(x, y) * ray_direction(camera, x + 0.5, y + 0.5);

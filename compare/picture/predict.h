@@ -27,6 +27,8 @@ Predict truth_of(std::function<Scene()> make, int threads);
 /// Whether a pixel's surface faces the light, and lies in its cone.
 bool faces_light(const TracedScene& traced, std::size_t pixel);
 bool in_cone(const GroundTruth& truth, std::size_t pixel);
+/// Both: others are dark in any case.
+bool may_be_lit(const TracedScene& traced, std::size_t pixel);
 
 /// The point that is seen at a pixel, in double.
 glm::dvec3 seen_point(const TracedScene& traced, int x, int y);

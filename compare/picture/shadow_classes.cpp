@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <vector>
@@ -63,18 +64,31 @@ std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
     return found;
 }
 
+/// The colours of one group of angles, and their sines.
+struct AngleColors {
+    std::vector<glm::dvec3> colors;
+    std::vector<double> sines;
+};
+
+/// What light adds to shadow, at the sine of one angle.
+struct LightAt {
+    double sine = 0;
+    glm::dvec3 added{0, 0, 0};
+};
+
 /// What is known of one mesh's colours.
 struct MeshColors {
     std::vector<glm::dvec3> averted; ///< of surfaces that face away from the light
-    std::array<std::vector<glm::dvec3>, angle_groups> facing;
+    std::array<AngleColors, angle_groups> facing;
     std::optional<Typical> shadow;
-    std::array<std::optional<Typical>, angle_groups> light;
+    std::vector<LightAt> light; ///< by growing sines
 };
 
 /// Where the surface at a pixel belongs.
 struct Place {
     std::uint32_t mesh = 0;
     int group = 0;
+    double sine = 0;
     bool faces_light = false;
 };
 
@@ -88,6 +102,7 @@ std::optional<Place> place_of(const TracedScene& traced, int x, int y) {
     Place place;
     place.mesh = mesh_of(scene, triangle);
     place.group = angle_group(scene, triangle, point);
+    place.sine = sine_to_light(scene, triangle, point);
     place.faces_light = sides_of(traced.tracer(), triangle).faces_light();
     return place;
 }
@@ -135,30 +150,37 @@ double least_difference(const Typical& shadow, double step) {
     return 2 * step + 4 * shadow.scatter;
 }
 
-/// Light is what is brighter than shadow, angle by angle; where no pixel of an angle is, as bright
-/// as the sine has it by the others (Lambert).
+/// Light is what is brighter than shadow, angle by angle.
 void find_light(MeshColors& mesh, double step) {
     const Typical& shadow = *mesh.shadow;
-    std::vector<glm::dvec3> slopes;
-    const auto sine = [](std::size_t group) {
-        return (static_cast<double>(group) + 0.5) / angle_groups;
-    };
-    for (std::size_t group = 0; group < mesh.facing.size(); ++group) {
+    for (const AngleColors& group : mesh.facing) {
         std::vector<glm::dvec3> bright;
-        for (const glm::dvec3& color : mesh.facing[group])
-            if (brightness(color) > brightness(shadow.color) &&
-                glm::distance(color, shadow.color) > least_difference(shadow, step))
-                bright.push_back(color);
-        mesh.light[group] = typical(bright);
-        if (mesh.light[group])
-            slopes.push_back((mesh.light[group]->color - shadow.color) / sine(group));
+        std::vector<double> sines;
+        for (std::size_t i = 0; i < group.colors.size(); ++i) {
+            const glm::dvec3& color = group.colors[i];
+            if (brightness(color) <= brightness(shadow.color) ||
+                glm::distance(color, shadow.color) <= least_difference(shadow, step))
+                continue;
+            bright.push_back(color);
+            sines.push_back(group.sines[i]);
+        }
+        if (!bright.empty())
+            mesh.light.push_back({median(sines), typical(bright)->color - shadow.color});
     }
-    const std::optional<Typical> slope = typical(slopes);
-    if (!slope) return;
-    for (std::size_t group = 0; group < mesh.light.size(); ++group)
-        if (!mesh.light[group] && !mesh.facing[group].empty())
-            mesh.light[group] =
-                Typical{shadow.color + sine(group) * slope->color, sine(group) * slope->scatter};
+}
+
+/// What light adds at an angle: between those that are known it grows evenly, and from nothing
+/// where it only grazes. A group's pixels may be many times as far from grazing as another of them.
+std::optional<glm::dvec3> light_at(const std::vector<LightAt>& light, double sine) {
+    if (light.empty() || std::isnan(sine)) return std::nullopt;
+    LightAt below;
+    for (const LightAt& above : light) {
+        if (sine < above.sine)
+            return glm::mix(below.added, above.added,
+                            (sine - below.sine) / (above.sine - below.sine));
+        below = above;
+    }
+    return below.added;
 }
 
 /// `with_twin`: the values are differences from a picture without light, and shadow is none.
@@ -169,8 +191,13 @@ std::map<std::uint32_t, MeshColors> colors_by_mesh(const Image<std::optional<Pla
         const std::optional<Place>& place = places.pixels[i];
         if (!place) continue;
         MeshColors& mesh = meshes[place->mesh];
-        (place->faces_light ? mesh.facing[static_cast<std::size_t>(place->group)] : mesh.averted)
-            .push_back(values.at(i));
+        if (place->faces_light) {
+            AngleColors& group = mesh.facing[static_cast<std::size_t>(place->group)];
+            group.colors.push_back(values.at(i));
+            group.sines.push_back(place->sine);
+        } else {
+            mesh.averted.push_back(values.at(i));
+        }
     }
     for (auto& [number, mesh] : meshes) {
         constexpr std::size_t enough = 16; // not a few pixels of an outline
@@ -180,7 +207,8 @@ std::map<std::uint32_t, MeshColors> colors_by_mesh(const Image<std::optional<Pla
             mesh.shadow = typical(mesh.averted);
         } else {
             std::vector<glm::dvec3> all;
-            for (const auto& group : mesh.facing) all.insert(all.end(), group.begin(), group.end());
+            for (const AngleColors& group : mesh.facing)
+                all.insert(all.end(), group.colors.begin(), group.colors.end());
             mesh.shadow = darker_group(all);
         }
         if (mesh.shadow) find_light(mesh, values.step());
@@ -189,13 +217,12 @@ std::map<std::uint32_t, MeshColors> colors_by_mesh(const Image<std::optional<Pla
 }
 
 /// Where between shadow (0) and light (1) a value lies; nothing where they cannot be told apart.
-std::optional<double> share_of(const glm::dvec3& value, const std::optional<Typical>& shadow,
-                               const std::optional<Typical>& light, double step) {
-    if (!shadow || !light) return std::nullopt;
-    const glm::dvec3 way = light->color - shadow->color;
-    const double distance = glm::length(way);
-    if (distance <= least_difference(*shadow, step)) return std::nullopt;
-    return glm::dot(value - shadow->color, way) / (distance * distance);
+std::optional<double> share_of(const glm::dvec3& value, const MeshColors& mesh, double sine,
+                               double step) {
+    if (!mesh.shadow) return std::nullopt;
+    const std::optional<glm::dvec3> way = light_at(mesh.light, sine);
+    if (!way || glm::length(*way) <= least_difference(*mesh.shadow, step)) return std::nullopt;
+    return glm::dot(value - mesh.shadow->color, *way) / glm::dot(*way, *way);
 }
 
 bool is_one_color(const Picture& picture) {
@@ -267,8 +294,7 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
             share = values.at(i).g;
         } else {
             const MeshColors& mesh = meshes.at(place->mesh);
-            share = share_of(values.at(i), mesh.shadow,
-                             mesh.light[static_cast<std::size_t>(place->group)], values.step());
+            share = share_of(values.at(i), mesh, place->sine, values.step());
         }
         if (!share) {
             ++shadows.undecidable;

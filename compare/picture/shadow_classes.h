@@ -26,7 +26,8 @@ struct PictureFiles {
 /// to whether they are truly lit:
 ///   shadow  the typical colour of surfaces that face away from the light; where none is seen, of
 ///           the darker of two groups of pixels. With a twin, values are differences, and it is 0
-///   light   the typical colour of brighter pixels, for each angle at which the light falls
+///   light   the typical colour of brighter pixels, for each angle at which the light falls; even
+///           between angles, and down to shadow where the light only grazes
 /// A pixel is lit or shadowed, whichever colour is nearer. It is undecided where
 ///   - its surface faces away from the light, which is dark whatever the picture does;
 ///   - one of the two colours is missing;

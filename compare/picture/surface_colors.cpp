@@ -6,13 +6,16 @@
 
 namespace shadowproof {
 
-int angle_group(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
+double sine_to_light(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3 to_light = glm::dvec3(light) - light.w * point;
     const glm::dvec3 normal = glm::cross(corner(scene, triangle, 1) - corner(scene, triangle, 0),
                                          corner(scene, triangle, 2) - corner(scene, triangle, 0));
-    const double sine =
-        std::abs(glm::dot(normal, to_light)) / (glm::length(normal) * glm::length(to_light));
+    return std::abs(glm::dot(normal, to_light)) / (glm::length(normal) * glm::length(to_light));
+}
+
+int angle_group(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
+    const double sine = sine_to_light(scene, triangle, point);
     return sine > 0 ? std::min(static_cast<int>(sine * angle_groups), angle_groups - 1) : 0;
 }
 

@@ -14,6 +14,10 @@ namespace shadowproof {
 /// Groups of surfaces that the light meets at about one angle: the sine of it, in equal parts.
 inline constexpr int angle_groups = 24;
 
+/// The sine of the angle at which the light meets a triangle at a point of it; not a number where
+/// the point is the light, or the triangle has no area in double.
+double sine_to_light(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);
+
 /// The group of a triangle at a point of it. 0 where the point is the light, or the triangle has no
 /// area in double.
 int angle_group(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);

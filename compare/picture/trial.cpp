@@ -37,6 +37,20 @@ bool Trial::is_right(int x, int y) const {
     return cause_.at(x, y) == no_difference && frame_.pictured->decided.at(x, y) != 0;
 }
 
+bool Trial::is_told(int x, int y) const {
+    return (is_wrong(x, y) || is_right(x, y)) && may_be_lit(traced_, cause_.index(x, y));
+}
+
+bool Trial::is_soft() const {
+    std::uint64_t between = 0;
+    for (int y = 0; y < cause_.height; ++y)
+        for (int x = 0; x < cause_.width; ++x) {
+            const float share = frame_.pictured->lit_share.at(x, y);
+            between += is_wrong(x, y) && share > 0.1F && share < 0.9F ? 1U : 0U;
+        }
+    return between * 20 > wrong_; // a few are chance
+}
+
 /// Whether the pixel lies within one class of the predicted picture: next to others, half a pixel
 /// decides.
 bool Trial::is_inside(int x, int y) const {
@@ -117,8 +131,9 @@ void Trial::search(const Parametric& family, double from, double to) {
     if (best_score <= 0) return;
     // The middle of what fits equally well.
     const double value = std::sqrt(best_value * last_value);
-    consider(family.hypothesis, {{family.parameter, value}}, family.words(value),
-             family.predict(value));
+    Parameters parameters{{family.parameter, value}};
+    parameters.insert(parameters.end(), family.also.begin(), family.also.end());
+    consider(family.hypothesis, std::move(parameters), family.words(value), family.predict(value));
 }
 
 bool Trial::is_settled() const {

@@ -29,6 +29,7 @@ struct Parametric {
     std::string parameter;
     std::function<Predict(double)> predict;
     std::function<std::string(double)> words;
+    Parameters also{}; ///< told beside it
 };
 
 class Trial {
@@ -43,6 +44,10 @@ public:
     std::uint64_t wrong() const { return wrong_; }
     bool is_wrong(int x, int y) const;
     bool is_right(int x, int y) const; ///< decided, and no difference
+    /// Right or wrong, and not dark whatever the shadows are.
+    bool is_told(int x, int y) const;
+    /// Whether some wrong pixels lie between light and shadow.
+    bool is_soft() const;
     /// Where hypotheses are compared before the best are predicted for the whole picture.
     const std::vector<Patch>& sample() const { return sample_; }
 

@@ -4,8 +4,9 @@
 //   shadowproof check my.glb --renderer 'node three.mjs {scene} {view} {out} {unlit}' --name three
 //
 // Needs `npm install three playwright-core` in the current folder (or the one that MODULES names),
-// and Chromium (CHROMIUM names it). MAP_SIZE, BIAS and NORMAL_BIAS are those of the light's shadow;
-// what is not given is three.js's own.
+// and Chromium (CHROMIUM names it). MAP_SIZE, BIAS and NORMAL_BIAS are those of the light's shadow,
+// and HALF_SIDE is half the square that a directional light's map holds; what is not given is
+// three.js's own.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { basename, dirname, join, resolve } from 'node:path';
@@ -16,7 +17,7 @@ const { chromium } = require('playwright-core');
 const three = dirname(dirname(require.resolve('three')));
 const view = JSON.parse(readFileSync(viewFile, 'utf8'));
 const shadow = { mapSize: process.env.MAP_SIZE, bias: process.env.BIAS,
-                 normalBias: process.env.NORMAL_BIAS };
+                 normalBias: process.env.NORMAL_BIAS, halfSide: process.env.HALF_SIDE };
 
 /** Runs in the page: renders with the light on, and with it off; two pictures as data URLs. */
 async function render({ view, shadow, file }) {
@@ -52,6 +53,10 @@ async function render({ view, shadow, file }) {
   if (shadow.mapSize) light.shadow.mapSize.set(Number(shadow.mapSize), Number(shadow.mapSize));
   if (shadow.bias) light.shadow.bias = Number(shadow.bias);
   if (shadow.normalBias) light.shadow.normalBias = Number(shadow.normalBias);
+  if (shadow.halfSide) {
+    const half = Number(shadow.halfSide);
+    Object.assign(light.shadow.camera, { left: -half, right: half, bottom: -half, top: half });
+  }
   scene.add(light, new THREE.AmbientLight(0xffffff, 0.3));
   // As `shadowproof export-view` has it in engines.three.code.
   const own = view.engines.three;

@@ -145,6 +145,56 @@ test('a shadow map of back faces alone', () => {
   assert.equal(parameters.resolution, 128);
 });
 
+for (const [scene, technique, texels] of [
+  ['spot', 'spot_map', 64], ['spot', 'spot_map', 256], ['spot', 'spot_map', 1024], ['sun', 'sun_map', 64],
+  ['sun', 'sun_map', 128], ['sun', 'sun_map', 512], ['grazing_light', 'sun_map', 128]])
+  test(`a ${technique} of ${texels} texels on ${scene}`, () => {
+    const { parameters } = diagnosed(scene, claimed(scene, technique, '--map-size', `${texels}`),
+                                     'shadow_map');
+    assert.equal(parameters.resolution, texels);
+    near(parameters.bias, 0.15, 0.1);
+  });
+
+// 200 texels are no power of two, which is all that a picture tells; how large they are, it does.
+test('a map in parallel whose texels no engine offers', () => {
+  const square = (texels) => diagnosed('sun', claimed('sun', 'sun_map', '--map-size', `${texels}`),
+                                       'shadow_map').parameters;
+  const fine = square(200);
+  assert.equal(fine.resolution, undefined);
+  near(fine.texel * 200, square(128).texel * 128, 0.005);
+});
+
+for (const [scene, technique, ...more] of [
+  ['spot', 'spot_map', '--map-bias', '0.01', '--map-value', 'depth'],
+  ['sun', 'sun_map', '--map-bias', '0.01'],
+  ['ordinary', 'cube_map_six_pass', '--map-bias', '0.1', '--map-value', 'depth']])
+  test(`a slope bias on ${scene}`, () => {
+    const { parameters } = diagnosed(scene, claimed(scene, technique, '--map-size', '128',
+      '--map-slope-bias', '2', ...more), 'shadow_map');
+    assert.equal(parameters.resolution, 128);
+    near(parameters.slope_bias, 2, 0.1);
+  });
+
+test('maps in front of which nothing was drawn: of back faces alone', () => {
+  for (const [scene, technique] of [['spot', 'spot_map'], ['sun', 'sun_map']]) {
+    const { parameters } = diagnosed(scene, claimed(scene, technique, '--map-size', '128', '--map-bias',
+      '0.01', '--map-culling', 'front'), 'shadow_map');
+    assert.equal(parameters.culls_front, 1);
+    assert.equal(parameters.resolution, 128);
+  }
+});
+
+test('beyond a far plane all is in shadow', () => {
+  const spot = diagnosed('spot', claimed('spot', 'spot_map', '--map-far', '10', '--map-bias', '0.01'),
+                         'shadow_map').parameters;
+  assert.equal(spot.dark_outside, 1);
+  near(spot.far, 10);
+  const cube = diagnosed('ordinary', claimed('ordinary', 'cube_map_six_pass', '--map-far', '11',
+                                             '--map-bias', '0.01'), 'shadow_map').parameters;
+  assert.equal(cube.dark_outside, 1);
+  near(cube.range, 11);
+});
+
 for (const [scene, epsilon] of [['ordinary', 0.2], ['ordinary', 0.5], ['overlapping', 0.5]])
   test(`rays on ${scene} that miss what is closer than ${epsilon}`, () => {
     near(diagnosed(scene, claimed(scene, 'traced_epsilon', '--ray-epsilon', `${epsilon}`),

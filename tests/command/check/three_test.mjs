@@ -37,6 +37,32 @@ test('the map of three.js is named: its size, and that it holds back faces, side
   }
 });
 
+for (const scene of ['sun', 'spot'])
+  test(`the map of three.js is named on ${scene}, whose texels nobody tells`, () => {
+    for (const texels of [128, 512]) {
+      const { cell: { diagnosis: [best] }, wrong } = checked(scene, { MAP_SIZE: `${texels}` });
+      assert.equal(best.hypothesis, 'shadow_map');
+      assert.equal(best.parameters.resolution, texels);
+      assert.equal(best.parameters.culls_front, 1);
+      assert.ok(best.explained > 0.7 * wrong, `${best.explained} of ${wrong}`);
+      assert.ok(best.contradicted <= 0.01 * wrong, `${best.contradicted} of ${wrong}`);
+    }
+  });
+
+test('shadows that end with the square of a directional light are told, and where it ends', () => {
+  const { cell: { diagnosis: [best] }, wrong } = checked('sun', { HALF_SIDE: '3', MAP_SIZE: '256' });
+  assert.equal(best.hypothesis, 'shadow_map');
+  const { right, top, texel } = best.parameters;
+  for (const [found, truly] of [[right, 3], [top, 3], [texel, 6 / 256]])
+    assert.ok(Math.abs(found - truly) <= 0.02 * truly, `${found}, not ${truly}`);
+  assert.ok(best.explained > 0.95 * wrong, `${best.explained} of ${wrong}`);
+});
+
+test('no pixel is wrong on a round surface that the light grazes', () => {
+  const { cell: { regions } } = checked('sun', { MAP_SIZE: '4096' });
+  assert.deepEqual(regions.filter(({ receiver }) => receiver === 'knob'), []);
+});
+
 test('a coarser map of three.js is worse', () => {
   assert.ok(checked('ordinary', { MAP_SIZE: '128' }).wrong > 2 * checked('ordinary').wrong);
 });

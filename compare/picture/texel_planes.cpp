@@ -1,0 +1,147 @@
+#include "compare/picture/texel_planes.h"
+
+#include "scenes/shadow_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TexelPlane plane_of(const LightAxes& axes, const Wave& wave) {
+    const auto turns = [](const std::complex<double>& mean) {
+        return std::arg(mean) / (2 * std::numbers::pi);
+    };
+    return {axes, 1 / wave.frequency, {turns(wave.mean[0]), turns(wave.mean[1])}};
+}
+
+/// Steps with a border between their pixels.
+std::size_t bordered(const ShadowSteps& steps, const TexelPlane& plane) {
+    const double texels = 1 / plane.side;
+    std::size_t count = 0;
+    for (const ShadowStep& step : steps.steps) {
+        const glm::dvec2 low = (step.middle - 0.5 * step.apart) * texels - plane.corner;
+        const glm::dvec2 high = low + step.apart * texels;
+        const bool between =
+            std::floor(low.x) < std::floor(high.x) || std::floor(low.y) < std::floor(high.y);
+        count += between ? 1 : 0;
+    }
+    return count;
+}
+
+/// Moves the texels as long as more steps have a border, and where `and_side`, makes them wider or
+/// narrower about the middle of all steps.
+void settle(const ShadowSteps& steps, TexelPlane& plane, bool and_side) {
+    constexpr int halvings = 6;
+    const glm::dvec2 middle = 0.5 * (steps.low + steps.high);
+    const double half = 0.5 * std::max(steps.high.x - steps.low.x, steps.high.y - steps.low.y);
+    std::size_t best = bordered(steps, plane);
+    double step = 0.25; // texels, at the furthest step where it is the side that changes
+    for (int i = 0; i < halvings; ++i, step /= 2)
+        for (int axis = 0; axis < (and_side ? 3 : 2); ++axis)
+            for (const double sign : {-1.0, 1.0}) {
+                const TexelPlane tried = axis == 2 ? widened(plane, middle, half, sign * step)
+                                                   : moved(plane, axis, sign * step);
+                const std::size_t count = bordered(steps, tried);
+                if (count <= best) continue;
+                best = count;
+                plane = tried;
+                break;
+            }
+}
+
+} // namespace
+
+TexelPlane moved(TexelPlane plane, int axis, double texels) {
+    plane.corner[axis] += texels;
+    return plane;
+}
+
+TexelPlane widened(TexelPlane plane, const glm::dvec2& held, double away, double texels) {
+    const glm::dvec2 place = held / plane.side - plane.corner;
+    plane.side *= std::max(1 + texels * plane.side / away, 0.5);
+    plane.corner = held / plane.side - place;
+    return plane;
+}
+
+std::vector<MapSquare> usual_squares(const Scene& scene) {
+    constexpr double of_three = 10;
+    const Light& light = chosen_light(scene);
+    if (light.kind == Light::Kind::spot) {
+        std::vector<MapSquare> squares;
+        const double half = half_side_of_spot(light);
+        for (const LightAxes& axes : usual_axes(light))
+            squares.push_back({axes, 2 * half, glm::dvec2(-half), false});
+        return squares;
+    }
+    MapModel fitted{.shape = MapModel::Shape::sun};
+    fit_sun(fitted, scene);
+    const Camera camera = map_camera(light, fitted, 0);
+    std::vector<MapSquare> squares{
+        {{camera.right, camera.up, camera.forward},
+         2 * fitted.half_side,
+         glm::dvec2(glm::dot(camera.right, fitted.eye), glm::dot(camera.up, fitted.eye)) -
+             fitted.half_side,
+         false}};
+    for (const LightAxes& axes : usual_axes(light))
+        squares.push_back({axes, of_three / scene.unit, std::nullopt, false});
+    return squares;
+}
+
+std::vector<MapSquare> measured_squares(const LightFrustum& frustum) {
+    std::vector<MapSquare> squares;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double side = frustum.high[axis] - frustum.low[axis];
+        if (std::isfinite(side)) squares.push_back({frustum.axes, side, std::nullopt, true});
+    }
+    return squares;
+}
+
+TexelPlane divided(const ShadowSteps& steps, const MapSquare& square, int across) {
+    const double side = square.side / across;
+    if (square.low) return {square.axes, side, *square.low / side};
+    TexelPlane plane = plane_of(square.axes, waves_of(steps, 1 / side, 0, 1).front());
+    plane.side = side;
+    settle(steps, plane, square.is_measured);
+    return plane;
+}
+
+std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps) {
+    constexpr std::size_t most = 24;
+    constexpr double fewest = 8; // texels over all steps
+    constexpr double coarse = 4; // waves told apart over all steps
+    constexpr int most_waves = 1 << 15;
+    const glm::dvec2 size = steps.high - steps.low;
+    const double extent = std::max(size.x, size.y);
+    std::vector<TexelPlane> planes;
+    if (steps.steps.empty() || !(extent > 0)) return planes;
+    const double first = fewest / extent;
+    const double step = 1 / (coarse * extent);
+    const double last = 1 / steps.apart; // finer texels are no steps of pixels
+    const int count = static_cast<int>(std::min((last - first) / step, double{most_waves}));
+    if (count < 3) return planes;
+    for (const Wave& peak : peaks(waves_of(steps, first, step, count), most)) {
+        constexpr int finer = 32;
+        const double from = peak.frequency - step;
+        const std::vector<Wave> around = waves_of(steps, from, 2 * step / finer, finer + 1);
+        planes.push_back(plane_of(steps.axes, *std::max_element(around.begin(), around.end(),
+                                                                [](const Wave& a, const Wave& b) {
+                                                                    return a.power() < b.power();
+                                                                })));
+        settle(steps, planes.back(), true);
+    }
+    return planes;
+}
+
+} // namespace shadowproof
