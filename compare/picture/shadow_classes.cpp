@@ -1,14 +1,14 @@
 #include "compare/picture/shadow_classes.h"
 
+#include "compare/picture/mesh_light.h"
+#include "compare/picture/predict.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <vector>
@@ -17,212 +17,158 @@ namespace shadowproof {
 
 namespace {
 
-/// The picture's value at a pixel, less the twin's where there is one.
-class Values {
-public:
-    Values(const Picture& picture, const std::optional<Picture>& twin)
-        : picture_(picture), twin_(twin) {}
-    glm::dvec3 at(std::size_t pixel) const {
-        const glm::dvec3 color = color_at(picture_, pixel);
-        return twin_ ? color - color_at(*twin_, pixel) : color;
-    }
-    /// One step of the file's integers; 0 of floats.
-    double step() const {
-        const int bits = twin_ ? std::min(picture_.bits, twin_->bits) : picture_.bits;
-        return bits < 32 ? 1 / (std::exp2(bits) - 1) : 0;
-    }
-
-private:
-    const Picture& picture_;
-    const std::optional<Picture>& twin_;
-};
-
-/// Of many colours the median, channel by channel, and the median distance from it.
-struct Typical {
-    glm::dvec3 color{0, 0, 0};
-    double scatter = 0;
-};
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+/// What one step of the file's integers in all three channels changes a colour by; 0 of floats.
+double step_of(const Picture& picture, const std::optional<Picture>& twin) {
+    const int bits = twin ? std::min(picture.bits, twin->bits) : picture.bits;
+    return bits < 32 ? std::sqrt(3.0) / (std::exp2(bits) - 1) : 0;
 }
 
-std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
-    if (colors.empty()) return std::nullopt;
-    Typical found;
-    std::vector<double> values(colors.size());
-    for (int k = 0; k < 3; ++k) {
-        std::transform(colors.begin(), colors.end(), values.begin(),
-                       [&](const glm::dvec3& color) { return color[k]; });
-        found.color[k] = median(values);
-    }
-    std::transform(colors.begin(), colors.end(), values.begin(),
-                   [&](const glm::dvec3& color) { return glm::distance(color, found.color); });
-    found.scatter = median(values);
-    return found;
-}
+/// Pixels from an outline of the truth that soft shadows, and outlines that are a little elsewhere,
+/// do not reach.
+constexpr int certain_from = 3;
 
-/// The colours of one group of angles, and their sines.
-struct AngleColors {
-    std::vector<glm::dvec3> colors;
-    std::vector<double> sines;
-};
-
-/// What light adds to shadow, at the sine of one angle.
-struct LightAt {
-    double sine = 0;
-    glm::dvec3 added{0, 0, 0};
-};
-
-/// What is known of one mesh's colours.
-struct MeshColors {
-    std::vector<glm::dvec3> averted; ///< of surfaces that face away from the light
-    std::array<AngleColors, angle_groups> facing;
-    std::optional<Typical> shadow;
-    std::vector<LightAt> light; ///< by growing sines
-};
-
-/// Where the surface at a pixel belongs.
-struct Place {
+/// A pixel that sees a surface.
+struct Seen {
     std::uint32_t mesh = 0;
-    int group = 0;
-    double sine = 0;
-    bool faces_light = false;
+    Observed observed;
 };
 
-/// Of each pixel that sees a surface.
-std::optional<Place> place_of(const TracedScene& traced, int x, int y) {
+std::optional<Seen> seen_at(const TracedScene& traced, int x, int y) {
     const Scene& scene = traced.scene();
     const std::uint32_t triangle = traced.truth().triangle.at(x, y);
     if (triangle == no_triangle) return std::nullopt;
-    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
-    const glm::dvec3 point = scene.camera.eye + traced.truth().depth.at(x, y) * direction;
-    Place place;
-    place.mesh = mesh_of(scene, triangle);
-    place.group = angle_group(scene, triangle, point);
-    place.sine = sine_to_light(scene, triangle, point);
-    place.faces_light = sides_of(traced.tracer(), triangle).faces_light();
-    return place;
+    Seen seen;
+    seen.mesh = mesh_of(scene, triangle);
+    const glm::dvec3 point = seen_point(traced, x, y);
+    const Light& light = chosen_light(scene);
+    seen.observed.sine = sine_to_light(scene, triangle, point);
+    if (light.kind != Light::Kind::directional)
+        seen.observed.distance = glm::distance(point, light.position);
+    seen.observed.faces_light = sides_of(traced.tracer(), triangle).faces_light();
+    return seen;
 }
 
-double brightness(const glm::dvec3& color) {
-    return color.x + color.y + color.z;
+using SeenPixels = Image<std::optional<Seen>>;
+
+/// Says of each pixel what it certainly is: where all pixels that near have its class, but those of
+/// its mesh that face away from the light.
+void find_certain(const Image<Visibility>& truth, SeenPixels& pixels) {
+    const auto is_certain = [&](int x, int y) {
+        const Seen& own = *pixels.at(x, y);
+        for (int v = std::max(y - certain_from, 0);
+             v <= std::min(y + certain_from, truth.height - 1); ++v)
+            for (int u = std::max(x - certain_from, 0);
+                 u <= std::min(x + certain_from, truth.width - 1); ++u) {
+                const std::optional<Seen>& other = pixels.at(u, v);
+                const bool is_averted =
+                    other && other->mesh == own.mesh && !other->observed.faces_light;
+                if (truth.at(u, v) != truth.at(x, y) && !is_averted) return false;
+            }
+        return true;
+    };
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x)
+            if (pixels.at(x, y) && pixels.at(x, y)->observed.faces_light && is_certain(x, y))
+                pixels.at(x, y)->observed.certainly = truth.at(x, y);
 }
 
-/// The darker of two groups into which colours fall by their brightness (2-means); nothing where
-/// they are one. Of colours that are spread evenly, the groups' means lie twice as far apart as the
-/// colours of both lie from their medians; groups that are two lie twice as far again.
-std::optional<Typical> darker_group(const std::vector<glm::dvec3>& colors) {
-    if (colors.size() < 2) return std::nullopt;
-    const auto [least, greatest] =
-        std::minmax_element(colors.begin(), colors.end(), [](const auto& a, const auto& b) {
-            return brightness(a) < brightness(b);
-        });
-    double between = 0.5 * (brightness(*least) + brightness(*greatest));
-    std::vector<glm::dvec3> dark;
-    std::vector<glm::dvec3> bright;
-    constexpr int rounds = 8;
-    for (int round = 0; round < rounds; ++round) {
-        dark.clear();
-        bright.clear();
-        for (const glm::dvec3& color : colors)
-            (brightness(color) < between ? dark : bright).push_back(color);
-        if (dark.empty() || bright.empty()) return std::nullopt;
-        const auto mean = [](const std::vector<glm::dvec3>& group) {
-            double sum = 0;
-            for (const glm::dvec3& color : group) sum += brightness(color);
-            return sum / static_cast<double>(group.size());
-        };
-        between = 0.5 * (mean(dark) + mean(bright));
+/// Of each mesh the twin's typical brightness.
+std::map<std::uint32_t, double> typical_brightness(const SeenPixels& pixels, const Picture& twin) {
+    std::map<std::uint32_t, std::vector<double>> all;
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i)
+        if (pixels.pixels[i]) all[pixels.pixels[i]->mesh].push_back(glm::length(color_at(twin, i)));
+    std::map<std::uint32_t, double> typical;
+    for (auto& [mesh, values] : all) {
+        const auto middle = values.begin() + std::ssize(values) / 2;
+        std::nth_element(values.begin(), middle, values.end());
+        typical[mesh] = *middle;
     }
-    const Typical low = *typical(dark);
-    const Typical high = *typical(bright);
-    if (glm::distance(low.color, high.color) <= 4 * (low.scatter + high.scatter))
-        return std::nullopt;
-    return low;
+    return typical;
 }
 
-/// What tells light from shadow, at least: two steps of the file's integers, and four times what
-/// shadows scatter.
-double least_difference(const Typical& shadow, double step) {
-    return 2 * step + 4 * shadow.scatter;
+/// What is added to the twin's brightness where the picture's light is measured by it. By sRGB, a
+/// value and 0.055 are a power of light, and so is what a surface of any colour makes of light; it
+/// is in all three channels. Floats are taken for linear.
+double srgb_offset(const Picture& picture) {
+    constexpr double of_channel = 0.055;
+    return picture.bits < 32 ? of_channel * std::sqrt(3.0) : 0;
 }
 
-/// Light is what is brighter than shadow, angle by angle.
-void find_light(MeshColors& mesh, double step) {
-    const Typical& shadow = *mesh.shadow;
-    for (const AngleColors& group : mesh.facing) {
-        std::vector<glm::dvec3> bright;
-        std::vector<double> sines;
-        for (std::size_t i = 0; i < group.colors.size(); ++i) {
-            const glm::dvec3& color = group.colors[i];
-            if (brightness(color) <= brightness(shadow.color) ||
-                glm::distance(color, shadow.color) <= least_difference(shadow, step))
-                continue;
-            bright.push_back(color);
-            sines.push_back(group.sines[i]);
-        }
-        if (!bright.empty())
-            mesh.light.push_back({median(sines), typical(bright)->color - shadow.color});
+/// Colours of all pixels. Where a surface shows without the light, what light adds is measured by
+/// that, so that surfaces of all colours are alike.
+void observe(const Picture& picture, const std::optional<Picture>& twin, SeenPixels& pixels) {
+    constexpr double few = 8; // steps
+    const double step = step_of(picture, twin);
+    const double offset = srgb_offset(picture);
+    std::map<std::uint32_t, double> dark;
+    if (twin) dark = typical_brightness(pixels, *twin);
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+        if (!pixels.pixels[i]) continue;
+        Observed& observed = pixels.pixels[i]->observed;
+        observed.value = color_at(picture, i);
+        observed.step = step;
+        if (!twin) continue;
+        observed.value -= color_at(*twin, i);
+        if (dark.at(pixels.pixels[i]->mesh) <= few * step) continue;
+        const double own = std::max(glm::length(color_at(*twin, i)) + offset, step);
+        observed.value /= own;
+        observed.step /= own;
     }
 }
 
-/// What light adds at an angle: between those that are known it grows evenly, and from nothing
-/// where it only grazes. A group's pixels may be many times as far from grazing as another of them.
-std::optional<glm::dvec3> light_at(const std::vector<LightAt>& light, double sine) {
-    if (light.empty() || std::isnan(sine)) return std::nullopt;
-    LightAt below;
-    for (const LightAt& above : light) {
-        if (sine < above.sine)
-            return glm::mix(below.added, above.added,
-                            (sine - below.sine) / (above.sine - below.sine));
-        below = above;
-    }
-    return below.added;
-}
-
-/// `with_twin`: the values are differences from a picture without light, and shadow is none.
-std::map<std::uint32_t, MeshColors> colors_by_mesh(const Image<std::optional<Place>>& places,
-                                                   const Values& values, bool with_twin) {
-    std::map<std::uint32_t, MeshColors> meshes;
-    for (std::size_t i = 0; i < places.pixels.size(); ++i) {
-        const std::optional<Place>& place = places.pixels[i];
-        if (!place) continue;
-        MeshColors& mesh = meshes[place->mesh];
-        if (place->faces_light) {
-            AngleColors& group = mesh.facing[static_cast<std::size_t>(place->group)];
-            group.colors.push_back(values.at(i));
-            group.sines.push_back(place->sine);
-        } else {
-            mesh.averted.push_back(values.at(i));
-        }
-    }
-    for (auto& [number, mesh] : meshes) {
-        constexpr std::size_t enough = 16; // not a few pixels of an outline
-        if (with_twin) {
-            mesh.shadow = Typical{};
-        } else if (mesh.averted.size() >= enough) {
-            mesh.shadow = typical(mesh.averted);
-        } else {
-            std::vector<glm::dvec3> all;
-            for (const AngleColors& group : mesh.facing)
-                all.insert(all.end(), group.colors.begin(), group.colors.end());
-            mesh.shadow = darker_group(all);
-        }
-        if (mesh.shadow) find_light(mesh, values.step());
-    }
+std::map<std::uint32_t, MeshLight> light_by_mesh(const SeenPixels& pixels, bool are_differences) {
+    std::map<std::uint32_t, std::vector<Observed>> by_mesh;
+    for (const std::optional<Seen>& seen : pixels.pixels)
+        if (seen) by_mesh[seen->mesh].push_back(seen->observed);
+    std::map<std::uint32_t, MeshLight> meshes;
+    for (const auto& [mesh, observed] : by_mesh)
+        meshes[mesh] = fitted_light(observed, are_differences);
+    if (!are_differences) return meshes;
+    // A mesh that the picture shows all in shadow would be as bright as others are.
+    std::vector<Observed> all;
+    for (const auto& [mesh, observed] : by_mesh)
+        if (!meshes.at(mesh).light.empty()) all.insert(all.end(), observed.begin(), observed.end());
+    const MeshLight common = fitted_light(all, true);
+    for (auto& [mesh, light] : meshes)
+        if (light.light.empty()) light = common;
     return meshes;
 }
 
-/// Where between shadow (0) and light (1) a value lies; nothing where they cannot be told apart.
-std::optional<double> share_of(const glm::dvec3& value, const MeshColors& mesh, double sine,
-                               double step) {
-    if (!mesh.shadow) return std::nullopt;
-    const std::optional<glm::dvec3> way = light_at(mesh.light, sine);
-    if (!way || glm::length(*way) <= least_difference(*mesh.shadow, step)) return std::nullopt;
-    return glm::dot(value - mesh.shadow->color, *way) / glm::dot(*way, *way);
+/// How much weaker light is around a pixel than the mesh's own at the same angles: of pixels around
+/// that are certainly lit and are not dark, all but a tenth have as much. 1 where there are too
+/// few, or it is not weaker. Light falls off, and highlights are not everywhere.
+double local_light(const SeenPixels& pixels, const MeshLight& light, std::uint32_t mesh, int x,
+                   int y) {
+    constexpr int reach = 8;
+    constexpr std::size_t enough = 8;
+    std::vector<double> shares;
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, pixels.height - 1); v += 2)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, pixels.width - 1); u += 2) {
+            const std::optional<Seen>& other = pixels.at(u, v);
+            if (!other || other->mesh != mesh || other->observed.certainly != Visibility::lit)
+                continue;
+            const Observed& observed = other->observed;
+            const auto there = light.light_at(observed);
+            const double above = light.above_shadow(observed.value);
+            if (there && above > light.least_difference(observed.step))
+                shares.push_back(above / *there);
+        }
+    if (shares.size() < enough) return 1;
+    const auto tenth = shares.begin() + std::ssize(shares) / 10;
+    std::nth_element(shares.begin(), tenth, shares.end());
+    return std::min(*tenth, 1.0);
+}
+
+/// Where between shadow (0) and light (1) a pixel lies; nothing where they cannot be told apart.
+std::optional<double> lit_share(const SeenPixels& pixels, const MeshLight& light, int x, int y) {
+    constexpr double surely_lit = 0.75;
+    const Seen& seen = *pixels.at(x, y);
+    const auto there = light.light_at(seen.observed);
+    if (!there) return std::nullopt;
+    const double above = light.above_shadow(seen.observed.value);
+    const double share = above / *there;
+    if (share >= surely_lit || above <= light.least_difference(seen.observed.step)) return share;
+    return share / local_light(pixels, light, seen.mesh, x, y);
 }
 
 bool is_one_color(const Picture& picture) {
@@ -268,43 +214,43 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
     if (is_one_color(picture))
         throw Error(is_mask ? files.mask : files.picture, "is of one colour, and shows no scene",
                     "render it again");
-    const Values values(picture, twin);
-    const GroundTruth& truth = traced.truth();
-    const int width = truth.visibility.width;
-    const int height = truth.visibility.height;
-    Image<std::optional<Place>> places(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) places.at(x, y) = place_of(traced, x, y);
-    std::map<std::uint32_t, MeshColors> meshes;
-    if (!is_mask) meshes = colors_by_mesh(places, values, twin.has_value());
+    const Image<Visibility>& truth = traced.truth().visibility;
+    SeenPixels pixels(truth.width, truth.height);
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) pixels.at(x, y) = seen_at(traced, x, y);
+    find_certain(truth, pixels);
+    std::map<std::uint32_t, MeshLight> meshes;
+    if (!is_mask) {
+        observe(picture, twin, pixels);
+        meshes = light_by_mesh(pixels, twin.has_value());
+    }
 
     Frame frame;
     frame.family = "picture";
-    frame.claim = truth.visibility;
+    frame.claim = truth;
     PicturedShadows& shadows = frame.pictured.emplace();
     shadows.name = std::filesystem::path(files.picture).stem().string();
-    shadows.lit_share = Image<float>(width, height);
-    shadows.decided = Image<std::uint8_t>(width, height);
+    shadows.lit_share = Image<float>(truth.width, truth.height);
+    shadows.decided = Image<std::uint8_t>(truth.width, truth.height);
     std::uint64_t decided = 0;
-    for (std::size_t i = 0; i < places.pixels.size(); ++i) {
-        const std::optional<Place>& place = places.pixels[i];
-        if (!place || !place->faces_light) continue;
-        std::optional<double> share;
-        if (is_mask) {
-            share = values.at(i).g;
-        } else {
-            const MeshColors& mesh = meshes.at(place->mesh);
-            share = share_of(values.at(i), mesh, place->sine, values.step());
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            const std::optional<Seen>& seen = pixels.at(x, y);
+            if (!seen || !seen->observed.faces_light) continue;
+            std::optional<double> share;
+            if (is_mask)
+                share = color_at(picture, truth.index(x, y)).g;
+            else
+                share = lit_share(pixels, meshes.at(seen->mesh), x, y);
+            if (!share) {
+                ++shadows.undecidable;
+                continue;
+            }
+            ++decided;
+            shadows.decided.at(x, y) = 1;
+            shadows.lit_share.at(x, y) = static_cast<float>(*share);
+            frame.claim.at(x, y) = *share >= 0.5 ? Visibility::lit : Visibility::shadowed;
         }
-        if (!share) {
-            ++shadows.undecidable;
-            continue;
-        }
-        ++decided;
-        shadows.decided.pixels[i] = 1;
-        shadows.lit_share.pixels[i] = static_cast<float>(*share);
-        frame.claim.pixels[i] = *share >= 0.5 ? Visibility::lit : Visibility::shadowed;
-    }
     if (decided == 0)
         throw Error(files.picture, "does not tell light from shadow at any pixel",
                     "give a second picture of the same view without the light (--unlit), or one "

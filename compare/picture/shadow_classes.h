@@ -22,17 +22,11 @@ struct PictureFiles {
 /// A claim of family "picture". `picture`, and `twin` where there is one, have the size of the
 /// scene's camera. By `mask` the picture itself is black and white.
 ///
-/// Each mesh has its own colours of shadow and of light, fitted to all of its pixels without regard
-/// to whether they are truly lit:
-///   shadow  the typical colour of surfaces that face away from the light; where none is seen, of
-///           the darker of two groups of pixels. With a twin, values are differences, and it is 0
-///   light   the typical colour of brighter pixels, for each angle at which the light falls; even
-///           between angles, and down to shadow where the light only grazes
-/// A pixel is lit or shadowed, whichever colour is nearer. It is undecided where
+/// Each mesh has its own colours of shadow and of light (fitted_light). A pixel is lit or shadowed,
+/// whichever is nearer; beside weaker light, by what is around it. It is undecided where
 ///   - its surface faces away from the light, which is dark whatever the picture does;
-///   - one of the two colours is missing;
-///   - they differ by no more than two steps of the file's integers plus four times the scatter of
-///     the shadow's pixels.
+///   - the picture does not tell what shadow or light looks like there;
+///   - light adds too little (MeshLight::least_difference).
 ///
 /// Throws Error, naming the file, where a picture is of one colour, or nowhere distinguishes light
 /// from shadow.

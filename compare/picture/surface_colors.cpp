@@ -14,8 +14,7 @@ double sine_to_light(const Scene& scene, std::uint32_t triangle, const glm::dvec
     return std::abs(glm::dot(normal, to_light)) / (glm::length(normal) * glm::length(to_light));
 }
 
-int angle_group(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point) {
-    const double sine = sine_to_light(scene, triangle, point);
+int angle_group(double sine) {
     return sine > 0 ? std::min(static_cast<int>(sine * angle_groups), angle_groups - 1) : 0;
 }
 
@@ -29,7 +28,8 @@ glm::dvec3 color_at(const Picture& picture, std::size_t pixel) {
 std::uint32_t color_label(const Scene& scene, const RayTruth& seen, const glm::dvec3& direction) {
     if (seen.triangle == no_triangle) return 0;
     const glm::dvec3 point = scene.camera.eye + seen.depth * direction;
-    const auto group = static_cast<std::uint32_t>(angle_group(scene, seen.triangle, point));
+    const auto group =
+        static_cast<std::uint32_t>(angle_group(sine_to_light(scene, seen.triangle, point)));
     const std::uint32_t lit = seen.visibility == Visibility::lit ? 1 : 0;
     return 1 + 2 * (angle_groups * mesh_of(scene, seen.triangle) + group) + lit;
 }

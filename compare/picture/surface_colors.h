@@ -18,9 +18,8 @@ inline constexpr int angle_groups = 24;
 /// the point is the light, or the triangle has no area in double.
 double sine_to_light(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);
 
-/// The group of a triangle at a point of it. 0 where the point is the light, or the triangle has no
-/// area in double.
-int angle_group(const Scene& scene, std::uint32_t triangle, const glm::dvec3& point);
+/// The group of a sine; 0 where it is not a number.
+int angle_group(double sine);
 
 /// Of gray pictures, three times the gray.
 glm::dvec3 color_at(const Picture& picture, std::size_t pixel);
