@@ -59,6 +59,28 @@ Predict with_light_moved(const Trial& trial, const glm::dvec3& by) {
     });
 }
 
+struct LightMove {
+    glm::dvec3 by{0, 0, 0};
+    std::int64_t score = 0;
+};
+
+/// The best of all steps along the axes, again and again; steps halve where none is better.
+LightMove climbed(Trial& trial, const std::array<glm::dvec3, 3>& axes, double step) {
+    constexpr int rounds = 16; // of six predictions
+    LightMove best;
+    for (int round = 0; round < rounds; ++round) {
+        const LightMove from = best;
+        for (const glm::dvec3& axis : axes)
+            for (const double sign : {-1.0, 1.0}) {
+                const glm::dvec3 by = from.by + sign * step * axis;
+                const std::int64_t score = trial.fit(with_light_moved(trial, by)).score();
+                if (score > best.score) best = {by, score};
+            }
+        if (best.score == from.score) step /= 2;
+    }
+    return best;
+}
+
 } // namespace
 
 void try_operations(Trial& trial) {
@@ -132,9 +154,10 @@ void try_one_sided(Trial& trial) {
                        }));
 }
 
-/// Steps to what is seen and across that halve where none is better: across, shadows move; towards
-/// it they only grow. The first are a tenth of the light's distance; or, of a directional one, of
-/// its direction.
+/// Steps across the way to what is seen, and along it: across, shadows move; towards it they only
+/// grow. The first are a tenth of the light's distance, or of its direction where it is
+/// directional; and a hundredth, from where a small move is not taken for a larger one along the
+/// way.
 void try_moved_light(Trial& trial) {
     const Scene& scene = trial.scene();
     const Light& light = chosen_light(scene);
@@ -150,26 +173,13 @@ void try_moved_light(Trial& trial) {
     const glm::dvec3 hint = std::abs(towards.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
     const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
-    double step = 0.1 * glm::length(way);
-    glm::dvec3 by(0);
-    std::int64_t score = 0;
-    constexpr int rounds =
-        20; // of six predictions at most; steps end below a thousandth of the way
-    for (int round = 0; round < rounds; ++round) {
-        bool better = false;
-        for (const glm::dvec3& axis : axes)
-            for (const double sign : {-1.0, 1.0}) {
-                const glm::dvec3 tried = by + sign * step * axis;
-                const std::int64_t found = trial.fit(with_light_moved(trial, tried)).score();
-                if (found <= score) continue;
-                score = found;
-                by = tried;
-                better = true;
-                break;
-            }
-        if (!better) step /= 2;
+    LightMove best;
+    for (const double share : {0.1, 0.01}) {
+        const LightMove found = climbed(trial, axes, share * glm::length(way));
+        if (found.score > best.score) best = found;
     }
-    if (score > 0)
+    const glm::dvec3& by = best.by;
+    if (best.score > 0)
         trial.consider(
             "light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
             fmt::format("the light is moved by ({:.3g}, {:.3g}, {:.3g})", by.x, by.y, by.z),

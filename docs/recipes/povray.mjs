@@ -1,0 +1,124 @@
+// Renders a scene with POV-Ray, which traces its shadows, and is a second opinion on the truth:
+//
+//   shadowproof check my.glb --renderer 'node povray.mjs {scene} {view} {out} {unlit}' --name povray
+//
+// Needs POV-Ray 3.7 (Debian: povray; POVRAY names another) and `npm install @gltf-transform/core
+// @gltf-transform/extensions` in the current folder (or the one that MODULES names). Skins and morph
+// targets are not posed, and files with compressed geometry are not read.
+import { spawnSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+
+const [scene, viewFile, out, unlit] = process.argv.slice(2);
+const require = createRequire(join(resolve(process.env.MODULES ?? '.'), 'recipe.js'));
+const { NodeIO } = require('@gltf-transform/core');
+const { ALL_EXTENSIONS } = require('@gltf-transform/extensions');
+const view = JSON.parse(readFileSync(viewFile, 'utf8'));
+
+const vector = (v) => `<${v.join(',')}>`;
+const scaled = (v, by) => v.map((x) => x * by);
+const column = (matrix, i) => matrix.slice(4 * i, 4 * i + 3);
+const transformed = (m, [x, y, z]) =>
+  [0, 1, 2].map((k) => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]);
+const document = await new NodeIO().registerExtensions(ALL_EXTENSIONS).read(scene);
+
+// Shadows of what lies nearer than a fixed length, some thousandths, are lost in POV-Ray: so the scene
+// is made large. It knows nothing that is further away than ten million.
+const large = 1e5;
+const units = large / largestCoordinate();
+function largestCoordinate() {
+  const all = [...column(view.camera.matrix, 3), ...view.light.position ?? []];
+  for (const node of document.getRoot().listNodes())
+    for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
+      const positions = primitive.getAttribute('POSITION');
+      for (let i = 0; i < positions.getCount(); ++i)
+        all.push(...transformed(node.getWorldMatrix(), positions.getElement(i, [])));
+    }
+  return all.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+}
+const inUnits = (point) => scaled(point, units);
+
+const less = (a, b) => a.map((x, k) => x - b[k]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+
+/** Triangles of a primitive, as three points in world space. */
+function trianglesOf(primitive, matrix) {
+  const positions = primitive.getAttribute('POSITION');
+  const indices = primitive.getIndices();
+  const corners = indices ? indices.getCount() : positions.getCount();
+  const points = Array.from({ length: positions.getCount() },
+                            (_, i) => inUnits(transformed(matrix, positions.getElement(i, []))));
+  const point = (i) => points[indices ? indices.getScalar(i) : i];
+  return Array.from({ length: Math.floor(corners / 3) },
+                    (_, i) => [point(3 * i), point(3 * i + 1), point(3 * i + 2)]);
+}
+
+function mesh(triangles, words) {
+  if (triangles.length === 0) return '';
+  const each = triangles.map((corners) => `triangle { ${corners.map(vector).join(', ')} }`);
+  return `mesh { ${each.join('\n')} texture { White } ${words} }\n`;
+}
+
+/** Where a triangle's back is towards the camera, a single-sided one is not seen, but casts. */
+function surfaces() {
+  const seen = [];
+  const hidden = [];
+  const root = document.getRoot();
+  const shown = root.getDefaultScene() ?? root.listScenes()[0];
+  shown.traverse((node) => {
+    const matrix = node.getWorldMatrix();
+    for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
+      if (primitive.getMode() !== 4) continue; // 4: triangles
+      const doubleSided = primitive.getMaterial()?.getDoubleSided() ?? false;
+      for (const [a, b, c] of trianglesOf(primitive, matrix)) {
+        const isFront = dot(cross(less(b, a), less(c, a)), less(eye, a)) > 0;
+        (doubleSided || isFront ? seen : hidden).push([a, b, c]);
+      }
+    }
+  });
+  return mesh(seen, '') + mesh(hidden, 'no_image no_reflection');
+}
+
+function lightSource({ kind, position, direction, outer_cone_degrees: cone }) {
+  if (kind === 'directional') {
+    const away = 10 * large; // beyond all that casts
+    return `light_source { ${vector(scaled(direction, -away))} rgb 1 parallel point_at <0,0,0> }`;
+  }
+  const from = inUnits(position);
+  if (kind !== 'spot') return `light_source { ${vector(from)} rgb 1 }`;
+  const at = from.map((x, k) => x + large * direction[k]);
+  return `light_source { ${vector(from)} rgb 1 spotlight point_at ${vector(at)}
+    radius ${cone} falloff ${cone} tightness 0 }`;
+}
+
+function camera({ matrix, yfov }) {
+  const height = 2 * Math.tan(yfov / 2);
+  return `camera { perspective location ${vector(eye)}
+    right ${vector(scaled(column(matrix, 0), height * view.width / view.height))}
+    up ${vector(scaled(column(matrix, 1), height))} direction ${vector(scaled(column(matrix, 2), -1))} }`;
+}
+
+const eye = inUnits(column(view.camera.matrix, 3));
+const still = `#version 3.7; global_settings { assumed_gamma 1 } background { rgb 0 }
+#declare White = texture { pigment { rgb 1 } finish { ambient 0.1 diffuse 0.6 } }
+${camera(view.camera)}
+${surfaces()}
+`;
+const folder = mkdtempSync(join(tmpdir(), 'povray-'));
+try {
+  for (const [file, light] of [[out, lightSource(view.light)], [unlit, '']]) {
+    if (!file) continue;
+    const source = join(folder, 'scene.pov');
+    writeFileSync(source, still + light);
+    const run = spawnSync(process.env.POVRAY ?? 'povray',
+      [`+I${source}`, `+O${file}`, `+W${view.width}`, `+H${view.height}`, '-D', '-A', '+FN8', '-GA'],
+      { encoding: 'utf8' });
+    if (run.error) throw run.error;
+    if (run.status !== 0) throw new Error(run.stderr);
+  }
+} finally {
+  rmSync(folder, { recursive: true });
+}
