@@ -21,20 +21,37 @@ Counting behind(const std::function<void(Counting&)>& change) {
     return counting;
 }
 
+void try_bits(Trial& trial, const VolumeCounts& counts) {
+    const DepthModel model = without_far_plane(trial.scene().camera.near);
+    const auto of_bits = [&](int bits) {
+        return counts.predict(behind([&](Counting& c) { c.bits = bits; }), model,
+                              trial.traced().far());
+    };
+    // What several explain alike is the one with most bits: stencil buffers have eight.
+    int best = 0;
+    std::int64_t best_score = 0;
+    for (int bits = 8; bits > 0; --bits) {
+        const std::int64_t score = trial.fit(of_bits(bits)).score();
+        if (score <= best_score) continue;
+        best = bits;
+        best_score = score;
+    }
+    if (best > 0)
+        trial.consider("stencil_bits", {{"bits", best}},
+                       fmt::format("a counter of {} bit{} that wraps", best, best == 1 ? "" : "s"),
+                       of_bits(best));
+}
+
 } // namespace
 
 void try_counters(Trial& trial, const VolumeCounts& counts) {
     const DepthModel model = without_far_plane(trial.scene().camera.near);
     const double far = trial.traced().far();
+    try_bits(trial, counts);
     trial.consider("missing_cap", {{"light_cap", 0}}, "z-fail without light caps",
                    counts.predict(behind([](Counting& c) { c.light_cap = false; }), model, far));
     trial.consider("missing_cap", {{"dark_cap", 0}}, "z-fail without dark caps",
                    counts.predict(behind([](Counting& c) { c.dark_cap = false; }), model, far));
-    for (const int bits : {1, 2, 3, 4})
-        trial.consider("stencil_bits", {{"bits", bits}},
-                       fmt::format("a counter of {} that wraps",
-                                   bits == 1 ? "1 bit" : fmt::format("{} bits", bits)),
-                       counts.predict(behind([&](Counting& c) { c.bits = bits; }), model, far));
 }
 
 void try_near_plane(Trial& trial, const VolumeCounts& counts) {
