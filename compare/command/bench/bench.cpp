@@ -97,7 +97,7 @@ bool measure_scenes(BenchWork work) {
     bool complete = true;
     const Stopwatch stopwatch;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        work.place = place_in_run(i, scenes.size(), stopwatch.milliseconds() / 1000);
+        work.console.begin_part(place_in_run(i, scenes.size(), stopwatch.milliseconds() / 1000));
         try {
             complete = measure_as_piece(work, scenes[i]) && complete;
             continue;
@@ -113,6 +113,7 @@ bool measure_scenes(BenchWork work) {
                       [](const BenchPoint& point) { return point.samples.empty(); });
         complete = false;
     }
+    work.console.begin_part("");
     return complete;
 }
 

@@ -114,9 +114,8 @@ const BenchPoint* add_point(BenchTrial& trial, const Technique& technique,
     if (known == nullptr || work.pictures != nullptr) {
         const std::string named = name_of_point(technique, settings);
         work.console.progress(fmt::format(
-            "{}{}: technique {} of {}, judging {}{}", work.place, trial.name, trial.judged + 1,
-            trial.to_judge, named,
-            time_left(trial.judged, trial.to_judge, trial.judging.milliseconds() / 1000)));
+            "{}: technique {} of {}, judging {}{}", trial.name, trial.judged + 1, trial.to_judge,
+            named, time_left(trial.judged, trial.to_judge, trial.judging.milliseconds() / 1000)));
         JudgedPoint judged = work.pieces.piece("judging " + named, [&] {
             warm = true;
             return judge_point(trial, technique, point);
@@ -356,10 +355,10 @@ void measure(BenchTrial& trial) {
                      [&](const std::vector<double>& each) { return is_done(each, limits); });
                  const BenchPoint& point = run.points[trial.first + i];
                  work.console.progress(
-                     fmt::format("{}{}: {} of {} points done, sample {} of {} {}; at most {:.0f} s "
+                     fmt::format("{}: {} of {} points done, sample {} of {} {}; at most {:.0f} s "
                                  "for the scene",
-                                 work.place, trial.name, done, samples.size(),
-                                 samples[i].size() + 1, point.technique, words_of(point.settings),
+                                 trial.name, done, samples.size(), samples[i].size() + 1,
+                                 point.technique, words_of(point.settings),
                                  std::max(0.0, limits.seconds - stopwatch.milliseconds() / 1000)));
              },
          .after_round =
@@ -395,7 +394,7 @@ void print_points(const BenchWork& work, const std::string& scene) {
 
 bool measure_scene(const BenchWork& work, const std::string& argument) {
     const BenchOptions& options = work.options;
-    work.console.progress(work.place + argument + ": reading");
+    work.console.progress(argument + ": reading");
     const Scene scene = work.pieces.step(
         argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     require_scene(options.scene.memory, scene, Workload::comparison);
@@ -414,7 +413,7 @@ bool measure_scene(const BenchWork& work, const std::string& argument) {
         print_points(work, name);
         return true;
     }
-    work.console.progress(work.place + name + ": tracing");
+    work.console.progress(name + ": tracing");
     SceneResult result;
     std::optional<Tracer> traced;
     work.pieces.step(name + ": tracing", [&] {

@@ -20,7 +20,6 @@ struct BenchWork {
     const BenchRun* kept; ///< an earlier run to go on with; null: none
     BenchKeeper& keeper;
     PointPictures* pictures = nullptr; ///< null: none are kept
-    std::string place{}; ///< before each line of progress: "scene 2 of 37, about 300 s left: "
 };
 
 /// The truth is computed once and shared by all points. Each is drawn once to warm up, and judged

@@ -4,6 +4,7 @@
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
 #include "compare/command/pieces/report_archive.h"
+#include "compare/command/process/place_in_run.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
@@ -76,11 +77,15 @@ int check(const CheckOptions& options, const std::filesystem::path& rendered, do
     report.gl = {"none", "none", DepthModel{}.subpixel_bits, 0, 0};
     report.gate = options.gate.gate;
     const Run run{options, baseline, memory, console, folder, rendered, report.scenes};
-    for (const std::string& scene : options.scenes)
+    for (const std::string& scene : options.scenes) {
+        console.begin_part(place_in_run(report.scenes.size(), options.scenes.size(),
+                                        stopwatch.milliseconds() / 1000));
         report.scenes.push_back(
             options.renderer.empty()
                 ? judged_scene(run, {scene, options.pictures, options.mask, options.unlit, {}})
                 : rendered_scene(run, scene));
+    }
+    console.begin_part("");
     report.embree = embree_version(); // starts Embree: no worker is started any more
     console.progress("writing " + options.output.out);
     report.milliseconds = waited + stopwatch.milliseconds();

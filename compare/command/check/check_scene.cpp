@@ -170,6 +170,8 @@ Judged check_picture(const CheckWork& work, const TracedScene& traced, const Sce
                      const Pictures& pictures, std::size_t i) {
     const CheckOptions& options = work.options;
     const Cell begun = begin_cell(options, work.inputs, i, pictures.size, result.cells);
+    if (const std::size_t count = work.inputs.pictures.size(); count > 1)
+        work.console.begin_part(fmt::format("picture {} of {}: ", i + 1, count));
     work.console.progress(begun.technique + ": judging");
     try {
         return work.pieces.piece(begun.technique, [&] {

@@ -86,7 +86,7 @@ void Console::take_over() {
 
 void Console::progress(const std::string& text) {
     if (quiet_ || muted_) return;
-    const std::string shown = printable(text);
+    const std::string shown = printable(place_ + text);
     if (watcher_ >= 0) tell(watcher_, shown);
     if (!terminal_) return;
     clear_progress();

@@ -6,6 +6,7 @@
 #include "compare/report/report.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -21,6 +22,8 @@ public:
 
     /// What is being done now; the next call of any kind replaces it.
     void progress(const std::string& text);
+    /// Where in a run of several things it is, before all that follows: "scene 2 of 5: ".
+    void begin_part(std::string place) { place_ = std::move(place); }
     /// Clears the progress line.
     void clear_progress();
     /// Clears the progress line of another process, which has ended.
@@ -55,6 +58,7 @@ private:
     bool terminal_ = false;
     bool color_ = false;
     bool progress_shown_ = false;
+    std::string place_{};
 };
 
 } // namespace shadowproof

@@ -82,9 +82,11 @@ StressRun stress_scenes(const StressOptions& options, Console& console, PointPic
                     .pictures = options.pictures ? &pictures : nullptr};
     const std::vector<std::string> scenes = scenes_to_stress(options);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (scenes.size() > 1) work.place = fmt::format("scene {} of {}: ", i + 1, scenes.size());
+        if (scenes.size() > 1)
+            work.console.begin_part(fmt::format("scene {} of {}: ", i + 1, scenes.size()));
         run.scenes.push_back(scene_or_error(work, scenes[i]));
     }
+    work.console.begin_part("");
     return run;
 }
 

@@ -148,8 +148,7 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     const StressWork& work = sweep.work;
     const std::string place = place_of(stress);
     const auto progress = [&](std::string_view what) {
-        work.console.progress(
-            fmt::format("{}{}{}: {}: {}", work.place, sweep.name, sweep.place, place, what));
+        work.console.progress(fmt::format("{}{}: {}: {}", sweep.name, sweep.place, place, what));
     };
     progress("tracing");
     require_scene(work.options.scene.memory, scene, Workload::comparison);
@@ -316,7 +315,7 @@ std::vector<const StressParameter*> asked_parameters(const StressOptions& option
 
 StressScene stress_scene(const StressWork& work, const std::string& argument) {
     const StressOptions& options = work.options;
-    work.console.progress(work.place + argument + ": reading");
+    work.console.progress(argument + ": reading");
     const Scene scene = work.pieces.step(
         argument + ": reading", [&] { return load_scene(argument, options.scene.request()); });
     StressScene described = describe(work.run, scene, argument);

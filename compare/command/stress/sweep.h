@@ -20,7 +20,6 @@ struct StressWork {
     Pieces& pieces;
     StressRun& run;                    ///< grows by scenes
     PointPictures* pictures = nullptr; ///< null: none are kept
-    std::string place{};               ///< before each line of progress: "scene 2 of 37: "
 };
 
 /// The scene with a point for each value, and where techniques break, which is printed. A scene

@@ -39,10 +39,9 @@ struct Run {
     const WorkerSetup& setup;
     Gpu& gpu;
     std::vector<SceneResult>& scenes; ///< so far
-    std::string place{};              ///< of the scene among all, for the line of progress
 
     /// Says what is done with a scene.
-    void progress(const std::string& what) const { setup.console.progress(place + what); }
+    void progress(const std::string& what) const { setup.console.progress(what); }
 };
 
 /// A cell, judged and written.
@@ -334,9 +333,11 @@ VerifiedScenes try_scenes(const WorkerSetup& setup) {
     Run run{setup, *gpu, verified.scenes};
     const std::vector<std::string> scenes = scenes_to_verify(setup.options);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        run.place = place_in_run(i, scenes.size(), setup.stopwatch.milliseconds() / 1000);
+        setup.console.begin_part(
+            place_in_run(i, scenes.size(), setup.stopwatch.milliseconds() / 1000));
         verified.report_milliseconds += done_scene(run, scenes[i]);
     }
+    setup.console.begin_part("");
     return verified;
 }
 

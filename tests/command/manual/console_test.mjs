@@ -1,5 +1,6 @@
 // What the console says by default, with -v, and at the end of a long run.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -52,4 +53,26 @@ test('a short run, a single scene and a quiet run have no list of worst cells', 
   for (const args of [['near_plane', 'ordinary', '--technique', 'zpass,zfail'], ['near_plane'],
                       ['near_plane', 'ordinary', '-q']])
     assert.doesNotMatch(shadowproof(['verify', ...args, ...small]).out, /worst cells/);
+});
+
+/** What a terminal gets, a line of progress each. */
+function onTerminal(...words) {
+  const command = [process.env.SHADOWPROOF, ...words].map((word) => `'${word}'`).join(' ');
+  const run = spawnSync('script', ['-qec', command, '/dev/null'],
+                        { cwd: scratch, encoding: 'utf8', env: { ...process.env, TERM: 'xterm' } });
+  assert.equal(run.status, 0, run.stdout);
+  return run.stdout.split(/[\r\n]+/).map((line) => line.replaceAll('\x1b[K', ''));
+}
+
+test('on a terminal each step says which of how many scenes or pictures it is about', () => {
+  const says = (lines, wanted) => assert.ok(lines.some((line) => wanted.test(line)), lines.join('\n'));
+  const verified = onTerminal('verify', 'ordinary', 'sun', '--technique', 'zfail', ...small);
+  says(verified, /^scene 1 of 2: ordinary: tracing$/);
+  says(verified, /^scene 2 of 2, about \d+ s left: sun: tracing$/);
+  for (const name of ['a.png', 'b.png'])
+    assert.equal(shadowproof(['render', 'ordinary', ...small, '-o', name, '-q']).code, 0);
+  const checked = onTerminal('check', 'ordinary', 'a.png', 'b.png', ...small);
+  says(checked, /^picture 1 of 2: a: judging$/);
+  says(checked, /^picture 2 of 2: b: judging$/);
+  says(checked, /^writing report$/);
 });
