@@ -43,7 +43,8 @@ std::optional<FittedBias> fitted_bias(const Trial& trial, const std::vector<Ligh
     for (std::size_t i = 0; i + 1 < thresholds.size(); ++i) {
         score += thresholds[i].gain;
         const double middle = (thresholds[i].excess + thresholds[i + 1].excess) / 2;
-        if (!std::isfinite(middle) || (best && score <= best->score)) continue;
+        const bool is_tie = thresholds[i].excess == thresholds[i + 1].excess;
+        if (is_tie || !std::isfinite(middle) || (best && score <= best->score)) continue;
         best = {like, score};
         best->bias.constant = middle;
     }

@@ -44,7 +44,10 @@ void consider_cube(Trial& trial, const LightSampling& view, const MapBias& bias)
 void add_bias(MapWords& words, const MapBias& bias) {
     words.parameters.emplace_back("bias", bias.constant);
     words.text += fmt::format(", bias {:.3g}", bias.constant);
-    if (bias.of == BiasOf::depth) words.text += " of depth";
+    if (bias.of == BiasOf::depth) {
+        words.parameters.emplace_back("depth", 1);
+        words.text += " of depth";
+    }
     if (bias.of == BiasOf::inverse_depth) {
         words.parameters.emplace_back("inverse_depth", 1);
         words.text += " of inverse depth";
@@ -142,8 +145,10 @@ void try_cube_maps(Trial& trial) {
     constexpr int largest = 8192;
     LightSampling ended; // at the range that explains something by itself
     if (const Parameters* found = trial.best_of("shadow_map")) {
-        ended.range = found->front().second;
-        if (found->size() > 1) ended.beyond_range = Visibility::shadowed;
+        for (const auto& [name, value] : *found) {
+            if (name == "range") ended.range = value;
+            if (name == "dark_outside") ended.beyond_range = Visibility::shadowed;
+        }
     }
     std::optional<FittedBias> best;
     LightSampling best_view;

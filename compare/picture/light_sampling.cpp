@@ -101,7 +101,8 @@ double slope_of(const Scene& from_light, const Lookup& at, std::uint32_t triangl
         std::max(std::abs(glm::dot(normal, at.axes.right)), std::abs(glm::dot(normal, at.axes.up)));
     const double along = directional ? glm::dot(normal, at.axes.forward)
                                      : glm::dot(normal, a - chosen_light(from_light).position);
-    return at.side * across / std::abs(along);
+    const double slope = at.side * across / std::abs(along);
+    return std::isfinite(slope) ? slope : 0; // seen edge-on
 }
 
 /// Whether a side of a caster that the light sees is drawn.

@@ -25,7 +25,7 @@ std::vector<MapPixel> pixels_of(const Trial& trial, const LightAxes& axes, Visib
     std::vector<MapPixel> pixels;
     for (int y = 0; y < truth.height; ++y)
         for (int x = 0; x < truth.width; ++x)
-            if (truth.at(x, y) == truly && trial.is_told(x, y))
+            if (truth.at(x, y) == truly && trial.is_decidable(x, y))
                 pixels.push_back({place_from_light(chosen_light(trial.scene()), axes,
                                                    seen_point(trial.traced(), x, y)),
                                   trial.frame().claim.at(x, y) == truly});

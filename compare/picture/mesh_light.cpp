@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
@@ -18,10 +19,16 @@ constexpr std::size_t enough = 16; // not a few pixels of an outline
 /// whether it is more than half of what light adds: with four, that may be off by a quarter.
 constexpr double fewest_steps = 4;
 
+/// What a share of the values do not reach.
+double quantile(std::vector<double> values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
 double median(std::vector<double> values) {
-    const auto middle = values.begin() + std::ssize(values) / 2;
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return quantile(std::move(values), 0.5);
 }
 
 std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
@@ -97,10 +104,7 @@ std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
 double sine_at(const AngleGroup& pixels, double share) {
     std::vector<double> sines;
     for (const Observed* pixel : pixels) sines.push_back(pixel->sine);
-    const auto at =
-        sines.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sines.size() - 1));
-    std::nth_element(sines.begin(), at, sines.end());
-    return *at;
+    return quantile(std::move(sines), share);
 }
 
 /// The darker of two groups of pixels, but where the light only falls on it at a lower angle.
@@ -110,29 +114,23 @@ std::vector<glm::dvec3> darker_group(const AngleGroup& group, double step) {
     return values_of(two->dark, [](const Observed&) { return true; });
 }
 
-/// The typical colour of pixels certainly in shadow, where the picture shows at some angle that lit
-/// ones are brighter.
+/// The typical colour of pixels certainly in shadow, of the angles at which the picture shows them
+/// darker than lit ones.
 std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double step) {
     std::vector<glm::dvec3> all;
-    for (const AngleGroup& group : groups)
-        for (const glm::dvec3& value : values_of(group, [](const Observed& pixel) {
-                 return pixel.certainly == Visibility::shadowed;
-             }))
-            all.push_back(value);
-    if (all.size() < enough) return std::nullopt;
-    const Typical shadow = *typical(all);
     for (const AngleGroup& group : groups) {
         const auto dark = values_of(
             group, [](const Observed& pixel) { return pixel.certainly == Visibility::shadowed; });
         const auto bright = values_of(
             group, [](const Observed& pixel) { return pixel.certainly == Visibility::lit; });
         if (dark.size() < enough || bright.size() < enough) continue;
+        const Typical shadow = *typical(dark);
         const glm::dvec3 lit = typical(bright)->color;
         if (brightness(lit) > brightness(shadow.color) &&
             glm::distance(lit, shadow.color) > fewest_steps * step + 4 * shadow.scatter)
-            return shadow;
+            all.insert(all.end(), dark.begin(), dark.end());
     }
-    return std::nullopt;
+    return typical(all);
 }
 
 /// The slope of the logarithm of light over that of distance, by least squares, each angle for
@@ -158,7 +156,8 @@ double fall_off_of(const MeshLight& mesh, std::span<const AngleGroup> lit) {
             product += away * (light[i] - typical_light);
         }
     }
-    return square > 0 ? std::max(-product / square, 0.0) : 0;
+    const double slope = square > 0 ? -product / square : 0;
+    return std::isfinite(slope) ? std::max(slope, 0.0) : 0;
 }
 
 std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
@@ -204,6 +203,9 @@ MeshLight fitted_light(std::span<const Observed> pixels, bool are_differences) {
     AngleGroups groups;
     std::vector<double> steps;
     for (const Observed& pixel : pixels) {
+        if (!std::isfinite(brightness(pixel.value)) ||
+            (pixel.faces_light && !std::isfinite(pixel.sine)))
+            continue;
         steps.push_back(pixel.step);
         if (pixel.faces_light)
             groups[static_cast<std::size_t>(angle_group(pixel.sine))].push_back(&pixel);
@@ -211,7 +213,7 @@ MeshLight fitted_light(std::span<const Observed> pixels, bool are_differences) {
             averted.push_back(pixel.value);
     }
     MeshLight mesh;
-    if (pixels.empty()) return mesh;
+    if (steps.empty()) return mesh;
     if (are_differences)
         mesh.shadow = Typical{};
     else

@@ -16,6 +16,7 @@ struct Observed {
     /// where that is more than a few steps: so surfaces of all colours are alike.
     glm::dvec3 value{0, 0, 0};
     double step = 0;          ///< what a step of the file's integers changes `value` by; 0: floats
+    bool is_ratio = false;    ///< `value` is a difference over the twin's brightness
     double sine = 0;          ///< of the angle at which the light falls
     double distance = 1;      ///< from the light; 1 where it is directional
     bool faces_light = false; ///< others are dark in any case

@@ -65,10 +65,10 @@ struct LightMove {
 };
 
 /// The best of all steps along the axes, again and again; steps halve where none is better.
-LightMove climbed(Trial& trial, const std::array<glm::dvec3, 3>& axes, double step) {
+LightMove climbed(Trial& trial, const std::array<glm::dvec3, 3>& axes, double step, double least) {
     constexpr int rounds = 16; // of six predictions
     LightMove best;
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0; round < rounds && step >= least; ++round) {
         const LightMove from = best;
         for (const glm::dvec3& axis : axes)
             for (const double sign : {-1.0, 1.0}) {
@@ -162,9 +162,8 @@ void try_moved_light(Trial& trial) {
     const Scene& scene = trial.scene();
     const Light& light = chosen_light(scene);
     const Image<double>& depths = trial.truth().depth;
-    const std::size_t middle =
-        depths.pixels.size() / 2 + static_cast<std::size_t>(depths.width) / 2;
-    const double depth = std::min(depths.pixels[middle], trial.traced().far());
+    const double depth =
+        std::min(depths.at(depths.width / 2, depths.height / 2), trial.traced().far());
     const glm::dvec3 point = scene.camera.eye + depth * scene.camera.forward;
     const bool directional = light.kind == Light::Kind::directional;
     const glm::dvec3 way = directional ? light.direction : point - light.position;
@@ -173,9 +172,11 @@ void try_moved_light(Trial& trial) {
     const glm::dvec3 hint = std::abs(towards.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
     const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
+    constexpr double finest = 2e-4; // moves shadows by less than most pixels
     LightMove best;
     for (const double share : {0.1, 0.01}) {
-        const LightMove found = climbed(trial, axes, share * glm::length(way));
+        const LightMove found =
+            climbed(trial, axes, share * glm::length(way), finest * glm::length(way));
         if (found.score > best.score) best = found;
     }
     const glm::dvec3& by = best.by;

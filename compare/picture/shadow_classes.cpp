@@ -6,6 +6,8 @@
 #include "scenes/camera.h"
 #include "scenes/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,6 +23,11 @@ namespace {
 double step_of(const Picture& picture, const std::optional<Picture>& twin) {
     const int bits = twin ? std::min(picture.bits, twin->bits) : picture.bits;
     return bits < 32 ? std::sqrt(3.0) / (std::exp2(bits) - 1) : 0;
+}
+
+/// The same of floats, of a colour: Radiance files have eight bits, which is fewer than others.
+double float_step(const glm::dvec3& color) {
+    return glm::length(color) / 256;
 }
 
 /// Pixels from an outline of the truth that soft shadows, and outlines that are a little elsewhere,
@@ -106,13 +113,18 @@ void observe(const Picture& picture, const std::optional<Picture>& twin, SeenPix
         if (!pixels.pixels[i]) continue;
         Observed& observed = pixels.pixels[i]->observed;
         observed.value = color_at(picture, i);
-        observed.step = step;
+        observed.step = std::max(step, picture.bits < 32 ? 0 : float_step(observed.value));
         if (!twin) continue;
         observed.value -= color_at(*twin, i);
-        if (dark.at(pixels.pixels[i]->mesh) <= few * step) continue;
-        const double own = std::max(glm::length(color_at(*twin, i)) + offset, step);
+        const double typical = dark.at(pixels.pixels[i]->mesh);
+        if (typical <= few * step) continue;
+        // Black parts of a texture are as dark as the file tells, or nearly.
+        constexpr double black = 1e-3;
+        const double own =
+            std::max({glm::length(color_at(*twin, i)) + offset, step, black * typical});
         observed.value /= own;
         observed.step /= own;
+        observed.is_ratio = true;
     }
 }
 
@@ -123,52 +135,23 @@ std::map<std::uint32_t, MeshLight> light_by_mesh(const SeenPixels& pixels, bool 
     std::map<std::uint32_t, MeshLight> meshes;
     for (const auto& [mesh, observed] : by_mesh)
         meshes[mesh] = fitted_light(observed, are_differences);
-    if (!are_differences) return meshes;
-    // A mesh that the picture shows all in shadow would be as bright as others are.
+    // A mesh that the picture shows all in shadow would be as bright as others are, if light is
+    // measured by what surfaces are without it.
     std::vector<Observed> all;
     for (const auto& [mesh, observed] : by_mesh)
-        if (!meshes.at(mesh).light.empty()) all.insert(all.end(), observed.begin(), observed.end());
+        if (observed.front().is_ratio && !meshes.at(mesh).light.empty())
+            all.insert(all.end(), observed.begin(), observed.end());
     const MeshLight common = fitted_light(all, true);
     for (auto& [mesh, light] : meshes)
-        if (light.light.empty()) light = common;
+        if (light.light.empty() && by_mesh.at(mesh).front().is_ratio) light = common;
     return meshes;
 }
 
-/// How much weaker light is around a pixel than the mesh's own at the same angles: of pixels around
-/// that are certainly lit and are not dark, all but a tenth have as much. 1 where there are too
-/// few, or it is not weaker. Light falls off, and highlights are not everywhere.
-double local_light(const SeenPixels& pixels, const MeshLight& light, std::uint32_t mesh, int x,
-                   int y) {
-    constexpr int reach = 8;
-    constexpr std::size_t enough = 8;
-    std::vector<double> shares;
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, pixels.height - 1); v += 2)
-        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, pixels.width - 1); u += 2) {
-            const std::optional<Seen>& other = pixels.at(u, v);
-            if (!other || other->mesh != mesh || other->observed.certainly != Visibility::lit)
-                continue;
-            const Observed& observed = other->observed;
-            const auto there = light.light_at(observed);
-            const double above = light.above_shadow(observed.value);
-            if (there && above > light.least_difference(observed.step))
-                shares.push_back(above / *there);
-        }
-    if (shares.size() < enough) return 1;
-    const auto tenth = shares.begin() + std::ssize(shares) / 10;
-    std::nth_element(shares.begin(), tenth, shares.end());
-    return std::min(*tenth, 1.0);
-}
-
 /// Where between shadow (0) and light (1) a pixel lies; nothing where they cannot be told apart.
-std::optional<double> lit_share(const SeenPixels& pixels, const MeshLight& light, int x, int y) {
-    constexpr double surely_lit = 0.75;
-    const Seen& seen = *pixels.at(x, y);
-    const auto there = light.light_at(seen.observed);
+std::optional<double> lit_share(const Observed& observed, const MeshLight& light) {
+    const auto there = light.light_at(observed);
     if (!there) return std::nullopt;
-    const double above = light.above_shadow(seen.observed.value);
-    const double share = above / *there;
-    if (share >= surely_lit || above <= light.least_difference(seen.observed.step)) return share;
-    return share / local_light(pixels, light, seen.mesh, x, y);
+    return light.above_shadow(observed.value) / *there;
 }
 
 bool is_one_color(const Picture& picture) {
@@ -208,6 +191,14 @@ bool is_antialiased(const TracedScene& traced, const PicturedShadows& shadows) {
 
 } // namespace
 
+std::string advice_on_undecidable(bool with_twin) {
+    if (with_twin)
+        return "the light adds too little to the unlit picture; see that it is of the same view, "
+               "without the light alone";
+    return "give a second picture of the same view without the light (--unlit), or one that is "
+           "black where shadowed (--mask)";
+}
+
 Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
                    const std::optional<Picture>& twin) {
     const bool is_mask = !files.mask.empty();
@@ -241,7 +232,7 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
             if (is_mask)
                 share = color_at(picture, truth.index(x, y)).g;
             else
-                share = lit_share(pixels, meshes.at(seen->mesh), x, y);
+                share = lit_share(seen->observed, meshes.at(seen->mesh));
             if (!share) {
                 ++shadows.undecidable;
                 continue;
@@ -253,8 +244,7 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
         }
     if (decided == 0)
         throw Error(files.picture, "does not tell light from shadow at any pixel",
-                    "give a second picture of the same view without the light (--unlit), or one "
-                    "that is black where shadowed (--mask)");
+                    advice_on_undecidable(twin.has_value()));
     shadows.antialiased = is_antialiased(traced, shadows);
     return frame;
 }

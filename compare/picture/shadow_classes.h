@@ -1,6 +1,5 @@
 // The shadows that a picture shows: which of its pixels are lit, which are shadowed, and which are
-// undecided. No threshold is tuned: light and shadow are what the picture itself shows where the
-// truth knows them.
+// undecided. Light and shadow are what the picture itself shows where the truth knows them.
 #pragma once
 
 #include "reference/predict/traced_scene.h"
@@ -16,14 +15,14 @@ namespace shadowproof {
 struct PictureFiles {
     std::string picture;
     std::string mask;  ///< black where shadowed, white where lit; empty: none
-    std::string unlit; ///< without the light, or without its shadows; empty: none
+    std::string unlit; ///< without the light; empty: none
 };
 
 /// A claim of family "picture". `picture`, and `twin` where there is one, have the size of the
 /// scene's camera. By `mask` the picture itself is black and white.
 ///
 /// Each mesh has its own colours of shadow and of light (fitted_light). A pixel is lit or shadowed,
-/// whichever is nearer; beside weaker light, by what is around it. It is undecided where
+/// whichever is nearer. It is undecided where
 ///   - its surface faces away from the light, which is dark whatever the picture does;
 ///   - the picture does not tell what shadow or light looks like there;
 ///   - light adds too little (MeshLight::least_difference).
@@ -32,5 +31,8 @@ struct PictureFiles {
 /// from shadow.
 Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
                    const std::optional<Picture>& twin);
+
+/// What to do about a picture that does not.
+std::string advice_on_undecidable(bool with_twin);
 
 } // namespace shadowproof

@@ -16,7 +16,8 @@ ShadowSteps shadow_steps(const Trial& trial, const LightAxes& axes) {
     found.axes = axes;
     std::vector<double> apart;
     const auto add = [&](int x, int y, int u, int v) {
-        if (claim.at(x, y) == claim.at(u, v) || !trial.is_told(x, y) || !trial.is_told(u, v) ||
+        if (claim.at(x, y) == claim.at(u, v) || !trial.is_decidable(x, y) ||
+            !trial.is_decidable(u, v) ||
             trial.truth().triangle.at(x, y) != trial.truth().triangle.at(u, v))
             return;
         const glm::dvec2 a(place_from_light(light, axes, seen_point(trial.traced(), x, y)));

@@ -17,8 +17,6 @@ namespace shadowproof {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 TexelPlane plane_of(const LightAxes& axes, const Wave& wave) {
     const auto turns = [](const std::complex<double>& mean) {
         return std::arg(mean) / (2 * std::numbers::pi);

@@ -37,7 +37,7 @@ bool Trial::is_right(int x, int y) const {
     return cause_.at(x, y) == no_difference && frame_.pictured->decided.at(x, y) != 0;
 }
 
-bool Trial::is_told(int x, int y) const {
+bool Trial::is_decidable(int x, int y) const {
     return (is_wrong(x, y) || is_right(x, y)) && may_be_lit(traced_, cause_.index(x, y));
 }
 
@@ -84,8 +84,11 @@ Fit Trial::fit(const Predict& predict) {
 
 void Trial::consider(std::string hypothesis, Parameters parameters, std::string words,
                      Predict predict) {
+    constexpr std::int64_t least_share = 20; // of the wrong pixels: less is chance
     const Fit found = fit(predict);
-    if (found.score() <= 0) return;
+    if (found.score() <= 0 ||
+        found.score() * least_share < static_cast<std::int64_t>(sampled_wrong_))
+        return;
     considered_.push_back({{std::move(hypothesis), std::move(parameters), 0, 0, std::move(words)},
                            found,
                            std::move(predict)});

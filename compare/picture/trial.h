@@ -45,7 +45,7 @@ public:
     bool is_wrong(int x, int y) const;
     bool is_right(int x, int y) const; ///< decided, and no difference
     /// Right or wrong, and not dark whatever the shadows are.
-    bool is_told(int x, int y) const;
+    bool is_decidable(int x, int y) const;
     /// Whether some wrong pixels lie between light and shadow.
     bool is_soft() const;
     /// Where hypotheses are compared before the best are predicted for the whole picture.
@@ -53,7 +53,8 @@ public:
 
     /// On the sample.
     Fit fit(const Predict& predict);
-    /// Adds the hypothesis if it explains more of the sample than it contradicts.
+    /// Adds the hypothesis if it explains a twentieth of the sample's wrong pixels more than it
+    /// contradicts.
     void consider(std::string hypothesis, Parameters parameters, std::string words,
                   Predict predict);
     /// Considers the best value of a parameter between two, which are positive. They are tried in

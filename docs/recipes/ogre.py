@@ -16,6 +16,7 @@ import os
 import struct
 import sys
 from pathlib import Path
+from urllib.parse import unquote
 
 import Ogre
 
@@ -37,13 +38,15 @@ def read_gltf(file):
         elif uri.startswith("data:"):
             buffers.append(base64.b64decode(uri.split(",", 1)[1]))
         else:
-            buffers.append((file.parent / uri).read_bytes())
+            buffers.append((file.parent / unquote(uri)).read_bytes())
     return gltf, buffers
 
 
 def accessor(gltf, buffers, index):
     """An accessor's elements, as tuples."""
     described = gltf["accessors"][index]
+    if "bufferView" not in described or "sparse" in described or described.get("normalized"):
+        sys.exit("ogre.py: sparse, compressed and quantized geometry is not read")
     view = gltf["bufferViews"][described["bufferView"]]
     letter = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
     count = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[described["type"]]
@@ -75,9 +78,19 @@ def matrix_of(node):
     return columns + [[*node.get("translation", (0, 0, 0)), 1]]
 
 
+# Of a mode of glTF the places of triangle i's corners.
+CORNERS = {
+    4: lambda i: (3 * i, 3 * i + 1, 3 * i + 2),
+    5: lambda i: (i, i + 1, i + 2) if i % 2 == 0 else (i, i + 2, i + 1),  # a strip
+    6: lambda i: (i + 1, i + 2, 0),  # a fan
+}
+
+
 def primitives(gltf):
     """Each primitive of triangles of the file's scene, and its world matrix."""
-    roots = gltf["scenes"][gltf.get("scene", 0)]["nodes"]
+    if not gltf.get("scenes"):
+        sys.exit("ogre.py: the file has no scene")
+    roots = gltf["scenes"][gltf.get("scene", 0)].get("nodes", [])
     waiting = [(index, matrix_of({})) for index in roots]
     while waiting:
         index, parent = waiting.pop()
@@ -86,8 +99,14 @@ def primitives(gltf):
         waiting += [(child, world) for child in node.get("children", [])]
         if "mesh" in node:
             for primitive in gltf["meshes"][node["mesh"]]["primitives"]:
-                if primitive.get("mode", 4) == 4:
+                if primitive.get("mode", 4) in CORNERS and "POSITION" in primitive["attributes"]:
                     yield primitive, world
+
+
+def is_mirrored(m):
+    """Whether triangles are turned over: the determinant is negative."""
+    x, y, z = (Ogre.Vector3(*m[c][:3]) for c in range(3))
+    return x.crossProduct(y).dotProduct(z) < 0
 
 
 def normal_of(a, b, c):
@@ -102,17 +121,22 @@ def add_mesh(manager, gltf, buffers, primitive, world, name):
               for p in accessor(gltf, buffers, primitive["attributes"]["POSITION"])]
     if "indices" in primitive:
         points = [points[i] for i, in accessor(gltf, buffers, primitive["indices"])]
+    mode = primitive.get("mode", 4)
+    count = len(points) // 3 if mode == 4 else len(points) - 2
+    if count < 1:
+        return
     two_sided = gltf["materials"][primitive["material"]].get("doubleSided", False) \
         if "material" in primitive else False
     made = manager.createManualObject(name)
     made.begin("White2" if two_sided else "White1", Ogre.RenderOperation.OT_TRIANGLE_LIST)
-    for i in range(0, len(points) - 2, 3):
-        corners = points[i:i + 3]
+    for i in range(count):
+        a, b, c = (points[k] for k in CORNERS[mode](i))
+        corners = (a, c, b) if is_mirrored(world) else (a, b, c)
         normal = normal_of(*corners)
         for point in corners:
             made.position(point)
             made.normal(normal)
-        made.triangle(i, i + 1, i + 2)
+        made.triangle(3 * i, 3 * i + 1, 3 * i + 2)
     made.end()
     mesh = made.convertToMesh(name)
     mesh.buildEdgeList()  # it finds corners at one place
@@ -173,7 +197,10 @@ def main():
     root = Ogre.Root("", "", "")
     plugins = "/usr/lib/*/OGRE"
     for name in ("RenderSystem_GL", "Codec_STBI"):
-        root.loadPlugin(glob.glob(f"{plugins}/{name}.so*")[0])
+        found = glob.glob(f"{plugins}/{name}.so*")
+        if not found:
+            sys.exit(f"ogre.py: {name} is not in {plugins}; install python3-ogre-1.12")
+        root.loadPlugin(found[0])
     root.setRenderSystem(root.getAvailableRenderers()[0])
     root.initialise(False)
     options = Ogre.NameValuePairList()

@@ -23,6 +23,8 @@ const column = (matrix, i) => matrix.slice(4 * i, 4 * i + 3);
 const transformed = (m, [x, y, z]) =>
   [0, 1, 2].map((k) => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]);
 const document = await new NodeIO().registerExtensions(ALL_EXTENSIONS).read(scene);
+const shown = document.getRoot().getDefaultScene() ?? document.getRoot().listScenes()[0];
+if (!shown) throw new Error(`${scene} has no scene`);
 
 // Shadows of what lies nearer than a fixed length, some thousandths, are lost in POV-Ray: so the scene
 // is made large. It knows nothing that is further away than ten million.
@@ -30,12 +32,13 @@ const large = 1e5;
 const units = large / largestCoordinate();
 function largestCoordinate() {
   const all = [...column(view.camera.matrix, 3), ...view.light.position ?? []];
-  for (const node of document.getRoot().listNodes())
+  shown.traverse((node) => {
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const positions = primitive.getAttribute('POSITION');
-      for (let i = 0; i < positions.getCount(); ++i)
+      for (let i = 0; i < (positions?.getCount() ?? 0); ++i)
         all.push(...transformed(node.getWorldMatrix(), positions.getElement(i, [])));
     }
+  });
   return all.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
 }
 const inUnits = (point) => scaled(point, units);
@@ -44,16 +47,29 @@ const less = (a, b) => a.map((x, k) => x - b[k]);
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-/** Triangles of a primitive, as three points in world space. */
+/** Of a mode of glTF the places of triangle i's corners; what is no triangles has none. */
+const cornersOf = {
+  4: (i) => [3 * i, 3 * i + 1, 3 * i + 2],
+  5: (i) => (i % 2 === 0 ? [i, i + 1, i + 2] : [i, i + 2, i + 1]), // a strip
+  6: (i) => [i + 1, i + 2, 0], // a fan
+};
+
+/** Triangles of a primitive, as three points in world space. A mirrored node turns them over. */
 function trianglesOf(primitive, matrix) {
   const positions = primitive.getAttribute('POSITION');
+  const corners = cornersOf[primitive.getMode()];
+  if (!positions || !corners) return [];
   const indices = primitive.getIndices();
-  const corners = indices ? indices.getCount() : positions.getCount();
+  const count = indices ? indices.getCount() : positions.getCount();
   const points = Array.from({ length: positions.getCount() },
                             (_, i) => inUnits(transformed(matrix, positions.getElement(i, []))));
-  const point = (i) => points[indices ? indices.getScalar(i) : i];
-  return Array.from({ length: Math.floor(corners / 3) },
-                    (_, i) => [point(3 * i), point(3 * i + 1), point(3 * i + 2)]);
+  const columns = [0, 1, 2].map((i) => column(matrix, i));
+  const isMirrored = dot(cross(columns[0], columns[1]), columns[2]) < 0;
+  const triangles = primitive.getMode() === 4 ? Math.floor(count / 3) : Math.max(count - 2, 0);
+  return Array.from({ length: triangles }, (_, i) => {
+    const [a, b, c] = corners(i).map((k) => points[indices ? indices.getScalar(k) : k]);
+    return isMirrored ? [a, c, b] : [a, b, c];
+  });
 }
 
 function mesh(triangles, words) {
@@ -66,12 +82,9 @@ function mesh(triangles, words) {
 function surfaces() {
   const seen = [];
   const hidden = [];
-  const root = document.getRoot();
-  const shown = root.getDefaultScene() ?? root.listScenes()[0];
   shown.traverse((node) => {
     const matrix = node.getWorldMatrix();
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
-      if (primitive.getMode() !== 4) continue; // 4: triangles
       const doubleSided = primitive.getMaterial()?.getDoubleSided() ?? false;
       for (const [a, b, c] of trianglesOf(primitive, matrix)) {
         const isFront = dot(cross(less(b, a), less(c, a)), less(eye, a)) > 0;

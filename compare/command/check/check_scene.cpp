@@ -118,6 +118,22 @@ struct Judged {
 
 SHADOWPROOF_SEND_ALL(Judged, cell, said, rest, controls)
 
+/// Nothing wrong is no agreement where most pixels are undecidable. `wrong`: 1 where a pixel is.
+void require_decided(const Frame& frame, const Image<std::uint8_t>& wrong,
+                     const SceneInputs& inputs, std::size_t i) {
+    const std::vector<std::uint8_t>& flags = frame.pictured->decided.pixels;
+    const auto decided =
+        static_cast<std::uint64_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
+    const std::uint64_t undecidable = frame.pictured->undecidable;
+    if (undecidable <= decided ||
+        std::find(wrong.pixels.begin(), wrong.pixels.end(), 1) != wrong.pixels.end())
+        return;
+    throw Error(inputs.pictures[i],
+                fmt::format("tells light from shadow at {} of {} pixels that face the light",
+                            grouped(decided), grouped(decided + undecidable)),
+                advice_on_undecidable(!inputs.unlit.empty()));
+}
+
 /// No wrong pixel of a picture is excused.
 void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
                    const TracedScene& traced, std::size_t i, const Pictures& pictures,
@@ -137,6 +153,7 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
         cell.comparison = classify(traced, cell.frame, *family);
         cell.verdict = judge(traced.scene(), {}, {}, cell.comparison);
         Diagnosed diagnosed{{}, wrong_pixels(cell.comparison)};
+        require_decided(cell.frame, diagnosed.left, inputs, i);
         if (options.diagnosis) {
             console.progress(cell.technique + ": diagnosis");
             diagnosed = diagnose(traced, cell.frame, cell.comparison.cause);
