@@ -20,14 +20,16 @@ constexpr std::size_t enough = 16; // not a few pixels of an outline
 constexpr double fewest_steps = 4;
 
 /// What a share of the values do not reach.
-double quantile(std::vector<double> values, double share) {
+template <class T>
+T quantile(std::vector<T> values, double share) {
     const auto at = values.begin() +
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
 
-double median(std::vector<double> values) {
+template <class T>
+T median(std::vector<T> values) {
     return quantile(std::move(values), 0.5);
 }
 
@@ -102,7 +104,7 @@ std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
 
 /// The sine that a share of the pixels do not reach.
 double sine_at(const AngleGroup& pixels, double share) {
-    std::vector<double> sines;
+    std::vector<float> sines;
     for (const Observed* pixel : pixels) sines.push_back(pixel->sine);
     return quantile(std::move(sines), share);
 }
@@ -198,26 +200,26 @@ std::optional<double> MeshLight::light_at(const Observed& pixel) const {
     return added;
 }
 
-MeshLight fitted_light(std::span<const Observed> pixels, bool are_differences) {
+MeshLight fitted_light(std::span<const Observed* const> pixels, bool are_differences) {
     std::vector<glm::dvec3> averted;
     AngleGroups groups;
-    std::vector<double> steps;
-    for (const Observed& pixel : pixels) {
-        if (!std::isfinite(brightness(pixel.value)) ||
-            (pixel.faces_light && !std::isfinite(pixel.sine)))
+    std::vector<float> steps;
+    for (const Observed* const pixel : pixels) {
+        if (!std::isfinite(brightness(pixel->value)) ||
+            (pixel->faces_light && !std::isfinite(pixel->sine)))
             continue;
-        steps.push_back(pixel.step);
-        if (pixel.faces_light)
-            groups[static_cast<std::size_t>(angle_group(pixel.sine))].push_back(&pixel);
+        steps.push_back(pixel->step);
+        if (pixel->faces_light)
+            groups[static_cast<std::size_t>(angle_group(pixel->sine))].push_back(pixel);
         else
-            averted.push_back(pixel.value);
+            averted.push_back(pixel->value);
     }
     MeshLight mesh;
     if (steps.empty()) return mesh;
     if (are_differences)
         mesh.shadow = Typical{};
     else
-        mesh.shadow = shadow_of(groups, averted, median(steps));
+        mesh.shadow = shadow_of(groups, averted, median(std::move(steps)));
     if (!mesh.shadow) return mesh;
     for (AngleGroup& group : groups) // what is lit
         std::erase_if(group, [&](const Observed* pixel) {
@@ -226,13 +228,14 @@ MeshLight fitted_light(std::span<const Observed> pixels, bool are_differences) {
     mesh.fall_off = fall_off_of(mesh, groups);
     for (const AngleGroup& group : groups) {
         std::vector<double> added;
-        std::vector<double> sines;
+        std::vector<float> sines;
         for (const Observed* pixel : group) {
             added.push_back(mesh.above_shadow(pixel->value) *
                             std::pow(pixel->distance, mesh.fall_off));
             sines.push_back(pixel->sine);
         }
-        if (!added.empty()) mesh.light.push_back({median(sines), median(added)});
+        if (!added.empty())
+            mesh.light.push_back({median(std::move(sines)), median(std::move(added))});
     }
     return mesh;
 }

@@ -15,10 +15,10 @@ struct Observed {
     /// The picture's colour. Of a pair, how it differs from the twin's, over the twin's brightness
     /// where that is more than a few steps: so surfaces of all colours are alike.
     glm::dvec3 value{0, 0, 0};
-    double step = 0;          ///< what a step of the file's integers changes `value` by; 0: floats
+    float step = 0;           ///< what a step of the file's integers changes `value` by
+    float sine = 0;           ///< of the angle at which the light falls
+    float distance = 1;       ///< from the light; 1 where it is directional
     bool is_ratio = false;    ///< `value` is a difference over the twin's brightness
-    double sine = 0;          ///< of the angle at which the light falls
-    double distance = 1;      ///< from the light; 1 where it is directional
     bool faces_light = false; ///< others are dark in any case
     /// Truly, and so are all pixels around, so that no outline of another renderer has it
     /// otherwise.
@@ -59,6 +59,6 @@ struct MeshLight {
 ///   - else the darker of two groups into which pixels at one angle fall.
 /// Light is the typical colour of what is brighter, angle by angle, and as it falls off with
 /// distance.
-MeshLight fitted_light(std::span<const Observed> pixels, bool are_differences);
+MeshLight fitted_light(std::span<const Observed* const> pixels, bool are_differences);
 
 } // namespace shadowproof

@@ -48,9 +48,9 @@ std::optional<Seen> seen_at(const TracedScene& traced, int x, int y) {
     seen.mesh = mesh_of(scene, triangle);
     const glm::dvec3 point = seen_point(traced, x, y);
     const Light& light = chosen_light(scene);
-    seen.observed.sine = sine_to_light(scene, triangle, point);
+    seen.observed.sine = static_cast<float>(sine_to_light(scene, triangle, point));
     if (light.kind != Light::Kind::directional)
-        seen.observed.distance = glm::distance(point, light.position);
+        seen.observed.distance = static_cast<float>(glm::distance(point, light.position));
     seen.observed.faces_light = sides_of(traced.tracer(), triangle).faces_light();
     return seen;
 }
@@ -113,7 +113,9 @@ void observe(const Picture& picture, const std::optional<Picture>& twin, SeenPix
         if (!pixels.pixels[i]) continue;
         Observed& observed = pixels.pixels[i]->observed;
         observed.value = color_at(picture, i);
-        observed.step = std::max(step, picture.bits < 32 ? 0 : float_step(observed.value));
+        const double own_step =
+            picture.bits < 32 ? step : std::max(step, float_step(observed.value));
+        observed.step = static_cast<float>(own_step);
         if (!twin) continue;
         observed.value -= color_at(*twin, i);
         const double typical = dark.at(pixels.pixels[i]->mesh);
@@ -123,27 +125,33 @@ void observe(const Picture& picture, const std::optional<Picture>& twin, SeenPix
         const double own =
             std::max({glm::length(color_at(*twin, i)) + offset, step, black * typical});
         observed.value /= own;
-        observed.step /= own;
+        observed.step = static_cast<float>(own_step / own);
         observed.is_ratio = true;
     }
 }
 
 std::map<std::uint32_t, MeshLight> light_by_mesh(const SeenPixels& pixels, bool are_differences) {
-    std::map<std::uint32_t, std::vector<Observed>> by_mesh;
+    std::map<std::uint32_t, std::vector<const Observed*>> by_mesh;
     for (const std::optional<Seen>& seen : pixels.pixels)
-        if (seen) by_mesh[seen->mesh].push_back(seen->observed);
+        if (seen) by_mesh[seen->mesh].push_back(&seen->observed);
     std::map<std::uint32_t, MeshLight> meshes;
     for (const auto& [mesh, observed] : by_mesh)
         meshes[mesh] = fitted_light(observed, are_differences);
     // A mesh that the picture shows all in shadow would be as bright as others are, if light is
     // measured by what surfaces are without it.
-    std::vector<Observed> all;
+    const auto lacks_light = [&](std::uint32_t mesh) {
+        return by_mesh.at(mesh).front()->is_ratio && meshes.at(mesh).light.empty();
+    };
+    if (std::none_of(by_mesh.begin(), by_mesh.end(),
+                     [&](const auto& each) { return lacks_light(each.first); }))
+        return meshes;
+    std::vector<const Observed*> all;
     for (const auto& [mesh, observed] : by_mesh)
-        if (observed.front().is_ratio && !meshes.at(mesh).light.empty())
+        if (observed.front()->is_ratio && !lacks_light(mesh))
             all.insert(all.end(), observed.begin(), observed.end());
     const MeshLight common = fitted_light(all, true);
     for (auto& [mesh, light] : meshes)
-        if (light.light.empty() && by_mesh.at(mesh).front().is_ratio) light = common;
+        if (lacks_light(mesh)) light = common;
     return meshes;
 }
 
