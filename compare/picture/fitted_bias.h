@@ -10,7 +10,7 @@
 
 namespace shadowproof {
 
-/// So many pixels more a setting must explain, or it is left out: chance explains some.
+/// A setting that explains fewer pixels more is left out: chance explains as many.
 inline constexpr std::int64_t least_gain = 4;
 
 struct FittedBias {

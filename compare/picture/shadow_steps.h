@@ -44,8 +44,8 @@ struct Wave {
 /// `count` waves, at equal distances of their frequencies.
 std::vector<Wave> waves_of(const ShadowSteps& steps, double first, double step, int count);
 
-/// `most` waves that stand out most among those around them, which no neighbour exceeds. Long waves
-/// are strong whatever the texels are, as shadows lie in a few places.
+/// The `most` waves that stand out most among those around them; none is exceeded by a neighbour.
+/// Strength alone does not tell: waves as long as the shadows are apart are always strong.
 std::vector<Wave> peaks(const std::vector<Wave>& waves, std::size_t most);
 
 } // namespace shadowproof

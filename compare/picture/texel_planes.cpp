@@ -3,15 +3,12 @@
 #include "scenes/shadow_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 namespace shadowproof {
 

@@ -1,6 +1,6 @@
 // Shadow maps in one plane, of a spot or a directional light: how their texels lie, read off the
-// steps of a picture's shadows. Nobody says which way up such a map is, where it begins, and how
-// large its texels are.
+// steps of a picture's shadows. Neither file nor picture says which way up such a map is, where it
+// begins, and how large its texels are.
 #pragma once
 
 #include "compare/picture/light_sampling.h"
