@@ -19,9 +19,21 @@ namespace shadowproof {
 
 namespace {
 
+/// The bits that a picture was made with: 8, where each value of a file of 16 is one of 8.
+int bits_of(const Picture& picture) {
+    if (picture.bits != 16) return picture.bits;
+    constexpr float steps = 255;
+    constexpr float rounding = 1e-4F;
+    const bool is_of_bytes =
+        std::all_of(picture.values.begin(), picture.values.end(), [](float value) {
+            return std::abs(value * steps - std::round(value * steps)) < rounding;
+        });
+    return is_of_bytes ? 8 : 16;
+}
+
 /// What one step of the file's integers in all three channels changes a colour by; 0 of floats.
 double step_of(const Picture& picture, const std::optional<Picture>& twin) {
-    const int bits = twin ? std::min(picture.bits, twin->bits) : picture.bits;
+    const int bits = twin ? std::min(bits_of(picture), bits_of(*twin)) : bits_of(picture);
     return bits < 32 ? std::sqrt(3.0) / (std::exp2(bits) - 1) : 0;
 }
 

