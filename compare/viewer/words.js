@@ -64,12 +64,20 @@ function reasonOf(cell) {
   return `${said.join('. ')}.`;
 }
 
-/** The same settings and technique, for one pixel. Gates and files do not concern it. */
+/** A word of a shell's command, with quoted parts. */
+const shellWord = String.raw`(?:'[^']*'|\\.|[^\s'\\])+`;
+const ofNoPixel = ['mask', 'unlit', 'renderer', 'name', 'gate', 'allow', 'baseline', 'junit', 'json', 'out'];
+
+/**
+ * The same settings and technique, for one pixel. Gates and files do not concern it, nor do a
+ * renderer and its pictures.
+ */
 const explainCommand = (command, x, y) =>
   `${command.replace(/^(\S*shadowproof) verify /, '$1 explain ')
-    .replace(/^(\S*shadowproof) check ('[^']*'|\S+) ('[^']*'|\S+)( --(mask|unlit) ('[^']*'|\S+))?/,
+    .replace(new RegExp(`^(\\S*shadowproof) check (${shellWord})(?: (?!--)${shellWord})*`),
              '$1 explain $2')
-    .replace(/ --(gate|allow|baseline|junit|json|out) \S+/g, '')} --pixel ${x},${y}`;
+    .replace(new RegExp(` --(?:${ofNoPixel.join('|')}) ${shellWord}`, 'g'), '')
+    .replace(/ --no-alignment\b/, '')} --pixel ${x},${y}`;
 
 const contradictionOf = (truth, claim) => {
   if (truth === claim) return -1;

@@ -11,6 +11,7 @@ import { randomNumbers, seed } from './random.mjs';
 import { named } from './scripts.mjs';
 
 const { printed, printedPoint } = named(['numbers.js'], ['printed', 'printedPoint']);
+const { explainCommand } = named(['words.js'], ['explainCommand']);
 const size = '300x256'; // large enough for edges, and no square
 const scenes = ['near_plane', 'far_plane', 'eye_inside', 'ordinary'];
 
@@ -168,4 +169,13 @@ test('the explain command that the inspector gives is one that explains this pix
   const run = shadowproof(command.split(' ').slice(1));
   assert.equal(run.code, 0, run.err);
   await shown(page);
+});
+
+test('of a picture that a renderer made, too, it is a command about the scene alone', () => {
+  const commands = [
+    ["shadowproof check /a/sun.gltf --renderer 'node '\\''/x y.mjs'\\'' {scene} {out}' --name three --size 64x64",
+     'shadowproof explain /a/sun.gltf --size 64x64 --pixel 3,4'],
+    ["shadowproof check 'my scene.gltf' 'a b.png' --unlit 'o ff.png' --light 1 --no-alignment",
+     "shadowproof explain 'my scene.gltf' --light 1 --pixel 3,4"]];
+  for (const [command, wanted] of commands) assert.equal(explainCommand(command, 3, 4), wanted);
 });
