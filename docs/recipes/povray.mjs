@@ -7,14 +7,19 @@
 // targets are not posed, and files with compressed geometry are not read.
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
 
 const [scene, viewFile, out, unlit] = process.argv.slice(2);
-const require = createRequire(join(resolve(process.env.MODULES ?? '.'), 'recipe.js'));
-const { NodeIO } = require('@gltf-transform/core');
-const { ALL_EXTENSIONS } = require('@gltf-transform/extensions');
+/** A package's ES module, in the folder that was named. */
+function imported(name) {
+  const folder = join(resolve(process.env.MODULES ?? '.'), 'node_modules', name);
+  const { module } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+  return import(pathToFileURL(join(folder, module)));
+}
+const { NodeIO } = await imported('@gltf-transform/core');
+const { ALL_EXTENSIONS } = await imported('@gltf-transform/extensions');
 const view = JSON.parse(readFileSync(viewFile, 'utf8'));
 
 const vector = (v) => `<${v.join(',')}>`;
