@@ -37,7 +37,8 @@ install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/Containerfile
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
-install(FILES docs/recipes/three.mjs DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
+install(FILES docs/recipes/three.mjs docs/recipes/povray.mjs docs/recipes/ogre.py
+    DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
 install(FILES docs/results/near_plane.svg docs/results/thin_caster.svg docs/results/idle_casters.svg
     docs/results/walking_figure.svg DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/results)
 
