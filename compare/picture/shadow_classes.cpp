@@ -22,11 +22,13 @@ namespace {
 /// The bits that a picture was made with: 8, where each value of a file of 16 is one of 8.
 int bits_of(const Picture& picture) {
     if (picture.bits != 16) return picture.bits;
+    // Of 65535 steps each 257th is one of bytes, and others are at least a 257th of those away:
+    // half of that is far more than floats round by.
     constexpr float steps = 255;
-    constexpr float rounding = 1e-4F;
+    constexpr float half_way = 0.5F / 257;
     const bool is_of_bytes =
         std::all_of(picture.values.begin(), picture.values.end(), [](float value) {
-            return std::abs(value * steps - std::round(value * steps)) < rounding;
+            return std::abs(value * steps - std::round(value * steps)) < half_way;
         });
     return is_of_bytes ? 8 : 16;
 }
@@ -37,9 +39,9 @@ double step_of(const Picture& picture, const std::optional<Picture>& twin) {
     return bits < 32 ? std::sqrt(3.0) / (std::exp2(bits) - 1) : 0;
 }
 
-/// The same of floats, of a colour: Radiance files have eight bits, which is fewer than others.
-double float_step(const glm::dvec3& color) {
-    return glm::length(color) / 256;
+/// The same of floats, of a brightness: Radiance files have eight bits, which is fewer than others.
+double float_step(double brightness) {
+    return brightness / 256;
 }
 
 /// Pixels from an outline of the truth that soft shadows, and outlines that are a little elsewhere,
@@ -126,16 +128,15 @@ void observe(const Picture& picture, const std::optional<Picture>& twin, SeenPix
         Observed& observed = pixels.pixels[i]->observed;
         observed.value = color_at(picture, i);
         const double own_step =
-            picture.bits < 32 ? step : std::max(step, float_step(observed.value));
+            picture.bits < 32 ? step : std::max(step, float_step(glm::length(observed.value)));
         observed.step = static_cast<float>(own_step);
         if (!twin) continue;
         observed.value -= color_at(*twin, i);
         const double typical = dark.at(pixels.pixels[i]->mesh);
         if (typical <= few * step) continue;
-        // Black parts of a texture are as dark as the file tells, or nearly.
-        constexpr double black = 1e-3;
+        // Parts of a texture may be black: as dark as the file tells beside the rest.
         const double own =
-            std::max({glm::length(color_at(*twin, i)) + offset, step, black * typical});
+            std::max({glm::length(color_at(*twin, i)) + offset, step, float_step(typical)});
         observed.value /= own;
         observed.step = static_cast<float>(own_step / own);
         observed.is_ratio = true;
