@@ -1,5 +1,5 @@
-// Settings of the techniques that light bump maps: how vectors are normalised, and in which form
-// the bumps are stored.
+// Settings of the techniques that light bump maps: where the vectors are made and how they are
+// normalised, which tangents they are carried by, and in which form the bumps are stored.
 #pragma once
 
 #include "scenes/byte_blending.h"
@@ -34,6 +34,23 @@ enum class BumpForm : std::uint8_t {
     indexed,      ///< 16-bit indices into a table of normals
 };
 
+/// Where the vector to the light and the half-angle vector are made, of techniques that light in
+/// tangent space.
+enum class VectorOrigin : std::uint8_t {
+    per_pixel,        ///< carried into tangent space by the frame that is interpolated there
+    at_vertices,      ///< carried at the vertices, of any length, and interpolated
+    unit_at_vertices, ///< the same, normalised at the vertices too
+};
+
+/// Whose tangents a technique uses.
+enum class TangentSource : std::uint8_t {
+    vertices, ///< the asset's own, or those that MikkTSpace's rule averages at a vertex
+    polygons, ///< each triangle's, from its plane equations (polygon_tangents in tangents.h)
+};
+
+inline constexpr std::array all_vector_origins{
+    VectorOrigin::per_pixel, VectorOrigin::at_vertices, VectorOrigin::unit_at_vertices};
+inline constexpr std::array all_tangent_sources{TangentSource::vertices, TangentSource::polygons};
 inline constexpr std::array all_normalisations{Normalisation::exact, Normalisation::cube_map,
                                                Normalisation::newton_raphson};
 inline constexpr std::array all_bump_forms{BumpForm::as_given, BumpForm::height_field,
@@ -48,6 +65,28 @@ constexpr std::string_view name_of(Normalisation normalisation) {
         return "cube-map";
     case Normalisation::newton_raphson:
         return "newton-raphson";
+    }
+    return "";
+}
+
+constexpr std::string_view name_of(VectorOrigin origin) {
+    switch (origin) {
+    case VectorOrigin::per_pixel:
+        return "per-pixel";
+    case VectorOrigin::at_vertices:
+        return "at-vertices";
+    case VectorOrigin::unit_at_vertices:
+        return "unit-at-vertices";
+    }
+    return "";
+}
+
+constexpr std::string_view name_of(TangentSource source) {
+    switch (source) {
+    case TangentSource::vertices:
+        return "vertices";
+    case TangentSource::polygons:
+        return "polygons";
     }
     return "";
 }
@@ -74,6 +113,8 @@ struct LightingSettings {
     std::optional<int> cube_size{};    ///< 2 to largest_cube_size
     std::optional<int> newton_steps{}; ///< 0 to most_newton_steps
     std::optional<BumpForm> bump_form{};
+    std::optional<VectorOrigin> vectors{};
+    std::optional<TangentSource> tangents{};
 };
 
 /// How a technique computes its colours, from which they are predicted.
@@ -81,7 +122,9 @@ struct ColorModel {
     enum class Arithmetic : std::uint8_t {
         floating,     ///< 32-bit floats from beginning to end
         three_passes, ///< floats within a pass, 8 bits per channel between passes
-        combiners,    ///< one pass of register combiners: 8 bits and a sign after each stage
+        two_stages,   ///< three passes of register combiners with two general stages: 8 bits and a
+                      ///< sign after each stage, 8 bits per channel between passes
+        four_stages,  ///< one pass of register combiners with four general stages
     };
     /// The axes in which normals, tangents and the vectors to light and eye are given and
     /// normalised.
@@ -90,11 +133,19 @@ struct ColorModel {
     Axes axes = Axes::world;
     Normalisation normalisation = Normalisation::exact;
     BumpForm bump_form = BumpForm::as_given;
+    VectorOrigin vectors = VectorOrigin::per_pixel; ///< another only where `axes` is world
+    TangentSource tangents = TangentSource::vertices;
     bool reflects = false;                 ///< the scene's environment
     int cube_size = usual_cube_size;       ///< of Normalisation::cube_map
     int newton_steps = usual_newton_steps; ///< of Normalisation::newton_raphson
     ByteErrors bytes = llvmpipe_bytes;     ///< taken from the driver
 };
+
+/// Whether its vectors to light and eye are made as the truth's are, pixel by pixel. Others are off
+/// by nature, as far as a triangle is bent.
+constexpr bool makes_vectors_as_truth(const ColorModel& model) {
+    return model.vectors == VectorOrigin::per_pixel && model.tangents == TangentSource::vertices;
+}
 
 /// A technique's own model, except for what the user asked for.
 constexpr ColorModel with_settings(ColorModel model, const LightingSettings& settings) {
@@ -102,6 +153,9 @@ constexpr ColorModel with_settings(ColorModel model, const LightingSettings& set
     model.cube_size = settings.cube_size.value_or(model.cube_size);
     model.newton_steps = settings.newton_steps.value_or(model.newton_steps);
     model.bump_form = settings.bump_form.value_or(model.bump_form);
+    model.tangents = settings.tangents.value_or(model.tangents);
+    if (model.axes == ColorModel::Axes::world)
+        model.vectors = settings.vectors.value_or(model.vectors);
     return model;
 }
 

@@ -68,16 +68,16 @@ SeenPoint ColorJudge::point(int x, int y, const glm::dvec2& beside) const {
             frame_.claim.at(x, y) == Visibility::lit};
 }
 
-InputPoint ColorJudge::input_point(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return {pixel.shading, pixel.triangle, interpolated_at(scene_, pixel.triangle, spread)};
+InputPoint ColorJudge::input_at(const PixelPlace& pixel, const PixelSpread& spread) const {
+    return input_point(scene_, pixel.shading, pixel.triangle, spread);
 }
 
 Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return color_bound(frame_.color_model, budgeted_inputs(tables_, input_point(pixel, spread)));
+    return color_bound(frame_.color_model, budgeted_inputs(tables_, input_at(pixel, spread)));
 }
 
 Intervals ColorJudge::predicted(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return predicted_color(frame_.color_model, claimed_inputs(tables_, input_point(pixel, spread)));
+    return predicted_color(frame_.color_model, claimed_inputs(tables_, input_at(pixel, spread)));
 }
 
 /// View depth of the surface shown; where the truth is another, of its plane.
@@ -223,10 +223,11 @@ ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scr
 ColorTerms ColorJudge::weights(const Shading& shading, std::uint32_t triangle,
                                PixelSpread spread) const {
     const PixelPlace pixel{0, 0, shading, triangle};
-    const InputPoint centre = input_point(pixel, {.middle = shading.weights});
-    const InputPoint freed = input_point(pixel, spread);
+    const InputPoint centre = input_at(pixel, {.middle = shading.weights});
+    const InputPoint freed = input_at(pixel, spread);
     return weights_of(frame_.color_model, true_inputs(tables_, centre),
-                      claimed_inputs(tables_, centre), claimed_inputs(tables_, freed));
+                      lone_inputs(tables_, centre), claimed_inputs(tables_, centre),
+                      claimed_inputs(tables_, freed));
 }
 
 } // namespace shadowproof

@@ -65,7 +65,7 @@ private:
     std::uint32_t shown(int x, int y) const { return frame_.triangle.at(x, y); }
     double depth(int x, int y) const;
     ColorJudgement judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const;
-    InputPoint input_point(const PixelPlace& pixel, const PixelSpread& spread) const;
+    InputPoint input_at(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;

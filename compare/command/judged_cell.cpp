@@ -6,7 +6,22 @@
 #include "compare/memory.h"
 #include "raster/render.h"
 
+#include <algorithm>
+
 namespace shadowproof {
+
+namespace {
+
+/// Known causes, and what the user's settings have made another of: they may ask any technique that
+/// lights bumps for vectors that are off.
+std::vector<Cause> with_settings(std::vector<Cause> causes, const Frame& frame) {
+    if (!frame.color.pixels.empty() && !makes_vectors_as_truth(frame.color_model) &&
+        std::ranges::find(causes, Cause::shading) == causes.end())
+        causes.push_back(Cause::shading);
+    return causes;
+}
+
+} // namespace
 
 JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, const Plan& plan,
                        Gpu& gpu, const Wanted& wanted) {
@@ -23,8 +38,10 @@ JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, co
     cell.comparison = classify(traced, cell.frame, *family);
     refuse_blank(technique.name, traced.truth(), cell.frame,
                  pixels_of(cell.comparison, Cause::unexplained) > 0);
-    cell.verdict = judge(scene, technique.fails_at, technique.by_nature, cell.comparison);
-    cell.excused = excused_causes(scene, technique.fails_at, technique.by_nature, cell.comparison);
+    const std::vector<Cause> fails_at = with_settings(technique.fails_at, cell.frame);
+    const std::vector<Cause> by_nature = with_settings(technique.by_nature, cell.frame);
+    cell.verdict = judge(scene, fails_at, by_nature, cell.comparison);
+    cell.excused = excused_causes(scene, fails_at, by_nature, cell.comparison);
     if (wanted.strain) judged.strain = family->strain();
     if (!wanted.evidence) return judged;
     const Stopwatch stopwatch;

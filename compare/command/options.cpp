@@ -131,6 +131,23 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
             },
             "In which form bump maps are kept (each technique's own)")
         ->type_name(names_of(all_bump_forms, "|"));
+    command
+        .add_option_function<std::string>(
+            "--vectors",
+            [&](const std::string& text) {
+                settings.vectors = parse_setting(all_vector_origins, "--vectors", text);
+            },
+            "Where the vectors to light and eye are carried into tangent space (each technique's "
+            "own)")
+        ->type_name(names_of(all_vector_origins, "|"));
+    command
+        .add_option_function<std::string>(
+            "--tangents",
+            [&](const std::string& text) {
+                settings.tangents = parse_setting(all_tangent_sources, "--tangents", text);
+            },
+            "Whose tangents lighting uses (vertices)")
+        ->type_name(names_of(all_tangent_sources, "|"));
 }
 
 /// The least of numbers above zero.
@@ -393,6 +410,8 @@ std::vector<std::string> settings(const TechniqueSettings& asked) {
     if (lighting.cube_size) add("--cube-size", fmt::format("{}", *lighting.cube_size));
     if (lighting.newton_steps) add("--newton-steps", fmt::format("{}", *lighting.newton_steps));
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
+    if (lighting.vectors) add("--vectors", std::string(name_of(*lighting.vectors)));
+    if (lighting.tangents) add("--tangents", std::string(name_of(*lighting.tangents)));
     if (const std::optional<double>& extrusion = asked.volumes.extrusion)
         add("--extrusion", fmt::format("{}", *extrusion));
     const MapSettings& map = asked.map;

@@ -72,10 +72,10 @@ glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::
 }
 
 Interpolated interpolated_at(const Scene& scene, std::uint32_t triangle,
-                             const PixelSpread& spread) {
+                             std::span<const Surface, 3> corners, const PixelSpread& spread) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3& eye = scene.camera.eye;
-    const Surface* surface = &scene.surfaces[std::size_t{3} * triangle];
+    const Surface* surface = corners.data();
     const auto from_eye = at_corners([&](int k) { return corner(scene, triangle, k) - eye; });
     const auto way_to = [&](const glm::dvec3& from) {
         return (glm::dvec3(light) - light.w * eye) - light.w * from;

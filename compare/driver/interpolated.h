@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 namespace shadowproof {
 
@@ -40,6 +41,14 @@ struct Interpolated {
     PlaceRange decal_at{};
 };
 
-Interpolated interpolated_at(const Scene& scene, std::uint32_t triangle, const PixelSpread& spread);
+/// The three corners' surfaces, as the scene has them.
+inline std::span<const Surface, 3> corners_of(const std::vector<Surface>& surfaces,
+                                              std::uint32_t triangle) {
+    return std::span<const Surface, 3>(&surfaces[std::size_t{3} * triangle], 3);
+}
+
+/// `corners`: of the triangle, with what is interpolated.
+Interpolated interpolated_at(const Scene& scene, std::uint32_t triangle,
+                             std::span<const Surface, 3> corners, const PixelSpread& spread);
 
 } // namespace shadowproof

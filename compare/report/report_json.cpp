@@ -45,7 +45,9 @@ Json color_of(const ColorCheck& colors) {
                 {"p999", colors.bound_width.percentile999},
                 {"widest", colors.bound_width.widest}}},
               {"normalise", name_of(colors.model.normalisation)},
-              {"bumps", name_of(colors.model.bump_form)}};
+              {"bumps", name_of(colors.model.bump_form)},
+              {"vectors", name_of(colors.model.vectors)},
+              {"tangents", name_of(colors.model.tangents)}};
     if (colors.model.normalisation == Normalisation::cube_map)
         json["cube_size"] = colors.model.cube_size;
     if (colors.model.normalisation == Normalisation::newton_raphson)

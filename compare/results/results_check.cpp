@@ -168,7 +168,9 @@ void color(const JsonPlace& place) {
                    {"normalise", text},
                    {"cube_size", size, Need::optional},
                    {"newton_steps", count, Need::optional},
-                   {"bumps", text}});
+                   {"bumps", text},
+                   {"vectors", text, Need::optional},
+                   {"tangents", text, Need::optional}});
 }
 
 void failed_cell(const JsonPlace& place) {

@@ -18,11 +18,13 @@ const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
 
 const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pixel + 3));
 
-function modelWords({ normalise, cube_size: texels, newton_steps: steps, bumps }) {
+function modelWords({ normalise, cube_size: texels, newton_steps: steps, bumps, vectors, tangents }) {
   const how = texels ? ` of ${texels} texels a side`
     : steps !== undefined ? `, ${counted(steps, 'step')}` : '';
   return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}${how}`}, ` +
-    `bumps as ${bumps === 'as-given' ? 'given' : bumps}`;
+    `bumps as ${bumps === 'as-given' ? 'given' : bumps}` +
+    (vectors?.includes('vertices') ? `, vectors made ${vectors.replaceAll('-', ' ')}` : '') +
+    (tangents === 'polygons' ? ', tangents of polygons' : '');
 }
 
 /** How wide the intervals of right colours are; missing in results of older versions. */

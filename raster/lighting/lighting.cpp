@@ -4,6 +4,7 @@
 #include "scenes/error.h"
 #include "scenes/spot_cone.h"
 #include "scenes/surface/bump_forms.h"
+#include "scenes/surface/polygon_tangents.h"
 
 #include <algorithm>
 #include <array>
@@ -126,13 +127,21 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, const ColorModel
     if (model.bump_form == BumpForm::indexed) pass.normal_table = upload_normal_table(gl);
 }
 
-void upload_corners(const GlFunctions& gl, const Scene& scene, LightingPass& pass) {
+Buffer upload_surfaces(const GlFunctions& gl, const Scene& scene, TangentSource tangents) {
+    if (tangents == TangentSource::vertices)
+        return make_filled_buffer(gl, std::array{std::as_bytes(std::span(scene.surfaces))});
+    const std::vector<Surface> surfaces = surfaces_with_polygon_tangents(scene);
+    return make_filled_buffer(gl, std::array{std::as_bytes(std::span(surfaces))});
+}
+
+void upload_corners(const GlFunctions& gl, const Scene& scene, TangentSource tangents,
+                    LightingPass& pass) {
     std::vector<glm::vec3> positions;
     positions.reserve(scene.surfaces.size());
     for (const glm::uvec3& triangle : scene.triangles)
         for (int k = 0; k < 3; ++k) positions.push_back(scene.positions[triangle[k]]);
     pass.positions = make_filled_buffer(gl, std::array{std::as_bytes(std::span(positions))});
-    pass.surfaces = make_filled_buffer(gl, std::array{std::as_bytes(std::span(scene.surfaces))});
+    pass.surfaces = upload_surfaces(gl, scene, tangents);
     pass.corners = make_vertex_array(gl);
     const GLuint corners = pass.corners.name();
     gl.VertexArrayVertexBuffer(corners, 0, pass.positions.name(), 0, sizeof(glm::vec3));
@@ -220,19 +229,20 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
     bind(2, material.bump_map, material.bump_map == no_texture ? pass.white : bumps.texels, 14);
 }
 
-/// A fragment shader, preceded by constants for what is the same in all draws: llvmpipe runs both
-/// sides of a branch, whichever is taken.
-std::string with_constants(const ShaderText& fragment, const LightingPass& pass,
+/// A shader, preceded by constants for what is the same in all draws: llvmpipe runs both sides of a
+/// branch, whichever is taken.
+std::string with_constants(const ShaderText& shader, const LightingPass& pass,
                            const ColorModel& model) {
     constexpr std::string_view version = "#version 450 core\n";
-    assert(fragment.text.starts_with(version));
+    assert(shader.text.starts_with(version));
     unsigned forms = 0;
     for (const BumpMap& bumps : pass.bumps) forms |= 1U << static_cast<unsigned>(bumps.form);
     return std::string(version) +
            "const int normalisation = " + std::to_string(static_cast<int>(model.normalisation)) +
            ";\nconst int newton_steps = " + std::to_string(model.newton_steps) +
-           ";\nconst int forms_in_use = " + std::to_string(forms) + ";\n#line 2\n" +
-           std::string(fragment.text.substr(version.size()));
+           ";\nconst int forms_in_use = " + std::to_string(forms) +
+           ";\nconst int vectors = " + std::to_string(static_cast<int>(model.vectors)) +
+           ";\n#line 2\n" + std::string(shader.text.substr(version.size()));
 }
 
 LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
@@ -241,8 +251,11 @@ LightingProgram make_step(const GlFunctions& gl, const Scene& scene, const ClipT
     const glm::dmat3 axes = recipe.model.axes == ColorModel::Axes::eye
                                 ? view_from_eye_relative(scene.camera)
                                 : glm::dmat3(1);
+    const ShaderText corners = shader_file("lit.vert");
+    const std::string vertex = with_constants(corners, pass, recipe.model);
     const std::string fragment = with_constants(step.fragment, pass, recipe.model);
-    const std::array stages{shader_file("lit.vert"), ShaderText{step.fragment.file, fragment}};
+    const std::array stages{ShaderText{corners.file, vertex},
+                            ShaderText{step.fragment.file, fragment}};
     LightingProgram made{link(gl, stages), step.where, step.blend};
     set_transform(gl, made.program, transform);
     const TwoFloats eye = split(scene.camera.eye);
@@ -303,7 +316,7 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe) {
     assert(is_bump_lit(scene));
     LightingPass pass;
-    upload_corners(gl, scene, pass);
+    upload_corners(gl, scene, recipe.model.tangents, pass);
     make_runs(gl, scene, pass);
     upload_textures(gl, scene, recipe.model, pass);
     if (recipe.model.reflects) pass.environment = upload_environment(gl, scene);

@@ -48,6 +48,12 @@ std::span<const SweptSetting> swept_settings() {
             "bumps", names_of(all_bump_forms),
             [](const Frame& f, double) { return std::string(name_of(f.color_model.bump_form)); }},
         SweptSetting{
+            "vectors", names_of(all_vector_origins),
+            [](const Frame& f, double) { return std::string(name_of(f.color_model.vectors)); }},
+        SweptSetting{
+            "tangents", names_of(all_tangent_sources),
+            [](const Frame& f, double) { return std::string(name_of(f.color_model.tangents)); }},
+        SweptSetting{
             "extrusion",
             {},
             [](const Frame& f, double unit) { return length(f.counted->counting.extrusion, unit); },

@@ -37,8 +37,8 @@ void serialize(Archive& archive, GroundTruth& truth) {
 SHADOWPROOF_SEND_ALL(FirstDifference, x, y, cause)
 SHADOWPROOF_SEND_ALL(EvidenceCheck, equal, in_band, unexplained, first_x, first_y)
 SHADOWPROOF_SEND_ALL(ByteErrors, overwriting, multiplying, adding, rounds_before_blending)
-SHADOWPROOF_SEND_ALL(ColorModel, arithmetic, axes, normalisation, bump_form, reflects, cube_size,
-                     newton_steps, bytes)
+SHADOWPROOF_SEND_ALL(ColorModel, arithmetic, axes, normalisation, bump_form, vectors, tangents,
+                     reflects, cube_size, newton_steps, bytes)
 SHADOWPROOF_SEND_ALL(BoundWidth, median, percentile999, widest)
 
 template <class Archive>

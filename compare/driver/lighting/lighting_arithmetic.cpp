@@ -95,9 +95,14 @@ Intervals in_floats(const LightingInputs& in, const Ways& ways) {
     return color;
 }
 
+/// What the passes of diffuse light and of highlights send to the frame buffer, by channel.
+struct PassColors {
+    Intervals diffuse; ///< with the ambient light
+    Intervals highlight;
+};
+
 /// Three passes over a frame buffer of 8 bits (raster/techniques/bumps/bump_three_pass.cpp).
-Intervals in_passes(const LightingInputs& in, const Ways& ways) {
-    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
+Intervals blended(const PassColors& passes, const LightingInputs& in, const Ways& ways) {
     const ByteErrors& bytes = ways.bytes;
     const auto stored = [&](const Interval& a, double error) {
         return kept(cut(a, ways, 0, 1), ways.steps, error);
@@ -109,13 +114,10 @@ Intervals in_passes(const LightingInputs& in, const Ways& ways) {
     };
     Intervals color;
     for (std::size_t k = 0; k < 3; ++k) {
-        const int c = static_cast<int>(k);
-        const Interval light =
-            stored(around(in.ambient[c]) + in.radiance[k] * terms.diffuse, bytes.overwriting);
+        const Interval light = stored(passes.diffuse[k], bytes.overwriting);
         Interval sum = stored(light * about_to_blend(in.decal[k]), bytes.multiplying);
         if (in.lit) {
-            sum = sum + about_to_blend(
-                            rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss));
+            sum = sum + about_to_blend(passes.highlight[k]);
             // Sums of two bytes are bytes, but for a float's rounding.
             sum = bytes.rounds_before_blending ? cut(widened(sum, bytes.adding / 255), ways, 0, 1)
                                                : stored(sum, bytes.adding);
@@ -123,6 +125,18 @@ Intervals in_passes(const LightingInputs& in, const Ways& ways) {
         color[k] = clamped(sum, 0, 1);
     }
     return color;
+}
+
+/// Floats within a pass.
+Intervals in_float_passes(const LightingInputs& in, const Ways& ways) {
+    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
+    PassColors passes;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int c = static_cast<int>(k);
+        passes.diffuse[k] = around(in.ambient[c]) + in.radiance[k] * terms.diffuse;
+        passes.highlight[k] = rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss);
+    }
+    return blended(passes, in, ways);
 }
 
 /// A register of the combiners: 8 bits and a sign. Its inputs were computed in floats.
@@ -142,15 +156,54 @@ VectorRange in_bytes(const VectorRange& vector, const Ways& ways) {
     return bytes;
 }
 
-/// Four general combiner stages and the final one (raster/glsl/lighting/combiners.glsl), after
-/// Kilgard 2001.
-Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
+/// A number in a texture's byte.
+Interval in_byte(const Interval& a, const Ways& ways) {
+    return kept(rounded(cut(a, ways, 0, 1)), ways.steps);
+}
+
+/// Passes of two general combiner stages and the final one each (raster/glsl/lighting/
+/// two_stages.glsl).
+Intervals in_two_stages(const LightingInputs& in, const Ways& ways) {
     const auto q = [&](const Interval& a) { return in_register(a, ways); };
-    const auto byte = [&](const Interval& a) {
-        return kept(rounded(cut(a, ways, 0, 1)), ways.steps);
-    };
+    PassColors passes;
+    if (!in.lit) {
+        for (std::size_t k = 0; k < 3; ++k)
+            passes.diffuse[k] = around(in.ambient[static_cast<int>(k)]);
+        return blended(passes, in, ways);
+    }
+    const VectorRange bump = in_bytes(in.bump, ways);
+    const VectorRange light = in_bytes(in.light, ways);
+    const VectorRange half = in_bytes(in.half, ways);
+    // 0, of both passes
+    const auto shadow = [&](const VectorRange& a) { return clamped(q(8 * along_normal(a)), 0, 1); };
+    const Interval l_bump = q(dot(light, bump));
+    const Interval h_bump = q(dot(half, bump));
+    // 1
+    const Interval diffuse = q(not_negative(l_bump) * shadow(light));
+    const Interval power2 = q(squared(not_negative(h_bump)));
+    const HighlightShadow dims = ways.shadow(in);
+    const Interval dimmed = (by_half_angle(dims) ? shadow(half) : around(1)) *
+                            (by_light(dims) ? shadow(light) : around(1));
+    // The final stage, and one product more
+    const Interval power4 = q(squared(not_negative(power2)));
+    const Interval power8 = q(squared(not_negative(power4)));
+    const Interval gloss = in_byte(in.gloss, ways);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int c = static_cast<int>(k);
+        passes.diffuse[k] =
+            cut(q(diffuse * q(in.radiance[k]) + q(around(in.ambient[c]))), ways, 0, 1);
+        const Interval color = q(q(in.specular[c] * in.radiance[k]) * dimmed);
+        passes.highlight[k] = rounded(cut(q(color * not_negative(power8)), ways, 0, 1) * gloss);
+    }
+    return blended(passes, in, ways);
+}
+
+/// Four general combiner stages and the final one (raster/glsl/lighting/four_stages.glsl), after
+/// Kilgard 2001.
+Intervals in_four_stages(const LightingInputs& in, const Ways& ways) {
+    const auto q = [&](const Interval& a) { return in_register(a, ways); };
     Intervals color;
-    const Interval gloss = byte(in.gloss);
+    const Interval gloss = in_byte(in.gloss, ways);
     const VectorRange bump = in_bytes(in.bump, ways);
     const VectorRange light = in_bytes(in.light, ways);
     const VectorRange half = in_bytes(in.half, ways);
@@ -171,7 +224,7 @@ Intervals in_combiners(const LightingInputs& in, const Ways& ways) {
     const Interval highlight = q(half_shadow * not_negative(power8));
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
-        const Interval decal = byte(in.decal[k]);
+        const Interval decal = in_byte(in.decal[k], ways);
         if (!in.lit) {
             color[k] = clamped(
                 kept(around(in.ambient[c]) * in.decal[k], ways.steps, ways.bytes.overwriting), 0,
@@ -198,9 +251,11 @@ Intervals color_of(ColorModel::Arithmetic arithmetic, const LightingInputs& in, 
     case ColorModel::Arithmetic::floating:
         break;
     case ColorModel::Arithmetic::three_passes:
-        return in_passes(in, ways);
-    case ColorModel::Arithmetic::combiners:
-        return in_combiners(in, ways);
+        return in_float_passes(in, ways);
+    case ColorModel::Arithmetic::two_stages:
+        return in_two_stages(in, ways);
+    case ColorModel::Arithmetic::four_stages:
+        return in_four_stages(in, ways);
     }
     return in_floats(in, ways);
 }
@@ -209,7 +264,7 @@ Ways ways_of(const ColorModel& model) {
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
     if (arithmetic == ColorModel::Arithmetic::floating) return {};
     return {.steps = Steps::nearest,
-            .highlight_shadow = arithmetic == ColorModel::Arithmetic::combiners
+            .highlight_shadow = arithmetic == ColorModel::Arithmetic::four_stages
                                     ? HighlightShadow::both
                                     : HighlightShadow::half_angle,
             .clamps_early = true,
@@ -222,6 +277,10 @@ std::string_view name_of(ColorTerm term) {
     switch (term) {
     case ColorTerm::normalisation:
         return "normalisation";
+    case ColorTerm::vertices:
+        return "vertices";
+    case ColorTerm::tangents:
+        return "tangents";
     case ColorTerm::bump_form:
         return "bump_form";
     case ColorTerm::bump_length:
@@ -252,10 +311,11 @@ Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
 
 bool is_exact(const ColorModel& model) {
     return model.arithmetic == ColorModel::Arithmetic::floating &&
-           model.normalisation == Normalisation::exact && model.bump_form == BumpForm::as_given;
+           model.normalisation == Normalisation::exact && model.bump_form == BumpForm::as_given &&
+           makes_vectors_as_truth(model);
 }
 
-ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
+ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, const LoneInputs& lone,
                       const LightingInputs& claimed, const LightingInputs& freed) {
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
     const Ways own = ways_of(model);
@@ -266,13 +326,19 @@ ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
         weights[static_cast<std::size_t>(term)] = std::max({off.x, off.y, off.z});
     };
     LightingInputs inputs = truth;
-    inputs.light = claimed.light;
-    inputs.half = claimed.half;
-    weigh(ColorTerm::normalisation, inputs, {});
+    const auto weigh_vectors = [&](ColorTerm term, const LightingInputs& of) {
+        inputs.light = of.light;
+        inputs.half = of.half;
+        weigh(term, inputs, {});
+    };
+    weigh_vectors(ColorTerm::normalisation, lone.normalised);
+    weigh_vectors(ColorTerm::vertices, lone.at_vertices);
+    inputs.reflection = lone.of_polygons.reflection;
+    weigh_vectors(ColorTerm::tangents, lone.of_polygons);
     const glm::dvec3 bump = middle(claimed.bump.box);
     const double length = glm::length(bump);
     inputs = truth;
-    inputs.reflection = claimed.reflection;
+    inputs.reflection = lone.normalised.reflection;
     if (length > 0) inputs.bump = {around(bump / length)};
     weigh(ColorTerm::bump_form, inputs, {});
     inputs = truth;

@@ -9,6 +9,8 @@ namespace shadowproof {
 /// A step of a technique's lighting that differs from the truth's, and so changes the colour.
 enum class ColorTerm : std::uint8_t {
     normalisation, ///< vectors that are only approximately normalised
+    vertices,      ///< vectors that are made at vertices and interpolated
+    tangents,      ///< vectors that are carried by polygons' tangents
     bump_form,     ///< direction of perturbed normals that are stored and filtered in another form
     bump_length,   ///< length of perturbed normals that filtering leaves shorter or longer than 1
     steps,         ///< rounding to 8 bits per channel
@@ -17,8 +19,9 @@ enum class ColorTerm : std::uint8_t {
     interpolation, ///< snapping, and rounding of interpolated values
 };
 inline constexpr std::array all_color_terms{
-    ColorTerm::normalisation, ColorTerm::bump_form, ColorTerm::bump_length,  ColorTerm::steps,
-    ColorTerm::self_shadow,   ColorTerm::clamping,  ColorTerm::interpolation};
+    ColorTerm::normalisation, ColorTerm::vertices,    ColorTerm::tangents,
+    ColorTerm::bump_form,     ColorTerm::bump_length, ColorTerm::steps,
+    ColorTerm::self_shadow,   ColorTerm::clamping,    ColorTerm::interpolation};
 using ColorTerms = std::array<double, all_color_terms.size()>; ///< one number per term
 std::string_view name_of(ColorTerm term);                      ///< "self_shadow"
 
@@ -31,14 +34,14 @@ Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed
 /// to half a step, and the colour is clamped to [0, 1].
 Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted);
 
-/// Whether the technique uses floats alone, without bytes and tables. A colour of such a technique
-/// is wrong if it is beyond 1/255 of the truth.
+/// Whether the technique uses floats alone, without bytes and tables, and makes its vectors at each
+/// pixel. A colour of such a technique is wrong if it is beyond 1/255 of the truth.
 bool is_exact(const ColorModel& model);
 
-/// How far each term alone moves the colour, in the channel that it moves most. `truth`, `claimed`:
-/// inputs at the pixel's centre; `freed`: claimed inputs over all that the rasterizer may draw
-/// there.
-ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
+/// How far each term alone moves the colour, in the channel that it moves most. `truth`, `lone`,
+/// `claimed`: inputs at the pixel's centre; `freed`: claimed inputs over all that the rasterizer
+/// may draw there.
+ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, const LoneInputs& lone,
                       const LightingInputs& claimed, const LightingInputs& freed);
 
 /// The truth's colour as a technique of this model can show it: clamped to [0, 1] where it keeps 8

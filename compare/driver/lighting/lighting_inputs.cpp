@@ -2,11 +2,14 @@
 
 #include "compare/driver/lighting/lighting_ranges.h"
 #include "compare/driver/lighting/lighting_tables.h"
+#include "compare/driver/lighting/vertex_vectors.h"
 #include "scenes/driver.h"
 
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 namespace shadowproof {
 
@@ -36,17 +39,18 @@ double newton_raphson_root(double square, int steps) {
 // of the difference, together 2 v; of the last product, v); so all steps come to 3 v / (1 - 0.11)
 // at most, the square to 1.5 v, as its root is taken, and the vector's product to v: below 8 v.
 // Without a step the square's 3 v come through whole, which makes 4 v.
-VectorRange normalised(const LightingTables& tables, const VectorRange& range) {
+VectorRange normalised(const LightingTables& tables, const ColorModel& model,
+                       const VectorRange& range) {
     const glm::dvec3 vector = middle(range.box);
     const double length = glm::length(vector);
     if (!(length > 0)) return {around(glm::dvec3(0)), 1};
     const double turn = turned_by(radius(range) / length);
-    switch (tables.model.normalisation) {
+    switch (model.normalisation) {
     case Normalisation::exact:
         break;
     case Normalisation::newton_raphson:
-        return {around(newton_raphson_root(length * length, tables.model.newton_steps) * vector),
-                (tables.model.newton_steps == 0 ? 1.04 : 0.11) * turn + 8 * v, turn};
+        return {around(newton_raphson_root(length * length, model.newton_steps) * vector),
+                (model.newton_steps == 0 ? 1.04 : 0.11) * turn + 8 * v, turn};
     case Normalisation::cube_map: {
         constexpr Interval any_byte{0, 255};
         Intervals looked_up =
@@ -139,6 +143,8 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
     assert(!model.reflects || model.axes == ColorModel::Axes::world); // the environment's
     if (model.normalisation == Normalisation::cube_map)
         tables.cube = expected_normalisation_cube(model.cube_size);
+    if (model.tangents == TangentSource::polygons)
+        tables.polygon_surfaces = expected_polygon_surfaces(scene);
     return tables;
 }
 
@@ -177,24 +183,81 @@ LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point
     return inputs;
 }
 
-LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point) {
+namespace {
+
+/// The technique's inputs, were its model this one, which may differ from the tables' in how
+/// vectors are made.
+LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
+                          const InputPoint& given) {
     const Scene& scene = *tables.scene;
+    const Material& material = material_of(scene, given.triangle);
+    InputPoint point = given;
+    std::span<const Surface, 3> corners = corners_of(scene.surfaces, point.triangle);
+    if (model.tangents == TangentSource::polygons) {
+        corners = corners_of(tables.polygon_surfaces, point.triangle);
+        point.interpolated = interpolated_at(scene, point.triangle, corners, point.spread);
+        point.interpolated.tangent_off += polygon_tangent_error;
+    }
     const Interpolated& at = point.interpolated;
-    const Material& material = material_of(scene, point.triangle);
-    const glm::dmat3 axes = lighting_axes(scene, tables.model);
+    const glm::dmat3 axes = lighting_axes(scene, model);
     const TangentFrame world = frame_range(point);
     const TangentFrame frame = rotated(axes, world);
-    const VectorRange light = normalised(tables, {around(axes * at.to_light), at.to_light_off});
-    const VectorRange to_eye = normalised(tables, {around(-(axes * at.from_eye)), at.from_eye_off});
+    const bool has_tangents = frame.tangent != glm::dvec3(0);
     LightingInputs inputs;
-    inputs.light = into(frame, light);
-    VectorRange between = light + to_eye;
-    between.box = widened(between.box, v);
-    inputs.half = into(frame, normalised(tables, between));
+    if (model.vectors == VectorOrigin::per_pixel) {
+        const VectorRange light =
+            normalised(tables, model, {around(axes * at.to_light), at.to_light_off});
+        const VectorRange to_eye =
+            normalised(tables, model, {around(-(axes * at.from_eye)), at.from_eye_off});
+        VectorRange between = light + to_eye;
+        between.box = widened(between.box, v);
+        inputs.light = into(frame, light);
+        inputs.half = into(frame, normalised(tables, model, between));
+    } else {
+        const VertexVectors made =
+            vertex_vectors(scene, point.triangle, corners, model.vectors, point.spread);
+        const auto carried = [&](const VectorRange& interpolated) {
+            VectorRange vector = normalised(tables, model, interpolated);
+            if (!has_tangents) return into(frame, vector);
+            for (Interval& component : vector.box) component = point.shading.side * component;
+            return vector;
+        };
+        inputs.light = carried(made.light);
+        inputs.half = carried(made.half);
+    }
     inputs.bump = bump_range(tables, material, at.bump_at);
     inputs.bump.distance += perturbed_normal_roundings * v;
-    add_surroundings(inputs, scene, point, world, tables.model.reflects);
+    add_surroundings(inputs, scene, point, world, model.reflects);
     return inputs;
+}
+
+} // namespace
+
+InputPoint input_point(const Scene& scene, const Shading& shading, std::uint32_t triangle,
+                       const PixelSpread& spread) {
+    return {shading, triangle, spread,
+            interpolated_at(scene, triangle, corners_of(scene.surfaces, triangle), spread)};
+}
+
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point) {
+    return claimed_by(tables, tables.model, point);
+}
+
+LoneInputs lone_inputs(const LightingTables& tables, const InputPoint& centre) {
+    ColorModel plain = tables.model;
+    plain.normalisation = Normalisation::exact;
+    plain.vectors = VectorOrigin::per_pixel;
+    plain.tangents = TangentSource::vertices;
+    const auto with = [&](const auto& change) {
+        ColorModel model = plain;
+        change(model);
+        return claimed_by(tables, model, centre);
+    };
+    return {.normalised =
+                with([&](ColorModel& model) { model.normalisation = tables.model.normalisation; }),
+            .at_vertices = with([&](ColorModel& model) { model.vectors = tables.model.vectors; }),
+            .of_polygons =
+                with([&](ColorModel& model) { model.tangents = tables.model.tangents; })};
 }
 
 } // namespace shadowproof

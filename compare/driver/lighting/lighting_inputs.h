@@ -41,6 +41,8 @@ struct LightingTables {
     std::vector<std::optional<BumpTexels>> bumps;
     std::vector<Image<glm::dvec2>> slopes; ///< one per material; where the asset has heights
     NormalisationCube cube;                ///< where the model uses one
+    /// As Scene::surfaces, with tangents of polygons; empty where the model has those of vertices.
+    std::vector<Surface> polygon_surfaces;
 };
 LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model);
 
@@ -52,8 +54,11 @@ RangeOf<glm::dvec2> slope_range(const LightingTables& tables, const Material& ma
 struct InputPoint {
     const Shading& shading; ///< with all terms
     std::uint32_t triangle = 0;
-    Interpolated interpolated;
+    PixelSpread spread;
+    Interpolated interpolated; ///< from the surfaces that the scene has
 };
+InputPoint input_point(const Scene& scene, const Shading& shading, std::uint32_t triangle,
+                       const PixelSpread& spread);
 
 /// The inputs by the definition in shading.h, at the pixel's centre, without roundings.
 LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point);
@@ -61,5 +66,14 @@ LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point
 /// The technique's inputs: its own arithmetic replayed, with tables made from their definitions
 /// (lighting_tables.h).
 LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point);
+
+/// The truth's vectors with one of the technique's ways of making them and no other, at the pixel's
+/// centre; what does not depend on it is the technique's.
+struct LoneInputs {
+    LightingInputs normalised;  ///< its way of normalising
+    LightingInputs at_vertices; ///< made at vertices, where it does that
+    LightingInputs of_polygons; ///< carried by polygons' tangents, where it uses them
+};
+LoneInputs lone_inputs(const LightingTables& tables, const InputPoint& centre);
 
 } // namespace shadowproof

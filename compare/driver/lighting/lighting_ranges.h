@@ -6,6 +6,7 @@
 #include "compare/driver/interpolated.h"
 #include "compare/driver/lighting/lighting_inputs.h"
 #include "compare/driver/lighting/vector_range.h"
+#include "scenes/driver.h"
 
 #include <cstdint>
 #include <glm/mat3x3.hpp>
@@ -19,6 +20,10 @@ namespace shadowproof {
 /// products and two sums, 3 of at most sqrt(3). Normalised: a square's products and sums (3), of
 /// which the root takes half, the root (1), the quotient (1). So 8.1 and 3.5, or 5.2 and 3.5.
 inline constexpr double perturbed_normal_roundings = 12;
+
+/// Largest distance between two roundings of a unit tangent to floats: of three components, each
+/// off by float_roundoff of up to 1 in both.
+inline constexpr double polygon_tangent_error = 3.5 * float_roundoff;
 
 const Material& material_of(const Scene& scene, std::uint32_t triangle);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace shadowproof {
 
@@ -147,6 +148,29 @@ glm::dvec3 expected_normal(std::uint16_t number) {
     const double z = 1 - std::abs(place.u) - std::abs(place.v);
     if (z < 0) place = place.folded();
     return to_unit(place.u, place.v, z);
+}
+
+// Of a triangle's points those that share the texture's column t form a line along the rows: from
+// the third corner the combination of both edges whose step in t is zero, taken so that its step in
+// s is positive.
+std::vector<Surface> expected_polygon_surfaces(const Scene& scene) {
+    std::vector<Surface> surfaces = scene.surfaces;
+    for (std::uint32_t triangle = 0; 3 * std::size_t{triangle} < surfaces.size(); ++triangle) {
+        Surface* const corners = &surfaces[std::size_t{3} * triangle];
+        if (corners[0].tangent == glm::vec4(0)) continue;
+        const glm::dvec3 to_a = corner(scene, triangle, 0) - corner(scene, triangle, 2);
+        const glm::dvec3 to_b = corner(scene, triangle, 1) - corner(scene, triangle, 2);
+        const glm::dvec2 a = glm::dvec2(corners[0].bump_at) - glm::dvec2(corners[2].bump_at);
+        const glm::dvec2 b = glm::dvec2(corners[1].bump_at) - glm::dvec2(corners[2].bump_at);
+        const double step = b.y * a.x - a.y * b.x;
+        glm::dvec3 row = b.y * to_a - a.y * to_b;
+        const double length = glm::length(row);
+        if (step == 0 || !(length > 0)) continue;
+        row *= (step < 0 ? -1 : 1) / length;
+        for (int k = 0; k < 3; ++k)
+            corners[k].tangent = glm::vec4(glm::vec3(row), corners[k].tangent.w);
+    }
+    return surfaces;
 }
 
 NormalisationCube expected_normalisation_cube(int size) {

@@ -1,6 +1,6 @@
 // The tables of the techniques' lighting, made a second time from their definitions, so that the
 // judge shares no code with the claim: it uses nothing of scenes/surface/bump_forms.cpp,
-// scenes/surface/relief.cpp or make_normalisation_cube.
+// scenes/surface/relief.cpp, scenes/surface/plane_equations.cpp or make_normalisation_cube.
 #pragma once
 
 #include "scenes/scene.h"
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace shadowproof {
 
@@ -23,6 +24,10 @@ BumpTexels expected_bump_texels(const Scene& scene, const Material& material, Bu
 
 /// The normal that a number stands for (indexed_normal's definition).
 glm::dvec3 expected_normal(std::uint16_t number);
+
+/// As polygon_tangents.h defines them. The technique's tangents and these are rounded to floats,
+/// and may fall to either side: polygon_tangent_error apart.
+std::vector<Surface> expected_polygon_surfaces(const Scene& scene);
 
 /// As normalisation_cube.h defines it.
 NormalisationCube expected_normalisation_cube(int size);

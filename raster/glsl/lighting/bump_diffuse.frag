@@ -4,6 +4,6 @@
 
 void main() {
     if (!is_seen()) discard;
-    vec3 l = carried(light_direction(), frame());
+    vec3 l = carried_light();
     color = ambient_color + arriving_light() * diffuse_term(l.z, dot(l, hardware_normal()));
 }

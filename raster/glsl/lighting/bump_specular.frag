@@ -5,7 +5,7 @@
 
 void main() {
     if (!is_seen()) discard;
-    vec3 h = carried(half_angle(), frame());
+    vec3 h = carried_half();
     float specular = self_shadow(h.z) * specular_power(max(0, dot(h, hardware_normal())));
     color = arriving_light() * (specular * decal().a * specular_color);
 }

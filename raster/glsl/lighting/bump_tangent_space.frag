@@ -10,9 +10,8 @@ vec3 perturbed_normal() {
 
 void main() {
     if (!is_seen()) discard;
-    mat3 frame = frame();
-    vec3 l = carried(light_direction(), frame);
-    vec3 h = carried(half_angle(), frame);
+    vec3 l = carried_light();
+    vec3 h = carried_half();
     vec3 normal = perturbed_normal();
     color = lit_color(arriving_light(), l.z, dot(l, normal), h.z, dot(h, normal));
 }

@@ -40,6 +40,8 @@ in Surface {
     vec3 to_light;
     vec3 normal;
     vec3 tangent;
+    vec3 vertex_light;
+    vec3 vertex_half;
     vec2 decal_at;
     vec2 bump_at;
     flat float hand;

@@ -1,6 +1,7 @@
 #version 450 core
 // Corners with their lighting attributes, three per triangle. Their place in the picture is
-// project.vert's, bit for bit; all that is interpolated is linear over a triangle.
+// project.vert's, bit for bit; all that is interpolated is linear over a triangle. `vectors`, a
+// value of VectorOrigin, is defined before this text.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -17,12 +18,15 @@ layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 layout(location = 5) uniform mat3 lit_from_world; // the axes in which the technique lights
+layout(location = 9) uniform int bump_form;       // a value of BumpForm; 0 without a map
 
 out Surface {
     vec3 from_eye; // neither these two nor the next are normalised
     vec3 to_light;
     vec3 normal;
     vec3 tangent;
+    vec3 vertex_light; // L and H, where they are made at vertices
+    vec3 vertex_half;
     vec2 decal_at;
     vec2 bump_at;
     flat float hand;
@@ -30,6 +34,25 @@ out Surface {
 } surface;
 
 invariant gl_Position;
+
+const int vectors_per_pixel = 0;
+const int vectors_unit_at_vertices = 2;
+
+#include unit.glsl
+
+// Carries L and H into the vertex's tangent space. A surface without a bump map has none: there they
+// stay in the axes of lighting.
+void make_vectors(vec3 to_light, vec3 to_eye) {
+    vec3 half_angle = unit(to_light) + unit(to_eye);
+    bool make_unit = vectors == vectors_unit_at_vertices;
+    vec3 light = make_unit ? unit(to_light) : to_light;
+    if (make_unit) half_angle = unit(half_angle);
+    vec3 n = unit(surface.normal);
+    vec3 t = unit(surface.tangent - n * dot(n, surface.tangent));
+    mat3 frame = bump_form == 0 ? mat3(1) : mat3(t, tangent.w * cross(n, t), n);
+    surface.vertex_light = light * frame; // by the transpose: the inverse
+    surface.vertex_half = half_angle * frame;
+}
 
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
@@ -39,6 +62,7 @@ void main() {
     surface.to_light = lit_from_world * -away;
     surface.normal = lit_from_world * normal;
     surface.tangent = lit_from_world * tangent.xyz;
+    if (vectors != vectors_per_pixel) make_vectors(surface.to_light, -surface.from_eye);
     surface.decal_at = decal_at;
     surface.bump_at = bump_at;
     surface.hand = tangent.w;

@@ -1,4 +1,5 @@
 // Normalises vectors in the way set for the technique; a zero vector stays zero.
+#include unit.glsl
 #include cube_map.glsl
 
 layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h, one layer per face
@@ -7,11 +8,6 @@ layout(binding = 3) uniform sampler2DArray unit_vectors; // normalisation_cube.h
 
 const int normalisation_cube_map = 1;
 const int normalisation_newton_raphson = 2;
-
-vec3 unit(vec3 v) {
-    float square = dot(v, v);
-    return square > 0 ? v / sqrt(square) : vec3(0);
-}
 
 // 1 / sqrt(x): an estimate from the float's bits and steps of Newton's method. After one step its
 // relative error is at most 0.0017523 (Lomont 2003), apart from the rounding of floats.

@@ -27,7 +27,7 @@ Technique bump_eye_space_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
-            .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
+            .settings = {"normalise", "cube-size", "newton-steps", "bumps", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};
 }

@@ -7,17 +7,19 @@ namespace {
 
 /// Bumps as lit by the GeForce3, with four textures and four register combiners: ambient light
 /// times the decal, then over it, where it is lit, everything in one pass. Every number has 8 bits
-/// and a sign. Vectors are normalised by a cube map; interpolated normals of the normal map are not
-/// normalised again.
+/// and a sign. Light and half-angle vector are carried into tangent space at the vertices, in any
+/// length, and interpolated; each is then looked up once in a normalisation cube map. Interpolated
+/// normals of the normal map are not normalised again.
 ///
 /// The combiners multiply the highlight by the self-shadowing of L and by that of H; the rule has
 /// L's alone. Three squarings make its eighth power, and no other.
 LightingRecipe lighting(const Plan& plan) {
-    constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::combiners,
+    constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::four_stages,
                                .normalisation = Normalisation::cube_map,
-                               .bump_form = BumpForm::normal_map};
+                               .bump_form = BumpForm::normal_map,
+                               .vectors = VectorOrigin::at_vertices};
     LightingRecipe made{.steps = {{.fragment = shader_file("ambient.frag")},
-                                  {.fragment = shader_file("bump_combiners.frag"),
+                                  {.fragment = shader_file("bump_four_stages.frag"),
                                    .where = LightingStep::Where::lit}},
                         .model = with_settings(model, plan.asked.lighting)};
     return made;
@@ -36,7 +38,7 @@ Technique bump_one_pass_technique() {
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .squares_thrice = true,
-            .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
+            .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};
 }

@@ -5,24 +5,29 @@ namespace shadowproof {
 
 namespace {
 
-/// Bumps as lit by the GeForce 256 and 2, which have two textures per pass: ambient light; over it,
-/// where it is lit, ambient and diffuse light; all of it times the decal; and the highlight added
-/// where it is lit. Between passes the colour has 8 bits per channel, and nothing exceeds 1.
-/// Vectors are normalised by a cube map; interpolated normals of the normal map are not normalised
-/// again.
+/// Bumps as lit by the GeForce 256 and 2, which have two textures and two register combiners per
+/// pass: ambient light; over it, where it is lit, ambient and diffuse light; all of it times the
+/// decal; and the highlight added where it is lit. Between stages a number has 8 bits and a sign,
+/// between passes a colour has 8 bits per channel, and nothing exceeds 1. Light and half-angle
+/// vector are carried into tangent space at the vertices, in any length, and interpolated; each is
+/// then looked up once in a normalisation cube map. Interpolated normals of the normal map are not
+/// normalised again.
 ///
 /// The diffuse pass clamps at 1 what the truth first multiplies by a darker decal. The pass of the
-/// highlight looks up H alone: H's self-shadowing dims it, not L's, which the rule has.
+/// highlight looks up H alone: H's self-shadowing dims it, not L's, which the rule has. Three
+/// squarings make its eighth power, and no other (two_stages.glsl).
 LightingRecipe lighting(const Plan& plan) {
     using Step = LightingStep;
-    constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::three_passes,
+    constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::two_stages,
                                .normalisation = Normalisation::cube_map,
-                               .bump_form = BumpForm::normal_map};
+                               .bump_form = BumpForm::normal_map,
+                               .vectors = VectorOrigin::at_vertices};
     LightingRecipe made{
         .steps = {{.fragment = shader_file("ambient_alone.frag")},
-                  {.fragment = shader_file("bump_diffuse.frag"), .where = Step::Where::lit},
+                  {.fragment = shader_file("bump_diffuse_two_stages.frag"),
+                   .where = Step::Where::lit},
                   {.fragment = shader_file("decal.frag"), .blend = Step::Blend::multiply},
-                  {.fragment = shader_file("bump_specular.frag"),
+                  {.fragment = shader_file("bump_specular_two_stages.frag"),
                    .where = Step::Where::lit,
                    .blend = Step::Blend::add}},
         .model = with_settings(model, plan.asked.lighting)};
@@ -41,7 +46,8 @@ Technique bump_three_pass_technique() {
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
-            .settings = {"normalise", "cube-size", "newton-steps", "bumps"},
+            .squares_thrice = true,
+            .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};
 }

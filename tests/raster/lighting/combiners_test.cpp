@@ -1,4 +1,4 @@
-// The register combiners of combiners.glsl against what is worked out by hand.
+// The register combiners of four_stages.glsl against what is worked out by hand.
 #include "raster/gl/context.h"
 #include "raster/gl/shader.h"
 #include "tests/raster/drawn_pixels.h"
@@ -18,7 +18,7 @@ double combined_steps(const std::string& to_light) {
     const GlFunctions& gl = gpu.gl();
     const Picture picture = make_picture(gl, GL_R32F, 1, 1);
     draw_pixels(gl, picture,
-                std::string(glsl_source("combiners.glsl")) +
+                std::string(glsl_source("four_stages.glsl")) +
                     "layout(location = 0) out float result;\n"
                     "void main() {\n"
                     "    const vec3 z = vec3(0, 0, 1);\n"

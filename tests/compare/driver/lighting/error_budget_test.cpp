@@ -158,13 +158,12 @@ struct Pixel {
                 const std::uint32_t triangle = truth.triangle.at(x, y);
                 if (triangle == no_triangle) continue;
                 const Shading& shading = terms.at(x, y);
-                visit(InputPoint{shading, triangle,
-                                 interpolated_at(scene, triangle, {.middle = shading.weights})});
+                visit(input_point(scene, shading, triangle, {.middle = shading.weights}));
             }
     }
 };
 
-constexpr ColorModel combiners{.arithmetic = ColorModel::Arithmetic::combiners,
+constexpr ColorModel combiners{.arithmetic = ColorModel::Arithmetic::four_stages,
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map};
 
@@ -196,7 +195,7 @@ TEST(ErrorBudget, holds_the_truth_under_every_setting) {
         const Pixel pixel(name);
         for (const auto arithmetic :
              {ColorModel::Arithmetic::floating, ColorModel::Arithmetic::three_passes,
-              ColorModel::Arithmetic::combiners})
+              ColorModel::Arithmetic::two_stages, ColorModel::Arithmetic::four_stages})
             for (const Normalisation normalisation : all_normalisations)
                 for (const BumpForm form : {BumpForm::as_given, BumpForm::normal_map,
                                             BumpForm::derivatives, BumpForm::indexed}) {

@@ -34,7 +34,7 @@ Bytes admitted(ColorModel::Arithmetic arithmetic, const ByteErrors& bytes, doubl
             static_cast<int>(std::floor(255 * red.high))};
 }
 
-constexpr auto one_pass = ColorModel::Arithmetic::combiners;
+constexpr auto one_pass = ColorModel::Arithmetic::four_stages;
 constexpr auto three_passes = ColorModel::Arithmetic::three_passes;
 
 TEST(OverwrittenByte, is_the_nearest_on_llvmpipe) {

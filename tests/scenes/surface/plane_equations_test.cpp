@@ -1,5 +1,5 @@
+#include "scenes/surface/plane_equations.h"
 #include "scenes/surface/tangents.h"
-#include "tests/claims/plane_equations.h"
 
 #include <gtest/gtest.h>
 

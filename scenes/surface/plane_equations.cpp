@@ -1,4 +1,4 @@
-#include "tests/claims/plane_equations.h"
+#include "scenes/surface/plane_equations.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

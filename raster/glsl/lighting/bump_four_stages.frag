@@ -1,13 +1,12 @@
 #version 450 core
-// All of the lighting in one pass, as register combiners compute it.
+// All of the lighting in one pass, as four combiner stages compute it.
 #include tangent_space.glsl
-#include combiners.glsl
+#include four_stages.glsl
 
 void main() {
     if (!is_seen()) discard;
-    mat3 frame = frame();
-    vec3 l = carried(light_direction(), frame);
-    vec3 h = carried(half_angle(), frame);
+    vec3 l = carried_light();
+    vec3 h = carried_half();
     vec3 light = arriving_light();
     color = combined(hardware_normal(), l, h, decal(), light, specular_color * light,
                      ambient_color);
