@@ -36,6 +36,8 @@ bool scales_exactly(const Scene& scene, int power) {
 
 void scale(Scene& scene, double factor) {
     for (glm::vec3& position : scene.positions) position = glm::dvec3(position) * factor;
+    for (Material& material : scene.materials)
+        if (material.height_in_space) material.bump_scale *= factor;
     scene.camera.eye *= factor;
     scene.camera.near *= factor;
     scene.camera.far *= factor;

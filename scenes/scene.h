@@ -29,7 +29,7 @@ inline constexpr std::uint32_t no_texture = 0xffffffffU;
 enum class Bump : std::uint8_t {
     none,
     normal_map,   ///< glTF's normalTexture: x along the tangent, y along the bitangent, 0 at 0.5
-    height_field, ///< red is the height, in units of Material::bump_scale texels
+    height_field, ///< red is the height, in units of Material::bump_scale
 };
 
 /// Colours are linear. All but the first two members are set only in scenes with bump maps
@@ -44,7 +44,9 @@ struct Material {
     bool gloss_in_alpha = false;      ///< the decal's alpha times the specular colour
     Bump bump = Bump::none;
     std::uint32_t bump_map = no_texture; ///< index into Scene::textures; none where bump is
-    double bump_scale = 1;               ///< of a normal's x and y, or of a height (texels)
+    double bump_scale =
+        1; ///< of a normal's x and y, or of a height: in texels or in units of space
+    bool height_in_space = false; ///< the latter: bumps are less steep where a texel is stretched
 };
 
 /// A triangle's corner as lighting sees it, in world space, rounded once to float: the same array

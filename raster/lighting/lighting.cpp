@@ -5,6 +5,7 @@
 #include "scenes/spot_cone.h"
 #include "scenes/surface/bump_forms.h"
 #include "scenes/surface/polygon_tangents.h"
+#include "scenes/surface/texel_sides.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,8 @@ BumpMap upload_bumps(const GlFunctions& gl, const Scene& scene, const Material& 
     return {.texels = upload_texels(gl, bumps.texels),
             .form = bumps.form,
             .scale = static_cast<float>(bumps.scale),
-            .slope_range = static_cast<float>(bumps.slope_range)};
+            .slope_range = static_cast<float>(bumps.slope_range),
+            .texel_side = static_cast<float>(bumps.texel_side)};
 }
 
 Texture upload_normal_table(const GlFunctions& gl) {
@@ -96,7 +98,9 @@ Texture upload_normal_table(const GlFunctions& gl) {
 
 /// Whether two materials have equal bump maps.
 bool have_same_bumps(const Material& a, const Material& b) {
-    return a.bump == b.bump && a.bump_map == b.bump_map && a.bump_scale == b.bump_scale;
+    // Of heights in units of space the mean texel is a material's own.
+    return a.bump == b.bump && a.bump_map == b.bump_map && a.bump_scale == b.bump_scale &&
+           !a.height_in_space && !b.height_in_space;
 }
 
 /// Uploads the textures of the materials that are drawn: an unused one may have bumps that have no
@@ -134,6 +138,25 @@ Buffer upload_surfaces(const GlFunctions& gl, const Scene& scene, TangentSource 
     return make_filled_buffer(gl, std::array{std::as_bytes(std::span(surfaces))});
 }
 
+bool has_heights_in_space(const Scene& scene) {
+    return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        return scene.materials[mesh.material].height_in_space;
+    });
+}
+
+Buffer upload_texel_sides(const GlFunctions& gl, const Scene& scene) {
+    std::vector<std::array<glm::vec3, 2>> sides;
+    sides.reserve(scene.surfaces.size());
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const Mesh& mesh = scene.meshes[mesh_of(scene, triangle)];
+        const TexelSides side = scene.materials[mesh.material].height_in_space
+                                    ? texel_sides(scene, triangle)
+                                    : TexelSides{};
+        for (int k = 0; k < 3; ++k) sides.push_back({glm::vec3(side.along), glm::vec3(side.down)});
+    }
+    return make_filled_buffer(gl, std::array{std::as_bytes(std::span(sides))});
+}
+
 void upload_corners(const GlFunctions& gl, const Scene& scene, TangentSource tangents,
                     LightingPass& pass) {
     std::vector<glm::vec3> positions;
@@ -158,6 +181,11 @@ void upload_corners(const GlFunctions& gl, const Scene& scene, TangentSource tan
     attribute(2, 1, 4, offsetof(Surface, tangent));
     attribute(3, 1, 2, offsetof(Surface, decal_at));
     attribute(4, 1, 2, offsetof(Surface, bump_at));
+    if (!has_heights_in_space(scene)) return;
+    pass.texel_sides = upload_texel_sides(gl, scene);
+    gl.VertexArrayVertexBuffer(corners, 2, pass.texel_sides.name(), 0, 2 * sizeof(glm::vec3));
+    attribute(5, 2, 3, 0);
+    attribute(6, 2, 3, sizeof(glm::vec3));
 }
 
 /// Adds a triangle of a mesh to the last run, or to a new one where it is lit differently.
@@ -217,6 +245,7 @@ void set_material(const GlFunctions& gl, const Program& program, const LightingP
     gl.ProgramUniform1i(program.name(), 9, static_cast<GLint>(bumps.form));
     gl.ProgramUniform1f(program.name(), 10, bumps.scale);
     gl.ProgramUniform1f(program.name(), 22, bumps.slope_range);
+    gl.ProgramUniform1f(program.name(), 30, bumps.texel_side);
     const auto bind = [&](GLuint unit, std::uint32_t texture, const Texture& texels, GLint wrap) {
         gl.BindTextureUnit(unit, texels.name());
         if (texture == no_texture) return;

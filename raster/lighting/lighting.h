@@ -52,6 +52,7 @@ struct BumpMap {
     BumpForm form = BumpForm::as_given; ///< as_given where there is no map
     float scale = 1;
     float slope_range = 0;
+    float texel_side = 0;
 };
 
 /// A LightingStep, ready to be drawn.
@@ -62,8 +63,9 @@ struct LightingProgram {
 };
 
 struct LightingPass {
-    Buffer positions{}; ///< three per triangle
-    Buffer surfaces{};  ///< Scene::surfaces as it is
+    Buffer positions{};   ///< three per triangle
+    Buffer surfaces{};    ///< as Scene::surfaces
+    Buffer texel_sides{}; ///< TexelSides per corner, where heights are in units of space
     VertexArray corners{};
     Triangles lit_sides{}; ///< indices into the corners
     std::vector<LitRun> all_runs{};

@@ -102,6 +102,11 @@ Number clamp01(Number value) {
     return hn::Min(hn::Max(value, number(0)), number(1));
 }
 
+/// Step 3 for heights in units of space.
+Vectors normals_off_gradients(const LightingLanes& lanes, const Vectors& normal, int i) {
+    return unit(normal - load(lanes.gradient, i));
+}
+
 /// Step 3, and the rotation of step 4.
 Vectors bumped_normals(const LightingLanes& lanes, const Vectors& normal, int i) {
     const Vectors tangent = unit_tangents(load(lanes.tangent, i), normal);
@@ -110,7 +115,11 @@ Vectors bumped_normals(const LightingLanes& lanes, const Vectors& normal, int i)
     const Number square = dot(given, given);
     const Vectors m =
         select(hn::Gt(square, number(0)), given * reciprocal_root(square), vectors({0, 0, 1}));
-    return (tangent * m.x + bitangent * m.y + normal * m.z) * load(lanes.side, i);
+    Vectors bumped = tangent * m.x + bitangent * m.y + normal * m.z;
+    const Mask in_space = hn::Gt(load(lanes.in_space, i), number(0));
+    if (!hn::AllFalse(doubles, in_space))
+        bumped = select(in_space, normals_off_gradients(lanes, normal, i), bumped);
+    return bumped * load(lanes.side, i);
 }
 
 /// Steps 5 (L alone) and 6.

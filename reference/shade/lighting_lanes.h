@@ -36,10 +36,12 @@ struct LaneLight {
 /// Unused lanes may hold any values.
 struct LightingLanes {
     // Given:
-    LaneVectors direction; ///< D
-    LaneVectors point;     ///< Q
-    LaneVectors tangent;   ///< as interpolated
-    LaneVectors bump;      ///< m, of any length
+    LaneVectors direction;                ///< D
+    LaneVectors point;                    ///< Q
+    LaneVectors tangent;                  ///< as interpolated
+    LaneVectors bump;                     ///< m, of any length
+    LaneVectors gradient;                 ///< G of heights in units of space
+    alignas(64) Lanes<double> in_space{}; ///< 1 where G counts instead of m, else 0
     alignas(64) Lanes<double> hand{};
     alignas(64) Lanes<double> side{}; ///< -1 where the eye sees the back
     // Given as interpolated, not of length zero, and replaced by N, towards the visible side:

@@ -81,6 +81,7 @@ void PointShader::learn(std::uint32_t triangle, Known& known) const {
         known.decal_at[k] = surface.decal_at;
         known.bump_at[k] = surface.bump_at;
     }
+    if (known.material->height_in_space) known.texel = texel_sides(scene, triangle);
     known.hand = scene.surfaces[std::size_t{3} * triangle].tangent.w;
     const glm::dvec3 a = corner(scene, triangle, 0);
     known.point = a - state.eye;
@@ -105,6 +106,14 @@ glm::dvec3 PointShader::bump_at(const Known& known, const glm::dvec3& weights) c
     }
     const glm::dvec3 m = 2.0 * sample<glm::dvec3>(map.texels, s, t) - 1.0;
     return {m.x * material.bump_scale, m.y * material.bump_scale, m.z};
+}
+
+/// G of the definition; zero where heights are in texels. `bump`: m.
+glm::dvec3 PointShader::gradient(const Known& known, const glm::dvec3& normal,
+                                 const glm::dvec3& bump) const {
+    if (!known.material->height_in_space) return glm::dvec3(0);
+    const glm::dvec3 unit = normal * (1 / std::sqrt(glm::dot(normal, normal)));
+    return height_gradient(known.texel, unit, {-bump.x, bump.y});
 }
 
 PointShader::Look PointShader::look_at(const Known& known, const glm::dvec3& weights) const {
@@ -133,7 +142,10 @@ void PointShader::set(std::size_t lane, const glm::dvec3& direction, std::uint32
     lanes_.point.set(lane, seen.point + b * seen.edge_b + c * seen.edge_c);
     lanes_.normal.set(lane, normal);
     lanes_.tangent.set(lane, blend(weights, seen.tangents));
-    lanes_.bump.set(lane, bump_at(seen, weights));
+    const glm::dvec3 bump = bump_at(seen, weights);
+    lanes_.gradient.set(lane, gradient(seen, normal, bump));
+    lanes_.in_space[lane] = seen.material->height_in_space ? 1 : 0;
+    lanes_.bump.set(lane, bump);
     lanes_.hand[lane] = seen.hand;
     lanes_.side[lane] = seen.side;
     looks_[lane] = look_at(seen, weights);

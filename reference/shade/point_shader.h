@@ -4,6 +4,7 @@
 #include "reference/shade/lighting_lanes.h"
 #include "reference/shade/shading.h"
 #include "reference/trace/state.h"
+#include "scenes/surface/texel_sides.h"
 
 #include <array>
 #include <cstdint>
@@ -55,6 +56,7 @@ private:
         ThreeOf<glm::dvec3> tangents{};
         ThreeOf<glm::dvec2> decal_at{};
         ThreeOf<glm::dvec2> bump_at{};
+        TexelSides texel{}; ///< where heights are in units of space
         double hand = 1;
         double side = 1;
     };
@@ -81,6 +83,7 @@ private:
     const Known& known(std::uint32_t triangle);
     void learn(std::uint32_t triangle, Known& known) const;
     glm::dvec3 bump_at(const Known& known, const glm::dvec3& weights) const;
+    glm::dvec3 gradient(const Known& known, const glm::dvec3& normal, const glm::dvec3& bump) const;
     Look look_at(const Known& known, const glm::dvec3& weights) const;
     glm::dvec3 reflection(std::size_t lane) const;
     Summands summands(std::size_t lane) const;

@@ -18,6 +18,9 @@
 //     Normal map: m = 2 rgb - 1, of the sampled rgb; its x and y times the scale.
 //     Height field: m = (-h_s, h_t, 1), the slopes sampled from those at the texels (relief.h).
 //     Then m over its length (zero: 0, 0, 1), and N' = m.x T + m.y B + m.z N.
+//     Height field in units of space: P_s and P_t are the ways over the triangle from one texel to
+//     the next, along a row and down the rows; G = (h_s (P_t x N) + h_t (N x P_s)) / (N . (P_s x
+//     P_t)) (texel_sides.h; 0 where that divides by 0), and N' = N - G over its length.
 //     No bump map: N' = N.
 //  4. Side. Where the eye sees the triangle's back, N and N' change sign (glTF 2.0, section 3.9.4:
 //     the normals of back faces are reversed).

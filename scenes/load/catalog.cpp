@@ -52,6 +52,8 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"bumpy_torus", "a normal map, a decal and its gloss, on tangents of the asset's own"},
         {"mirrored_skin", "both halves of a head wear one normal map, mirrored"},
         {"height_field", "bumps by a height field instead of a normal map"},
+        {"stretched_relief", "heights in the file's units, stretched four to one"},
+        {"skewed_relief", "heights in the file's units, on texels that are parallelograms"},
         {"hammered_silver", "a hammered ball and ring that reflect an environment"},
         {"coarse_curve", "a bumpy capsule of few triangles, half in a spot light"},
         {"grazing_light", "the sun grazes a bumpy ground: self-shadowing terms between 0 and 1"},

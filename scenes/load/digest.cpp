@@ -71,6 +71,7 @@ void add_lighting(Hash& hash, const Scene& scene) {
         hash.add(material.gloss_in_alpha);
         hash.add(material.bump);
         hash.add(material.bump_scale);
+        hash.add(material.height_in_space);
     }
     const Light& light = chosen_light(scene);
     for (const glm::dvec3& v : {scene.ambient, light.color}) hash.add(v);

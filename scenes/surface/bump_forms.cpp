@@ -2,6 +2,7 @@
 
 #include "scenes/error.h"
 #include "scenes/surface/relief.h"
+#include "scenes/surface/texel_sides.h"
 
 #include <algorithm>
 #include <cassert>
@@ -30,28 +31,43 @@ glm::dvec3 normal_of(const glm::vec4& texel, double scale) {
     return {scale * m.x, scale * m.y, m.z};
 }
 
+/// As BumpTexels::texel_side.
+double texel_side(const Scene& scene, const Material& material) {
+    return material.height_in_space ? mean_texel_side(scene, material) : 0;
+}
+
+/// Of heights: how many texels 1 stands for.
+double scale_in_texels(const Scene& scene, const Material& material) {
+    const double side = texel_side(scene, material);
+    return side > 0 ? material.bump_scale / side : material.bump_scale;
+}
+
 /// The normals at a bump map's texels, not normalised.
-Image<glm::dvec3> normals_of(const TextureImage& map, const Material& material) {
+Image<glm::dvec3> normals_of(const Scene& scene, const TextureImage& map,
+                             const Material& material) {
     if (material.bump == Bump::normal_map)
         return converted<glm::dvec3>(map.texels, [&](const glm::vec4& texel) {
             return normal_of(texel, material.bump_scale);
         });
-    return converted<glm::dvec3>(slopes_of(map, material.bump_scale), [](const glm::dvec2& slope) {
-        return glm::dvec3(-slope.x, slope.y, 1);
-    });
+    return converted<glm::dvec3>(
+        slopes_of(map, scale_in_texels(scene, material)),
+        [](const glm::dvec2& slope) { return glm::dvec3(-slope.x, slope.y, 1); });
 }
 
 BumpTexels as_heights(const Scene& scene, const Material& material, const TextureImage& map) {
     if (material.bump != Bump::height_field)
         throw refusal(scene, material, "has normals, of which no heights are made",
                       "ask for another form of bumps than height-field");
-    return {.form = BumpForm::height_field, .texels = map.texels, .scale = material.bump_scale};
+    return {.form = BumpForm::height_field,
+            .texels = map.texels,
+            .scale = scale_in_texels(scene, material),
+            .texel_side = texel_side(scene, material)};
 }
 
-BumpTexels as_normals(const Material& material, const TextureImage& map) {
+BumpTexels as_normals(const Scene& scene, const Material& material, const TextureImage& map) {
     if (material.bump == Bump::normal_map)
         return {.form = BumpForm::normal_map, .texels = map.texels, .scale = material.bump_scale};
-    const auto normals = normal_map_of(slopes_of(map, material.bump_scale));
+    const auto normals = normal_map_of(slopes_of(map, scale_in_texels(scene, material)));
     return {.form = BumpForm::normal_map,
             .texels = converted<glm::vec4>(normals, [](const glm::dvec4& n) {
                 return glm::vec4(in_bytes(n.x), in_bytes(n.y), in_bytes(n.z), 1);
@@ -59,7 +75,7 @@ BumpTexels as_normals(const Material& material, const TextureImage& map) {
 }
 
 BumpTexels as_derivatives(const Scene& scene, const Material& material, const TextureImage& map) {
-    const Image<glm::dvec3> normals = normals_of(map, material);
+    const Image<glm::dvec3> normals = normals_of(scene, map, material);
     if (!std::ranges::all_of(normals.pixels, [](const glm::dvec3& n) { return n.z > 0; }))
         throw refusal(scene, material, "has normals without a slope, along the surface or into it",
                       "ask for another form of bumps than derivatives");
@@ -76,14 +92,16 @@ BumpTexels as_derivatives(const Scene& scene, const Material& material, const Te
                                                return glm::vec4(in_bytes(st.x), in_bytes(st.y), 0,
                                                                 1);
                                            }),
-            .slope_range = range};
+            .slope_range = range,
+            .texel_side = texel_side(scene, material)};
 }
 
-BumpTexels as_numbers(const Material& material, const TextureImage& map) {
+BumpTexels as_numbers(const Scene& scene, const Material& material, const TextureImage& map) {
     return {.form = BumpForm::indexed,
-            .texels = converted<glm::vec4>(normals_of(map, material), [](const glm::dvec3& n) {
-                return glm::vec4(number_of(n), 0, 0, 1);
-            })};
+            .texels =
+                converted<glm::vec4>(normals_of(scene, map, material), [](const glm::dvec3& n) {
+                    return glm::vec4(number_of(n), 0, 0, 1);
+                })};
 }
 
 /// Maps between the octahedron's lower half, seen from above, and what lies outside its upper half:
@@ -105,12 +123,12 @@ BumpTexels bump_texels(const Scene& scene, const Material& material, BumpForm fo
     case BumpForm::derivatives:
         return as_derivatives(scene, material, map);
     case BumpForm::indexed:
-        return as_numbers(material, map);
+        return as_numbers(scene, material, map);
     case BumpForm::as_given:
     case BumpForm::normal_map:
         break;
     }
-    return as_normals(material, map);
+    return as_normals(scene, material, map);
 }
 
 glm::dvec3 indexed_normal(std::uint16_t number) {

@@ -23,14 +23,19 @@ struct BumpTexels {
     Image<glm::vec4> texels{};
     double slope_range = 0; ///< of derivatives
     double scale = 1; ///< of a height (texels), or of a normal's x and y; other forms contain it
+    /// Of forms that hold slopes, where the asset has heights in units of space: these over texels
+    /// of this side were taken for heights in texels. Slopes times it are per texel, whatever its
+    /// size. Else 0.
+    double texel_side = 0;
 };
 
 /// The texels of a material that has a bump map.
 ///
-/// A height field is converted to other forms by its slopes at the texels, and by the normals of
-/// relief.h; a normal map to derivatives by (s, t) = (-m.x, m.y) / m.z. Bytes are rounded to
-/// nearest. A normal map requested as one, and anything requested as given, is left as the asset
-/// has it.
+/// Heights in units of space are taken for heights in texels of the mean side (mean_texel_side): no
+/// form but the asset's own tells stretched texels from others. A height field is converted to
+/// other forms by its slopes at the texels, and by the normals of relief.h; a normal map to
+/// derivatives by (s, t) = (-m.x, m.y) / m.z. Bytes are rounded to nearest. A normal map requested
+/// as one, and anything requested as given, is left as the asset has it.
 ///
 /// Throws Error, naming file and material, where a normal map is requested as a height field, and
 /// where one that has normals along the surface or into it is requested as derivatives.

@@ -112,18 +112,24 @@ Section one_pass_matches_three(const std::vector<std::unique_ptr<Lit>>& scenes, 
                               three.milliseconds / one.milliseconds);
     }
     text +=
-        "\nIt does not match. The combiners round after every stage, vectors from textures too,\n"
-        "where the three passes round between passes alone; and they multiply the highlight by\n"
-        "the self-shadowing of the light besides the half-angle vector's, which dims it where\n"
-        "the light grazes the surface (the last column; see the next claim). Where colours run\n"
-        "over, the three passes clamp before the decal, the combiners after it.\n";
+        "\nIt does not match. Both round after every stage, vectors from textures too; but the "
+        "three\n"
+        "passes add the ambient light before the decal, in bytes, and the four stages behind it; "
+        "and\n"
+        "these multiply the highlight by the self-shadowing of the light besides the half-angle\n"
+        "vector's, which dims it where the light grazes the surface (the last column; see the "
+        "next\n"
+        "claim). Where colours run over, the three passes clamp before the decal, the combiners\n"
+        "after it. Nor do two stages and the final one hold the rule's eighth power, its\n"
+        "self-shadowing and a colour of the highlight: they are one product short, which the\n"
+        "emulation grants them (raster/glsl/lighting/two_stages.glsl).\n";
     timing += "\nHere the arithmetic is emulated by a shader, so this says what passes cost, not\n"
               "what combiners would.\n";
     return {"One pass matches three, and is three times as quick", text, timing};
 }
 
-/// Root mean square difference of a frame's colours from others, in steps of 1/255, where surface
-/// and visibility are the truth's.
+/// Root mean square difference of a frame's colours from others, in steps of 1/255, both clamped to
+/// what bytes show, where surface and visibility are the truth's.
 double rms_from(const Lit& lit, const Image<glm::dvec3>& right, const Frame& frame) {
     double sum = 0;
     double count = 0;
@@ -132,8 +138,8 @@ double rms_from(const Lit& lit, const Image<glm::dvec3>& right, const Frame& fra
             frame.triangle.pixels[i] != lit.truth.triangle.pixels[i] ||
             frame.claim.pixels[i] != lit.truth.visibility.pixels[i])
             continue;
-        const glm::dvec3 off =
-            255.0 * (glm::dvec3(frame.color.pixels[i]) - glm::clamp(right.pixels[i], 0.0, 1.0));
+        const glm::dvec3 claimed = glm::clamp(glm::dvec3(frame.color.pixels[i]), 0.0, 1.0);
+        const glm::dvec3 off = 255.0 * (claimed - glm::clamp(right.pixels[i], 0.0, 1.0));
         sum += glm::dot(off, off);
         count += 3;
     }
@@ -255,7 +261,7 @@ Section shares_of_the_error(const std::vector<std::unique_ptr<Lit>>& scenes, Gpu
     }
     text +=
         "\nOn finely tessellated models the bytes cost most, most of all where filtering leaves\n"
-        "normals short of their length. On coarse ones it is the vertices: `coarse_curve` has the\n"
+        "normals short of their length. On coarse ones it is the vertices: `coarse_curve` lacks the\n"
         "\"reasonable tessellation around curvature\" that the slides assume no more. L is linear "
         "over\n"
         "a flat triangle while it keeps its length, so that normalising it at the vertices, as "

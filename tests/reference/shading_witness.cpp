@@ -108,6 +108,37 @@ Vector small_normal(const TextureImage& map, const Material& material, double u,
                                                                                : unit(normal);
 }
 
+/// The normal of a relief over texels as large as the triangle makes them. Two vectors in its
+/// tangent plane: each side of a texel, lifted along the normal by what the height grows on it; a
+/// normal is at right angles to both. A side's part along the interpolated normal is no height.
+Vector off_stretched_texels(const Scene& scene, std::uint32_t triangle, const Vector& n,
+                            const std::array<double, 2>& slope) {
+    const Material& material = scene.materials[scene.meshes[mesh_of(scene, triangle)].material];
+    const Image<glm::vec4>& texels = scene.textures[material.bump_map].texels;
+    std::array<Vector, 3> p{};
+    std::array<double, 3> s{};
+    std::array<double, 3> t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = vector(corner(scene, triangle, static_cast<int>(k)));
+        const glm::vec2 at = scene.surfaces[3 * std::size_t{triangle} + k].bump_at;
+        s[k] = double{at.x} * texels.width;
+        t[k] = double{at.y} * texels.height;
+    }
+    const Vector e = minus(p[1], p[0]);
+    const Vector f = minus(p[2], p[0]);
+    // One texel along s alone: a e + b f with a ds1 + b ds2 = 1 and a dt1 + b dt2 = 0.
+    const double det = (s[1] - s[0]) * (t[2] - t[0]) - (s[2] - s[0]) * (t[1] - t[0]);
+    if (det == 0) return n;
+    Vector along = plus({0, 0, 0}, (t[2] - t[0]) / det, e);
+    along = plus(along, -(t[1] - t[0]) / det, f);
+    Vector down = plus({0, 0, 0}, -(s[2] - s[0]) / det, e);
+    down = plus(down, (s[1] - s[0]) / det, f);
+    along = plus(along, slope[0] - dot(along, n), n);
+    down = plus(down, slope[1] - dot(down, n), n);
+    const Vector across = unit(cross(along, down));
+    return dot(across, n) < 0 ? Vector{-across[0], -across[1], -across[2]} : across;
+}
+
 double clamp01(double x) {
     return std::min(1.0, std::max(0.0, x));
 }
@@ -195,6 +226,8 @@ glm::dvec3 color_at(const Scene& scene, const glm::dvec3& direction, std::uint32
         bumped = plus(bumped, m[0], along);
         bumped = plus(bumped, y, up);
         bumped = plus(bumped, m[2], n);
+        if (material.height_in_space)
+            bumped = off_stretched_texels(scene, triangle, n, {-m[0] / m[2], m[1] / m[2]});
     }
     if (dot(d, across) > 0) { // seen from behind
         n = {-n[0], -n[1], -n[2]};

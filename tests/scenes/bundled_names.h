@@ -38,10 +38,10 @@ inline std::vector<std::string> bundled_names() {
 
 /// Those that are lit by bump maps.
 inline std::vector<std::string> bump_lit_scenes() {
-    return {"bumpy_sphere",     "bumpy_torus",   "mirrored_skin",    "height_field",
-            "hammered_silver",  "coarse_curve",  "grazing_light",    "terminator_highlight",
-            "fine_relief",      "bright_light",  "bumpy_near_plane", "bumpy_far_plane",
-            "bumpy_eye_inside", "walking_figure"};
+    return {"bumpy_sphere",     "bumpy_torus",          "mirrored_skin",    "height_field",
+            "stretched_relief", "skewed_relief",        "hammered_silver",  "coarse_curve",
+            "grazing_light",    "terminator_highlight", "fine_relief",      "bright_light",
+            "bumpy_near_plane", "bumpy_far_plane",      "bumpy_eye_inside", "walking_figure"};
 }
 
 } // namespace shadowproof::tests

@@ -2,6 +2,7 @@
 
 #include "compare/driver/lighting/lighting_ranges.h"
 #include "compare/driver/lighting/lighting_tables.h"
+#include "compare/driver/lighting/stretched_bumps.h"
 #include "compare/driver/lighting/texel_ranges.h"
 #include "scenes/driver.h"
 
@@ -48,13 +49,30 @@ VectorRange normalised(const LightingTables& tables, VectorRange vector, const g
     return vector;
 }
 
+/// A pixel's surface, as bumps are budgeted on it.
+struct BumpPlace {
+    const InputPoint& point;
+    const TangentFrame& frame; ///< in world axes
+    const Material& material;
+
+    const PlaceRange& at() const { return point.interpolated.bump_at; }
+};
+
+/// m of slopes as the asset has them.
+VectorRange normal_of(const LightingTables& tables, const BumpPlace& place,
+                      const RangeOf<glm::dvec2>& slope, const TangentFrame& frame) {
+    if (place.material.height_in_space)
+        return over_true_lengths(*tables.scene, place.point.triangle, frame,
+                                 place.point.shading.side, slope);
+    return {{-1 * slope[0], slope[1], around(1)}};
+}
+
 /// The perturbed normal from the asset: m, filtered in the asset's own form.
-VectorRange mixed_as_given(const LightingTables& tables, const Material& material,
-                           const PlaceRange& at) {
-    if (material.bump == Bump::height_field) {
-        const RangeOf<glm::dvec2> slope = slope_range(tables, material, at);
-        return {{-1 * slope[0], slope[1], around(1)}};
-    }
+VectorRange mixed_as_given(const LightingTables& tables, const BumpPlace& place) {
+    const Material& material = place.material;
+    const PlaceRange& at = place.at();
+    if (material.bump == Bump::height_field)
+        return normal_of(tables, place, slope_range(tables, material, at), place.frame);
     const TextureImage& map = tables.scene->textures[material.bump_map];
     constexpr Interval any{-1, 1};
     Intervals m = mixed_range(
@@ -68,11 +86,13 @@ VectorRange mixed_as_given(const LightingTables& tables, const Material& materia
 }
 
 /// m at one of the asset's texels.
-glm::dvec3 texel_as_given(const LightingTables& tables, const Material& material, int x, int y) {
+glm::dvec3 texel_as_given(const LightingTables& tables, const BumpPlace& place, int x, int y) {
+    const Material& material = place.material;
     if (material.bump == Bump::height_field) {
         const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
-        const glm::dvec2& slope = tables.slopes[index].at(x, y);
-        return {-slope.x, slope.y, 1};
+        return middle(normal_of(tables, place, range_of(tables.slopes[index].at(x, y)),
+                                centre_frame(place.point.shading))
+                          .box);
     }
     const glm::vec4& texel = tables.scene->textures[material.bump_map].texels.at(x, y);
     return {material.bump_scale * (2 * double{texel.r} - 1),
@@ -81,38 +101,44 @@ glm::dvec3 texel_as_given(const LightingTables& tables, const Material& material
 
 /// The asset's texels, each converted into the form by `form_of`, and then filtered.
 template <class FormOf>
-VectorRange mixed_in_form(const LightingTables& tables, const Material& material,
-                          const PlaceRange& at, const FormOf& form_of, const Intervals& whole) {
-    const TextureImage& map = tables.scene->textures[material.bump_map];
+VectorRange mixed_in_form(const LightingTables& tables, const BumpPlace& place,
+                          const FormOf& form_of, const Intervals& whole) {
+    const TextureImage& map = tables.scene->textures[place.material.bump_map];
     return {mixed_range(
-        turning_places(map.wrap_s, map.texels.width, at[0]),
-        turning_places(map.wrap_t, map.texels.height, at[1]),
-        [&](int x, int y) { return form_of(texel_as_given(tables, material, x, y)); }, whole)};
+        turning_places(map.wrap_s, map.texels.width, place.at()[0]),
+        turning_places(map.wrap_t, map.texels.height, place.at()[1]),
+        [&](int x, int y) { return form_of(texel_as_given(tables, place, x, y)); }, whole)};
 }
 
 /// If the asset is in the same form, filtering is the truth's own.
-VectorRange bump_budget(const LightingTables& tables, const Material& material,
-                        const PlaceRange& at) {
+VectorRange bump_budget(const LightingTables& tables, const BumpPlace& place) {
+    const Material& material = place.material;
     if (material.bump == Bump::none) return {around(glm::dvec3(0, 0, 1))};
     const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
     const BumpForm form = tables.bumps[index]->form;
     const bool heights = material.bump == Bump::height_field;
-    const VectorRange given = mixed_as_given(tables, material, at);
+    const VectorRange given = mixed_as_given(tables, place);
     const VectorRange truth = unit(given);
     if (form == (heights ? BumpForm::height_field : BumpForm::normal_map)) return truth;
     if (form == BumpForm::derivatives) {
         // Two slopes, each half a step off, of bytes between -range and range.
         const double range = tables.bumps[index]->slope_range;
         const Interval any{-range, range};
-        VectorRange slopes = heights ? given
-                                     : mixed_in_form(tables, material, at,
-                                                     [](const glm::dvec3& m) { return m / m.z; },
-                                                     {any, any, around(1)});
+        if (material.height_in_space) {
+            RangeOf<glm::dvec2> slope = slope_range(tables, material, place.at());
+            const double off = range * half_step * tables.bumps[index]->texel_side;
+            for (Interval& along : slope) along = widened(along, off);
+            return hull(truth, unit(normal_of(tables, place, slope, place.frame)));
+        }
+        VectorRange slopes =
+            heights ? given
+                    : mixed_in_form(tables, place, [](const glm::dvec3& m) { return m / m.z; },
+                                    {any, any, around(1)});
         slopes.distance += std::sqrt(2.0) * range * half_step;
         return hull(truth, unit(slopes));
     }
     constexpr Interval any{-1, 1};
-    VectorRange normals = mixed_in_form(tables, material, at,
+    VectorRange normals = mixed_in_form(tables, place,
                                         [](const glm::dvec3& m) {
                                             const double length = glm::length(m);
                                             return length > 0 ? m / length : glm::dvec3(0, 0, 1);
@@ -170,7 +196,7 @@ LightingInputs budgeted_inputs(const LightingTables& tables, const InputPoint& p
     LightingInputs inputs;
     inputs.light = into(frame, light);
     inputs.half = into(frame, normalised(tables, half, axes));
-    inputs.bump = bump_budget(tables, material, at.bump_at);
+    inputs.bump = bump_budget(tables, {point, frame, material});
     inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, scene, point, frame, tables.model.reflects);
     return inputs;

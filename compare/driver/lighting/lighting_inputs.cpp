@@ -2,6 +2,7 @@
 
 #include "compare/driver/lighting/lighting_ranges.h"
 #include "compare/driver/lighting/lighting_tables.h"
+#include "compare/driver/lighting/stretched_bumps.h"
 #include "compare/driver/lighting/vertex_vectors.h"
 #include "scenes/driver.h"
 
@@ -78,28 +79,59 @@ Intervals normal_of(const RangeOf<glm::dvec2>& slope) {
     return {-1 * slope[0], slope[1], around(1)};
 }
 
-/// m of the technique: normalised if it is made from slopes or if lighting is in floats throughout;
-/// else as filtered.
-VectorRange bump_range(const LightingTables& tables, const Material& material,
-                       const PlaceRange& at) {
-    if (material.bump == Bump::none) return {around(glm::dvec3(0, 0, 1))};
-    constexpr Interval any_component{-1, 1};
+const BumpTexels& bumps_of(const LightingTables& tables, const Material& material) {
     const auto index = static_cast<std::size_t>(&material - tables.scene->materials.data());
-    const BumpTexels& bumps = *tables.bumps[index];
+    return *tables.bumps[index];
+}
+
+/// Slopes per texel of a form that holds slopes, in texels; none of other forms.
+std::optional<RangeOf<glm::dvec2>> stored_slopes(const LightingTables& tables,
+                                                 const Material& material, const PlaceRange& at) {
+    const BumpTexels& bumps = bumps_of(tables, material);
+    if (bumps.form == BumpForm::height_field) {
+        RangeOf<glm::dvec2> slopes = slope_range(tables, material, at);
+        if (material.height_in_space)
+            for (Interval& slope : slopes) slope = (1 / bumps.texel_side) * slope;
+        return slopes;
+    }
+    if (bumps.form != BumpForm::derivatives) return std::nullopt;
+    const Interval any{-bumps.slope_range, bumps.slope_range};
+    return texels_range(
+        tables.scene->textures[material.bump_map], bumps.texels, at,
+        [&](const glm::dvec4& texel) {
+            return bumps.slope_range * (2.0 * glm::dvec2(texel) - 1.0);
+        },
+        RangeOf<glm::dvec2>{any, any});
+}
+
+/// N' of a technique that perturbs normals by slopes over texels of their true size. Floats: the
+/// heights' scale and the mean side that it is divided by are rounded, and their product with a
+/// slope is, twice: 4 v of a slope.
+VectorRange bump_in_space(const InputPoint& point, const Scene& scene, const TangentFrame& frame,
+                          const RangeOf<glm::dvec2>& slopes, double texel_side) {
+    RangeOf<glm::dvec2> in_space;
+    for (std::size_t k = 0; k < 2; ++k) in_space[k] = around(1, 4 * v) * (texel_side * slopes[k]);
+    return unit(over_true_lengths(scene, point.triangle, frame, point.shading.side, in_space));
+}
+
+/// m of the technique: normalised if it is made from slopes or if lighting is in floats throughout;
+/// else as filtered. `frame`: in world axes.
+VectorRange bump_range(const LightingTables& tables, const InputPoint& point,
+                       const TangentFrame& frame) {
+    const Material& material = material_of(*tables.scene, point.triangle);
+    if (material.bump == Bump::none) return {around(glm::dvec3(0, 0, 1))};
+    const PlaceRange& at = point.interpolated.bump_at;
+    constexpr Interval any_component{-1, 1};
+    const BumpTexels& bumps = bumps_of(tables, material);
     const TextureImage& map = tables.scene->textures[material.bump_map];
     const bool in_floats = tables.model.arithmetic == ColorModel::Arithmetic::floating;
-    switch (bumps.form) {
-    case BumpForm::height_field:
-        return unit({normal_of(slope_range(tables, material, at))});
-    case BumpForm::derivatives:
-        return unit({normal_of(texels_range(
-            map, bumps.texels, at,
-            [&](const glm::dvec4& texel) {
-                return bumps.slope_range * (2.0 * glm::dvec2(texel) - 1.0);
-            },
-            RangeOf<glm::dvec2>{bumps.slope_range * any_component,
-                                bumps.slope_range * any_component}))});
-    case BumpForm::indexed: {
+    if (const auto slopes = stored_slopes(tables, material, at)) {
+        const bool in_space =
+            material.height_in_space && tables.model.axes == ColorModel::Axes::eye;
+        return in_space ? bump_in_space(point, *tables.scene, frame, *slopes, bumps.texel_side)
+                        : unit({normal_of(*slopes)});
+    }
+    if (bumps.form == BumpForm::indexed) {
         const VectorRange mixed{texels_range(
             map, bumps.texels, at,
             [](const glm::dvec4& texel) {
@@ -107,10 +139,6 @@ VectorRange bump_range(const LightingTables& tables, const Material& material,
             },
             Intervals{any_component, any_component, any_component})};
         return in_floats ? unit(mixed) : mixed;
-    }
-    case BumpForm::as_given:
-    case BumpForm::normal_map:
-        break;
     }
     Intervals mixed = texels_range(
         map, bumps.texels, at,
@@ -190,7 +218,6 @@ namespace {
 LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
                           const InputPoint& given) {
     const Scene& scene = *tables.scene;
-    const Material& material = material_of(scene, given.triangle);
     InputPoint point = given;
     std::span<const Surface, 3> corners = corners_of(scene.surfaces, point.triangle);
     if (model.tangents == TangentSource::polygons) {
@@ -225,7 +252,7 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
         inputs.light = carried(made.light);
         inputs.half = carried(made.half);
     }
-    inputs.bump = bump_range(tables, material, at.bump_at);
+    inputs.bump = bump_range(tables, point, world);
     inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, scene, point, world, model.reflects);
     return inputs;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
@@ -38,8 +39,35 @@ glm::dvec3 to_unit(double x, double y, double z) {
     return {x / length, y / length, z / length};
 }
 
+/// The side of a square texel, were all triangles of the material to have texels of one size; 0
+/// where heights are in texels. Areas by the halved cross products of corners' differences; in the
+/// texture by the shoelace formula.
+double expected_texel_side(const Scene& scene, const Material& material) {
+    if (!material.height_in_space) return 0;
+    const Image<glm::vec4>& texels = scene.textures[material.bump_map].texels;
+    double space = 0;
+    double texture = 0;
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const Mesh& mesh = scene.meshes[mesh_of(scene, triangle)];
+        if (&scene.materials[mesh.material] != &material) continue;
+        const glm::dvec3 last = corner(scene, triangle, 2);
+        space += 0.5 * glm::length(glm::cross(corner(scene, triangle, 0) - last,
+                                              corner(scene, triangle, 1) - last));
+        double twice = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec2 at(scene.surfaces[std::size_t{3} * triangle + k].bump_at);
+            const glm::dvec2 next(scene.surfaces[std::size_t{3} * triangle + (k + 1) % 3].bump_at);
+            twice += at.x * next.y - next.x * at.y;
+        }
+        texture += 0.5 * std::abs(twice) * texels.width * texels.height;
+    }
+    const double side = std::sqrt(space / texture);
+    return side > 0 && std::isfinite(side) ? side : 1;
+}
+
 /// A normal map's texel without the scale of its length; a height field's slope as a normal.
-Image<glm::dvec3> expected_normals(const TextureImage& map, const Material& material) {
+Image<glm::dvec3> expected_normals(const Scene& scene, const TextureImage& map,
+                                   const Material& material) {
     Image<glm::dvec3> normals(map.texels.width, map.texels.height);
     if (material.bump == Bump::normal_map) {
         for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
@@ -50,7 +78,9 @@ Image<glm::dvec3> expected_normals(const TextureImage& map, const Material& mate
         }
         return normals;
     }
-    const Image<glm::dvec2> slopes = expected_slopes(map, material.bump_scale);
+    const double side = expected_texel_side(scene, material);
+    const Image<glm::dvec2> slopes =
+        expected_slopes(map, side > 0 ? material.bump_scale / side : material.bump_scale);
     for (std::size_t i = 0; i < normals.pixels.size(); ++i)
         normals.pixels[i] = {-slopes.pixels[i].x, slopes.pixels[i].y, 1};
     return normals;
@@ -136,9 +166,18 @@ BumpTexels expected_bump_texels(const Scene& scene, const Material& material, Bu
     const bool heights = material.bump == Bump::height_field;
     if (form == BumpForm::as_given) form = heights ? BumpForm::height_field : BumpForm::normal_map;
     const bool given = form == (heights ? BumpForm::height_field : BumpForm::normal_map);
-    if (given) return {.form = form, .texels = map.texels, .scale = material.bump_scale};
-    const Image<glm::dvec3> normals = expected_normals(map, material);
-    if (form == BumpForm::derivatives) return slopes_in_bytes(normals, empty_texels(form, map));
+    const double side = expected_texel_side(scene, material);
+    if (given)
+        return {.form = form,
+                .texels = map.texels,
+                .scale = side > 0 ? material.bump_scale / side : material.bump_scale,
+                .texel_side = side};
+    const Image<glm::dvec3> normals = expected_normals(scene, map, material);
+    if (form == BumpForm::derivatives) {
+        BumpTexels made = empty_texels(form, map);
+        made.texel_side = side;
+        return slopes_in_bytes(normals, std::move(made));
+    }
     if (form == BumpForm::indexed) return numbers_of_normals(normals, empty_texels(form, map));
     return normals_in_bytes(normals, empty_texels(form, map));
 }

@@ -3,7 +3,8 @@
 #include lighting.glsl
 
 // N' = N + h_u (N x P_v) + h_v (P_u x N), negated where the parametrization is mirrored, of a
-// height field h on the surface P; u runs along P_u, v along P_v, which is up the picture.
+// height field h on the surface P; u runs along P_u, v along P_v, which is up the picture. Both have
+// the length 1: heights are in texels, which are squares.
 vec3 perturbed_by_slopes(mat3 frame) {
     vec3 p_u = frame[0];
     vec3 p_v = frame[1];
@@ -14,8 +15,20 @@ vec3 perturbed_by_slopes(mat3 frame) {
     return normal + surface.hand * (h_u * cross(normal, p_v) + h_v * cross(p_u, normal));
 }
 
+// The same with P_u and P_v of their true length, the sides of a texel on the triangle, over its
+// area; here v runs down the picture, and the area's sign tells a mirrored one.
+vec3 perturbed_over_true_lengths(vec3 normal) {
+    vec2 slope = texel_side * slope();
+    float area = dot(normal, cross(surface.texel_along, surface.texel_down));
+    vec3 gradient = slope.x * cross(surface.texel_down, normal) +
+                    slope.y * cross(normal, surface.texel_along);
+    return area == 0 ? normal : normal - gradient / area;
+}
+
 vec3 perturbed_normal(mat3 frame) {
-    vec3 normal = has_slopes() ? perturbed_by_slopes(frame) : frame * mapped_normal();
+    vec3 normal = !has_slopes() ? frame * mapped_normal()
+                  : texel_side > 0 ? perturbed_over_true_lengths(frame[2])
+                                   : perturbed_by_slopes(frame);
     return dot(normal, normal) > 0 ? unit(normal) : frame[2];
 }
 

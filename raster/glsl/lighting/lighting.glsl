@@ -24,6 +24,7 @@ layout(location = 18) uniform float cone_cosine; // of the outer cone
 layout(location = 19) uniform float cone_scale;  // 0: the light shines everywhere
 layout(location = 20) uniform bool inverse_square;
 layout(location = 22) uniform float slope_range;
+layout(location = 30) uniform float texel_side; // as in bump_forms.h; 0 where heights are in texels
 layout(location = 23) uniform vec3 ambient_color;
 layout(location = 24) uniform vec3 reflectance;
 layout(location = 25) uniform bool highlight_by_light; // whose self-shadowing dims the highlight
@@ -44,6 +45,8 @@ in Surface {
     vec3 vertex_half;
     vec2 decal_at;
     vec2 bump_at;
+    flat vec3 texel_along;
+    flat vec3 texel_down;
     flat float hand;
     flat uint triangle;
 } surface;

@@ -8,6 +8,8 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent; // w: the handedness of the frame
 layout(location = 3) in vec2 decal_at;
 layout(location = 4) in vec2 bump_at;
+layout(location = 5) in vec3 texel_along; // the sides of the triangle's texels; only where heights
+layout(location = 6) in vec3 texel_down;  // are in units of space
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or the world's
@@ -29,6 +31,8 @@ out Surface {
     vec3 vertex_half;
     vec2 decal_at;
     vec2 bump_at;
+    flat vec3 texel_along;
+    flat vec3 texel_down;
     flat float hand;
     flat uint triangle;
 } surface;
@@ -65,6 +69,8 @@ void main() {
     if (vectors != vectors_per_pixel) make_vectors(surface.to_light, -surface.from_eye);
     surface.decal_at = decal_at;
     surface.bump_at = bump_at;
+    surface.texel_along = lit_from_world * texel_along;
+    surface.texel_down = lit_from_world * texel_down;
     surface.hand = tangent.w;
     surface.triangle = uint(gl_VertexID) / 3;
     gl_Position = clip_from_relative * vec4(relative, 1);

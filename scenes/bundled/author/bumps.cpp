@@ -2,6 +2,7 @@
 #include "scenes/bundled/author/textures.h"
 
 #include <string>
+#include <utility>
 
 namespace shadowproof::author {
 
@@ -75,6 +76,43 @@ Stage height_field() {
     return stage;
 }
 
+/// A relief whose heights are in the file's units, on a beam four times as long as thick.
+Placed beam(Shape shape) {
+    return {.name = "beam",
+            .shape = std::move(shape),
+            .color = amber,
+            .position = {0.113, 1.371, 0.171},
+            .turn_axis = {-0.291, 0.831, 0.173},
+            .turn = 0.5713,
+            .look = {.bump = 0,
+                     .bump_is_height = true,
+                     .bump_scale = 0.11,
+                     .height_in_space = true,
+                     .specular = glm::dvec3(0.6)}};
+}
+
+/// Once around each face, so that texels are squares at the ends of the beam alone.
+Stage stretched_relief() {
+    Stage stage = lit_from_the_left(
+        "stretched_relief", "A relief of heights in the file's units, stretched four to one "
+                            "over the long faces of a beam.");
+    stage.textures = {{"ripples", png_of(height_map(64, 64, ripples()))}};
+    add(stage, {beam(textured_box({2.052, 0.513, 0.513}, 3))});
+    return stage;
+}
+
+/// Rows that lean: the texture's two directions are not at right angles on the beam.
+Stage skewed_relief() {
+    Stage stage = lit_from_the_left("skewed_relief",
+                                    "A relief of heights in the file's units, whose texels are "
+                                    "parallelograms on the faces of a beam.");
+    stage.textures = {{"ripples", png_of(height_map(64, 64, ripples()))}};
+    Shape leaning = textured_box({2.052, 0.513, 0.513}, 3);
+    for (glm::dvec2& at : leaning.coordinates) at = {4 * at.x + at.y, at.y};
+    add(stage, {beam(std::move(leaning))});
+    return stage;
+}
+
 /// A ball through a ring, both hammered: silver, with stripes of gold that are dull in the dents.
 Stage hammered_silver() {
     Stage stage = lit_from_the_left(
@@ -114,7 +152,8 @@ Stage hammered_silver() {
 } // namespace
 
 std::vector<Stage> stages_of_bumps() {
-    return {bumpy_sphere(), bumpy_torus(), mirrored_skin(), height_field(), hammered_silver()};
+    return {bumpy_sphere(),    bumpy_torus(),      mirrored_skin(), height_field(),
+            hammered_silver(), stretched_relief(), skewed_relief()};
 }
 
 } // namespace shadowproof::author

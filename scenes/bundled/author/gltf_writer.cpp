@@ -47,6 +47,7 @@ void set_look(Json& material, const Look& look) {
     if (look.bump) {
         Json map{{"index", *look.bump}};
         if (look.bump_scale != 1) map["scale"] = look.bump_scale;
+        if (look.height_in_space) map["unit"] = "space";
         (look.bump_is_height ? ours["height"] : material["normalTexture"]) = map;
     }
     if (look.gloss_in_alpha) ours["glossInAlpha"] = true;

@@ -18,6 +18,7 @@ struct Look {
     std::optional<std::size_t> bump{};
     bool bump_is_height = false; ///< else it is a normal map
     double bump_scale = 1;
+    bool height_in_space = false; ///< bump_scale is in units of the scene, else in texels
     std::optional<std::size_t> decal{};
     bool gloss_in_alpha = false;
     std::optional<glm::dvec3> specular{};

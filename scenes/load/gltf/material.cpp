@@ -144,6 +144,15 @@ void read_look(const MaterialSource& source) {
         (extras / "glossInAlpha").refuse("asks for the alpha of no texture", "add a decal");
 }
 
+/// Whether heights are in units of space, not in texels.
+bool is_in_space(const Place& place, const json& height) {
+    const std::string unit = height.value("unit", "texel");
+    if (unit != "texel" && unit != "space")
+        place.refuse(fmt::format("is \"{}\"", unit),
+                     "choose texel, or space for the units of positions");
+    return unit == "space";
+}
+
 void read_bump_map(const MaterialSource& source) {
     const json& height = height_of(source.value);
     const bool is_height = !height.is_null();
@@ -156,6 +165,7 @@ void read_bump_map(const MaterialSource& source) {
                                   : source.place / "normalTexture";
     source.material.bump = is_height ? Bump::height_field : Bump::normal_map;
     source.material.bump_scale = map.value("scale", 1.0);
+    if (is_height) source.material.height_in_space = is_in_space(place / "unit", map);
     source.material.bump_map = source.textures.read(place / "index", map["index"], Encoding::plain);
     source.sets.bump = read_coordinates(map);
 }

@@ -159,6 +159,7 @@ inline constexpr std::array rules_of_lighting{
     index("materials/*/extras?/shadowproof/height/index!", "/textures"),
     whole("materials/*/extras?/shadowproof/height/texCoord", 0, 0x7fffffff),
     Rule{"materials/*/extras?/shadowproof/height/scale", Kind::number},
+    Rule{"materials/*/extras?/shadowproof/height/unit", Kind::text},
     Rule{"materials/*/extras?/shadowproof/glossInAlpha", Kind::boolean},
     numbers(
         "materials/*/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/offset",
