@@ -184,6 +184,12 @@ double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point)
 inline bool is_bump_lit(const Scene& scene) {
     return !scene.surfaces.empty();
 }
+/// Whether a material that is drawn has heights in units of space.
+inline bool has_heights_in_space(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes)
+        if (scene.materials[mesh.material].height_in_space) return true;
+    return false;
+}
 
 inline const Light& chosen_light(const Scene& scene) {
     return scene.lights[scene.light];

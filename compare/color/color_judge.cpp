@@ -163,7 +163,7 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, b
             is_predicted || somewhere(pixel, square, share, halvings_of_square, predicted_of);
     }
     const glm::dvec3 truth = pixel.shading.color();
-    const bool exact = is_exact(frame_.color_model);
+    const bool exact = is_exact(frame_.color_model, scene_);
     if (exact) found.bound = cut_to_a_step(found.bound, truth);
     if (!right) {
         found.verdict = is_predicted ? ColorVerdict::beyond : ColorVerdict::unexplained;
@@ -200,7 +200,7 @@ ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scr
         ColorJudgement found{
             .bound = bound(pixel, spread), .predicted = predicted(pixel, spread), .spread = spread};
         const bool is_predicted = contains(found.predicted, claimed);
-        if (is_exact(frame_.color_model)) found.bound = cut_to_a_step(found.bound, shading.color());
+        if (is_exact(frame_.color_model, scene_)) found.bound = cut_to_a_step(found.bound, shading.color());
         if (contains(found.bound, claimed))
             found.verdict = is_predicted ? ColorVerdict::within : ColorVerdict::unpredicted;
         else

@@ -2,6 +2,7 @@
 
 #include "compare/blank.h"
 #include "compare/command/process/stopwatch.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/families.h"
 #include "compare/memory.h"
 #include "raster/render.h"
@@ -12,23 +13,10 @@ namespace shadowproof {
 
 namespace {
 
-/// Whether colours are off by nature: vectors that are not the truth's, which the user's settings
-/// may ask of any technique that lights bumps; or heights in units of space, of which tangent space
-/// knows no stretched texels, nor a normal map.
-bool shades_otherwise(const Scene& scene, const Frame& frame) {
-    if (frame.color.pixels.empty()) return false;
-    const ColorModel& model = frame.color_model;
-    const bool knows_lengths =
-        model.axes == ColorModel::Axes::eye && model.bump_form == BumpForm::as_given;
-    const bool has_lengths = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
-        return scene.materials[mesh.material].height_in_space;
-    });
-    return !makes_vectors_as_truth(model) || (has_lengths && !knows_lengths);
-}
-
-/// Known causes, and the one that such a scene or such settings add.
-std::vector<Cause> with_shading(std::vector<Cause> causes, bool shades_otherwise) {
-    if (shades_otherwise && std::ranges::find(causes, Cause::shading) == causes.end())
+/// Known causes, and the one that scene and settings add: a user may ask any technique that lights
+/// bumps for vectors that are off.
+std::vector<Cause> with_shading(std::vector<Cause> causes, bool is_off_by_nature) {
+    if (is_off_by_nature && std::ranges::find(causes, Cause::shading) == causes.end())
         causes.push_back(Cause::shading);
     return causes;
 }
@@ -50,7 +38,8 @@ JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, co
     cell.comparison = classify(traced, cell.frame, *family);
     refuse_blank(technique.name, traced.truth(), cell.frame,
                  pixels_of(cell.comparison, Cause::unexplained) > 0);
-    const bool otherwise = shades_otherwise(scene, cell.frame);
+    const bool otherwise =
+        !cell.frame.color.pixels.empty() && shades_otherwise(cell.frame.color_model, scene);
     const std::vector<Cause> fails_at = with_shading(technique.fails_at, otherwise);
     const std::vector<Cause> by_nature = with_shading(technique.by_nature, otherwise);
     cell.verdict = judge(scene, fails_at, by_nature, cell.comparison);

@@ -138,12 +138,6 @@ Buffer upload_surfaces(const GlFunctions& gl, const Scene& scene, TangentSource 
     return make_filled_buffer(gl, std::array{std::as_bytes(std::span(surfaces))});
 }
 
-bool has_heights_in_space(const Scene& scene) {
-    return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
-        return scene.materials[mesh.material].height_in_space;
-    });
-}
-
 Buffer upload_texel_sides(const GlFunctions& gl, const Scene& scene) {
     std::vector<std::array<glm::vec3, 2>> sides;
     sides.reserve(scene.surfaces.size());

@@ -146,6 +146,7 @@ std::span<const std::string_view> gltf_words() {
                                                  "textures",
                                                  "translation",
                                                  "type",
+                                                 "unit",
                                                  "uri",
                                                  "value",
                                                  "values",

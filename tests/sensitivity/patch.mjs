@@ -15,8 +15,8 @@ for (const file of readdirSync(folder).filter((name) => name.endsWith('.mjs')).s
 
 // Those that differ in what most faults touch; lighting is tried with those that light bumps.
 const usual = 'zpass,zfail,zfail_clamp,zfail_reversed,zfail_half_edge,zfail_truncated,zpass_capped,zfail_float,auto';
-const lights = 'bump_three_pass,bump_one_pass,bump_eye_space,bump_tangent_space,bump_reflective,bump_three_pass+zpass,bump_tangent_space+zfail';
-const lightingTables = /normalisation_cube|bump_forms|relief|raster.lighting|glsl.lighting/;
+const lights = 'bump_three_pass,bump_three_pass_per_pixel,bump_one_pass,bump_eye_space,bump_tangent_space,bump_tangent_space_per_vertex,bump_reflective,bump_three_pass+zpass,bump_tangent_space+zfail';
+const lightingTables = /normalisation_cube|bump_forms|relief|plane_equations|texel_sides|raster.lighting|glsl.lighting/;
 const maps = 'cube_map_six_pass,cube_map_geometry_shader,spot_map';
 const ofMaps = /maps\//;
 for (const fault of faults)

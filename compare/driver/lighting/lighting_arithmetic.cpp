@@ -309,10 +309,16 @@ Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
                     {.steps = floating ? Steps::none : Steps::within, .bytes = model.bytes});
 }
 
-bool is_exact(const ColorModel& model) {
+bool shades_otherwise(const ColorModel& model, const Scene& scene) {
+    const bool knows_lengths =
+        model.axes == ColorModel::Axes::eye && model.bump_form == BumpForm::as_given;
+    return !makes_vectors_as_truth(model) || (has_heights_in_space(scene) && !knows_lengths);
+}
+
+bool is_exact(const ColorModel& model, const Scene& scene) {
     return model.arithmetic == ColorModel::Arithmetic::floating &&
            model.normalisation == Normalisation::exact && model.bump_form == BumpForm::as_given &&
-           makes_vectors_as_truth(model);
+           !shades_otherwise(model, scene);
 }
 
 ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, const LoneInputs& lone,

@@ -34,9 +34,14 @@ Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed
 /// to half a step, and the colour is clamped to [0, 1].
 Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted);
 
-/// Whether the technique uses floats alone, without bytes and tables, and makes its vectors at each
-/// pixel. A colour of such a technique is wrong if it is beyond 1/255 of the truth.
-bool is_exact(const ColorModel& model);
+/// Whether a technique of this model is off by nature on the scene, whatever its numbers: its vectors
+/// are not made as the truth's are; or heights are in units of space, and it takes all texels for
+/// squares of one size, as tangent space and normal maps do.
+bool shades_otherwise(const ColorModel& model, const Scene& scene);
+
+/// Whether the technique uses floats alone, without bytes and tables, and does not shade otherwise. A
+/// colour of such a technique is wrong if it is beyond 1/255 of the truth.
+bool is_exact(const ColorModel& model, const Scene& scene);
 
 /// How far each term alone moves the colour, in the channel that it moves most. `truth`, `lone`,
 /// `claimed`: inputs at the pixel's centre; `freed`: claimed inputs over all that the rasterizer

@@ -152,8 +152,8 @@ Stage hammered_silver() {
 } // namespace
 
 std::vector<Stage> stages_of_bumps() {
-    return {bumpy_sphere(),    bumpy_torus(),      mirrored_skin(), height_field(),
-            hammered_silver(), stretched_relief(), skewed_relief()};
+    return {bumpy_sphere(),     bumpy_torus(),   mirrored_skin(),  height_field(),
+            stretched_relief(), skewed_relief(), hammered_silver()};
 }
 
 } // namespace shadowproof::author

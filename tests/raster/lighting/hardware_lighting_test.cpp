@@ -13,14 +13,17 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace shadowproof::tests {
 namespace {
 
-constexpr const char* techniques[]{"bump_tangent_space", "bump_eye_space", "bump_three_pass",
-                                   "bump_one_pass"};
+constexpr const char* techniques[]{
+    "bump_tangent_space",     "bump_tangent_space_per_vertex", "bump_eye_space",
+    "bump_three_pass",        "bump_three_pass_per_pixel",     "bump_one_pass",
+    "bump_one_pass_per_pixel"};
 
 /// A bundled scene in a small picture, with all terms of its truth.
 struct Lit {
@@ -144,19 +147,27 @@ TEST_F(HardwareLighting, has_settings_of_its_own_where_nothing_is_asked_for) {
     const Lit scene = lit("bumpy_sphere");
     for (const char* technique : techniques) {
         const Frame frame = draw(scene, technique, {});
-        const bool hardware = technique == std::string("bump_three_pass") ||
-                              technique == std::string("bump_one_pass");
+        const bool hardware = std::string_view(technique).find("_pass") != std::string_view::npos;
         EXPECT_EQ(frame.color_model.normalisation,
                   hardware ? Normalisation::cube_map : Normalisation::exact);
         EXPECT_EQ(frame.color_model.bump_form,
                   hardware ? BumpForm::normal_map : BumpForm::as_given);
+        EXPECT_EQ(frame.color_model.tangents, TangentSource::vertices);
+        using Words = std::string_view;
+        EXPECT_EQ(frame.color_model.vectors,
+                  technique == Words("bump_three_pass") || technique == Words("bump_one_pass")
+                      ? VectorOrigin::at_vertices
+                  : technique == Words("bump_tangent_space_per_vertex")
+                      ? VectorOrigin::unit_at_vertices
+                      : VectorOrigin::per_pixel);
     }
 }
 
 TEST_F(HardwareLighting, in_bytes_is_bytes_and_claims_the_visibility_that_zfail_reversed_does) {
     const Lit scene = lit("bumpy_torus");
     const Frame plain = draw(scene, "zfail_reversed", {});
-    for (const char* technique : {"bump_three_pass", "bump_one_pass"}) {
+    for (const char* technique : {"bump_three_pass", "bump_three_pass_per_pixel", "bump_one_pass",
+                                  "bump_one_pass_per_pixel"}) {
         const Frame frame = draw(scene, technique, {});
         EXPECT_EQ(frame.claim.pixels, plain.claim.pixels);
         EXPECT_EQ(frame.counted->counter.pixels, plain.counted->counter.pixels);
@@ -173,7 +184,7 @@ TEST_F(HardwareLighting, in_bytes_is_bytes_and_claims_the_visibility_that_zfail_
 TEST_F(HardwareLighting, in_three_passes_loses_no_more_than_the_bytes) {
     const Lit scene = lit("height_field");
     const Frame frame =
-        draw(scene, "bump_three_pass",
+        draw(scene, "bump_three_pass_per_pixel",
              {.normalisation = Normalisation::exact, .bump_form = BumpForm::height_field});
     std::size_t compared = 0;
     visit_agreeing(scene, frame, [&](const glm::dvec3& claim, const Shading& terms) {

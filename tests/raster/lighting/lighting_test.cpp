@@ -16,6 +16,7 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,10 +25,13 @@ namespace {
 
 constexpr const char* techniques[]{"bump_tangent_space", "bump_eye_space", "bump_reflective"};
 
+/// Those that are right. Tangent space knows no stretched texels.
 std::vector<const char*> techniques_for(const Scene& scene) {
     std::vector<const char*> names;
     for (const char* name : techniques)
-        if (suits(*find_technique(name), scene)) names.push_back(name);
+        if (suits(*find_technique(name), scene) &&
+            (!has_heights_in_space(scene) || name == std::string_view("bump_eye_space")))
+            names.push_back(name);
     return names;
 }
 

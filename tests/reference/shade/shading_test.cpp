@@ -1,5 +1,6 @@
 #include "reference/shade/shading.h"
 #include "scenes/load/catalog.h"
+#include "scenes/scaling.h"
 #include "tests/reference/hard_scenes.h"
 #include "tests/reference/shading_witness.h"
 #include "tests/scenes/bundled_names.h"
@@ -11,6 +12,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
 #include <numbers>
 
 namespace shadowproof {
@@ -180,6 +183,54 @@ TEST(shading, of_a_height_field_that_rises_evenly_leans_as_its_slope_does) {
     for (Surface& surface : scene.surfaces) surface.bump_at = {0.5F, 0.5F};
     const auto seen = shade_ray(Tracer(scene), {0.0625, 0.0625, -1});
     expect_near(seen->bumped, glm::normalize(glm::dvec3(-2.0 / 16, 2.0 / 32, 1)));
+}
+
+/// Of heights in units of space the slope is over the way that texels make, not their number: a
+/// wall whose picture is four times as wide as high, and one that leans.
+TEST(shading, of_heights_in_space_is_less_steep_where_a_texel_is_longer) {
+    Scene scene = wall({0, 0, 1});
+    scene.materials[0] = {
+        .name = "relief", .bump = Bump::height_field, .bump_map = 0, .height_in_space = true};
+    TextureImage& map = scene.textures[0];
+    map.texels = Image<glm::vec4>(8, 8);
+    map.wrap_s = map.wrap_t = Wrap::clamp_to_edge;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) // by 1/16 to the right and 1/32 down the picture, a texel
+            map.texels.at(x, y) =
+                glm::vec4(static_cast<float>(x) / 16 + static_cast<float>(y) / 32);
+    const auto bumped_over = [&](const glm::dvec2& across, const glm::dvec2& down) {
+        // Texture coordinates of a place, of sides that are `across` and `down` long.
+        const glm::dmat2 sides(across, down);
+        for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+            const auto triangle = static_cast<std::uint32_t>(i / 3);
+            const glm::dvec3 place = corner(scene, triangle, static_cast<int>(i % 3));
+            scene.surfaces[i].bump_at =
+                glm::dvec2(0.5) + glm::inverse(sides) * glm::dvec2(place) / 8.0;
+        }
+        return shade_ray(Tracer(scene), {0.0625, 0.0625, -1})->bumped;
+    };
+    expect_near(bumped_over({1, 0}, {0, -1}), glm::normalize(glm::dvec3(-1.0 / 16, 1.0 / 32, 1)));
+    expect_near(bumped_over({4, 0}, {0, -1}), glm::normalize(glm::dvec3(-1.0 / 64, 1.0 / 32, 1)));
+    // Down and a texel to the right: of what it rises on the way, the way to the right has its
+    // part.
+    expect_near(bumped_over({1, 0}, {1, -1}),
+                glm::normalize(glm::dvec3(-1.0 / 16, 1.0 / 32 - 1.0 / 16, 1)));
+    // Mirrored.
+    expect_near(bumped_over({-1, 0}, {0, -1}), glm::normalize(glm::dvec3(1.0 / 16, 1.0 / 32, 1)));
+}
+
+/// Heights in units of space grow with the scene.
+TEST(shading, of_a_scene_scaled_by_a_power_of_two_stays_the_same) {
+    for (const char* name : {"stretched_relief", "height_field"}) {
+        const Scene scene = picture_of(name, 48, 48);
+        Scene larger = scene;
+        scale(larger, 1024);
+        const auto colors_of = [](const Scene& given) {
+            const Tracer tracer(given);
+            return shade(tracer, trace(tracer));
+        };
+        EXPECT_EQ(colors_of(scene).pixels, colors_of(larger).pixels) << name;
+    }
 }
 
 TEST(shading, leaves_ambient_alone_in_shadow_and_nothing_at_background) {

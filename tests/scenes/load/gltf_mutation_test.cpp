@@ -58,7 +58,7 @@ json everything() {
     gltf["materials"].push_back({{"pbrMetallicRoughness", decal},
                                  {"extras",
                                   {{"shadowproof",
-                                    {{"height", {{"index", 1}, {"scale", 2}}},
+                                    {{"height", {{"index", 1}, {"scale", 2}, {"unit", "space"}}},
                                      {"glossInAlpha", true},
                                      {"specular", {1, 1, 0}}}}}}});
     gltf["extras"]["shadowproof"] = {{"ambient", {0, 0, 1}},

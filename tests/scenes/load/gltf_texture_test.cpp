@@ -72,9 +72,20 @@ TEST(textures, of_16_bits_keep_them_and_gray_is_every_color) {
     const Scene scene = load(gltf);
     EXPECT_EQ(scene.materials[0].bump, Bump::height_field);
     EXPECT_EQ(scene.materials[0].bump_scale, 3);
+    EXPECT_FALSE(scene.materials[0].height_in_space);
     EXPECT_EQ(bump_map(scene).bits, 16);
     EXPECT_EQ(bump_map(scene).texels.at(1, 0), glm::vec4(glm::vec3(1 / 65535.F), 1));
     EXPECT_EQ(bump_map(scene).texels.at(1, 1), glm::vec4(1));
+}
+
+TEST(textures, of_heights_are_in_texels_or_in_units_of_space) {
+    json gltf = textured_gltf();
+    for (const bool in_space : {false, true}) {
+        const char* unit = in_space ? "space" : "texel";
+        gltf["materials"][0] = {
+            {"extras", {{"shadowproof", {{"height", {{"index", 0}, {"unit", unit}}}}}}}};
+        EXPECT_EQ(load(gltf).materials[0].height_in_space, in_space);
+    }
 }
 
 TEST(textures, wrap_as_their_sampler_says_and_repeat_without_one) {
@@ -298,6 +309,18 @@ const std::vector<Breakage> breakages{
          ours(g)["height"] = {{"index", 9}};
      },
      " /materials/0/extras/shadowproof/height/index", "no index into /textures"},
+    {"height_of_no_unit",
+     [](json& g) {
+         g["materials"][0].erase("normalTexture");
+         ours(g)["height"] = {{"index", 0}, {"unit", "metre"}};
+     },
+     " /materials/0/extras/shadowproof/height/unit", "choose texel, or space"},
+    {"height_of_a_number_as_unit",
+     [](json& g) {
+         g["materials"][0].erase("normalTexture");
+         ours(g)["height"] = {{"index", 0}, {"unit", 1}};
+     },
+     " /materials/0/extras/shadowproof/height/unit", ""},
     {"gloss_without_decal", [](json& g) { ours(g)["glossInAlpha"] = true; },
      " /materials/0/extras/shadowproof/glossInAlpha", "no texture"},
     {"specular_too_short",
