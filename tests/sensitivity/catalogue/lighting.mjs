@@ -7,6 +7,9 @@ const inBytes = 'static_cast<float>(std::round(255 * number) / 255)';
 const compressed = 'static_cast<std::uint8_t>(std::lround(255 * (0.5 + 0.5 * n[c])))';
 const cubeMade = 'upload_cube(gl, make_normalisation_cube(model.cube_size))';
 const selfShadow = 'return clamp(8 * cosine, 0, 1);';
+const vertices = 'raster/glsl/lighting/lit.vert';
+const twoStages = 'raster/glsl/lighting/two_stages.glsl';
+const eyeSpace = 'raster/glsl/lighting/bump_eye_space.frag';
 const frame = 'vec3 tangent = unit(surface.tangent - normal * dot(normal, surface.tangent));';
 const clearing = 'gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, black.data());';
 const tapsX = 'float x = float(texels) * at - 0.5;';
@@ -69,6 +72,31 @@ export const faults = [
   { name: 'eye_space_sign', file: 'raster/glsl/lighting/bump_eye_space.frag', right: 'float h_v = -slope.y;', wrong: 'float h_v = slope.y;' },
   { name: 'eye_space_handedness', file: 'raster/glsl/lighting/bump_eye_space.frag', right: 'return normal + surface.hand * (', wrong: 'return normal + (', why: 'No bundled height field lies on a mirrored chart.' },
   { name: 'tangent_space_slope_sign', file: 'raster/glsl/lighting/tangent_space.glsl', right: 'return vec3(-slope.x, slope.y, 1);', wrong: 'return vec3(slope.x, slope.y, 1);' },
+  { name: 'vertices_half_of_unnormalised', file: vertices, right: 'unit(to_light) + unit(to_eye)', wrong: 'to_light + to_eye' },
+  { name: 'vertices_eye_reversed', file: vertices, right: 'make_vectors(surface.to_light, -surface.from_eye)', wrong: 'make_vectors(surface.to_light, surface.from_eye)' },
+  { name: 'vertices_hand_ignored', file: vertices, right: 'mat3(t, tangent.w * cross(n, t), n)', wrong: 'mat3(t, cross(n, t), n)' },
+  { name: 'vertices_light_not_transposed', file: vertices, right: 'light * frame', wrong: 'frame * light' },
+  { name: 'vertices_half_not_transposed', file: vertices, right: 'half_angle * frame', wrong: 'frame * half_angle' },
+  { name: 'vertices_never_unit', file: vertices, right: 'make_unit ? unit(to_light) : to_light', wrong: 'to_light' },
+  { name: 'vertices_light_unit', file: vertices, right: 'make_unit ? unit(to_light) : to_light', wrong: 'unit(to_light)' },
+  { name: 'vertices_half_never_unit', file: vertices, right: 'if (make_unit) half_angle = unit(half_angle);', wrong: '' },
+  { name: 'vertices_not_normalised_again', file: 'raster/glsl/lighting/tangent_space.glsl', right: 'vec3 v = normalised(interpolated);', wrong: 'vec3 v = interpolated;' },
+  { name: 'two_stages_self_shadow_4', file: twoStages, right: 'q(8 * tex1.z)', wrong: 'q(4 * tex1.z)' },
+  { name: 'two_stages_diffuse_undimmed', file: twoStages, right: 'max0(spare0.b) * max0(spare0.a)', wrong: 'max0(spare0.b)' },
+  { name: 'two_stages_ambient_lost', file: twoStages, right: 'q(spare0.rgb * q(light) + q(ambient))', wrong: 'q(spare0.rgb * q(light))' },
+  { name: 'two_stages_light_of_7_bits', file: twoStages, right: 'spare0.rgb * q(light)', wrong: 'spare0.rgb * floor(127 * light + 0.5) / 127' },
+  { name: 'two_stages_exponent_4', file: twoStages, right: 'float a_b = q(e_f * e_f);', wrong: 'float a_b = e_f;' },
+  { name: 'two_stages_square_not_rounded', file: twoStages, right: 'float squared = q(max0(spare0.b) * max0(spare0.b));', wrong: 'float squared = max0(spare0.b) * max0(spare0.b);' },
+  { name: 'two_stages_gloss_ignored', file: twoStages, right: '* in_bytes(vec4(gloss)).x', wrong: '' },
+  { name: 'registers_of_9_bits', file: 'raster/glsl/lighting/registers.glsl', right: 'float q(float x) {\n    return clamp(floor(255 * x + 0.5) / 255, -1, 1);', wrong: 'float q(float x) {\n    return clamp(floor(511 * x + 0.5) / 511, -1, 1);' },
+  { name: 'registers_truncate', file: 'raster/glsl/lighting/registers.glsl', right: 'float q(float x) {\n    return clamp(floor(255 * x + 0.5) / 255, -1, 1);', wrong: 'float q(float x) {\n    return clamp(floor(255 * x) / 255, -1, 1);' },
+  { name: 'stretched_sides_exchanged', file: eyeSpace, right: 'slope.x * cross(surface.texel_down, normal)', wrong: 'slope.x * cross(surface.texel_along, normal)' },
+  { name: 'stretched_down_lost', file: eyeSpace, right: 'slope.y * cross(normal, surface.texel_along)', wrong: 'vec3(0)' },
+  { name: 'stretched_area_ignored', file: eyeSpace, right: 'normal - gradient / area', wrong: 'normal - gradient' },
+  { name: 'stretched_area_unsigned', file: eyeSpace, right: 'normal - gradient / area', wrong: 'normal - gradient / abs(area)' },
+  { name: 'stretched_half_a_percent_off', file: eyeSpace, right: 'texel_side * slope()', wrong: '1.005 * texel_side * slope()' },
+  { name: 'stretched_bumps_sink', file: eyeSpace, right: 'normal - gradient / area', wrong: 'normal + gradient / area' },
+  { name: 'polygon_tangents_turned', file: 'scenes/surface/plane_equations.cpp', right: 'const double sign = planes.a < 0 ? 1 : -1;', wrong: 'const double sign = -1;', why: 'Only where --tangents polygons asks for it.' },
   { name: 'combiners_stage_2_unclamped', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare0.a = q(from.tex0.a * from.spare0.b);', wrong: 'r.spare0.a = q(from.spare0.b * from.spare0.b);' },
   { name: 'combiners_exponent_4', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare1.rgb = q(vec3(from.spare1.a * from.spare1.a));', wrong: 'r.spare1.rgb = q(vec3(from.spare1.a));' },
   { name: 'combiners_self_shadow_4', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare1.a = q(8 * from.tex2.z);', wrong: 'r.spare1.a = q(4 * from.tex2.z);' },
