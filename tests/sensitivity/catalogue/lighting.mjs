@@ -96,7 +96,7 @@ export const faults = [
   { name: 'stretched_area_unsigned', file: eyeSpace, right: 'normal - gradient / area', wrong: 'normal - gradient / abs(area)' },
   { name: 'stretched_half_a_percent_off', file: eyeSpace, right: 'texel_side * slope()', wrong: '1.005 * texel_side * slope()' },
   { name: 'stretched_bumps_sink', file: eyeSpace, right: 'normal - gradient / area', wrong: 'normal + gradient / area' },
-  { name: 'polygon_tangents_turned', file: 'scenes/surface/plane_equations.cpp', right: 'const double sign = planes.a < 0 ? 1 : -1;', wrong: 'const double sign = -1;', why: 'Only where --tangents polygons asks for it.' },
+  { name: 'polygon_tangents_turned', file: 'scenes/surface/plane_equations.cpp', right: 'planes.a < 0 ? 1 : -1', wrong: '-1', why: 'Only where --tangents polygons asks for it.' },
   { name: 'combiners_stage_2_unclamped', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare0.a = q(from.tex0.a * from.spare0.b);', wrong: 'r.spare0.a = q(from.spare0.b * from.spare0.b);' },
   { name: 'combiners_exponent_4', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare1.rgb = q(vec3(from.spare1.a * from.spare1.a));', wrong: 'r.spare1.rgb = q(vec3(from.spare1.a));' },
   { name: 'combiners_self_shadow_4', file: 'raster/glsl/lighting/four_stages.glsl', right: 'r.spare1.a = q(8 * from.tex2.z);', wrong: 'r.spare1.a = q(4 * from.tex2.z);' },
