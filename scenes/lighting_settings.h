@@ -45,11 +45,11 @@ enum class VectorOrigin : std::uint8_t {
 /// Whose tangents a technique uses.
 enum class TangentSource : std::uint8_t {
     vertices, ///< the asset's own, or those that MikkTSpace's rule averages at a vertex
-    polygons, ///< each triangle's, from its plane equations (polygon_tangents in tangents.h)
+    polygons, ///< each triangle's, from its plane equations (polygon_tangents.h)
 };
 
-inline constexpr std::array all_vector_origins{
-    VectorOrigin::per_pixel, VectorOrigin::at_vertices, VectorOrigin::unit_at_vertices};
+inline constexpr std::array all_vector_origins{VectorOrigin::per_pixel, VectorOrigin::at_vertices,
+                                               VectorOrigin::unit_at_vertices};
 inline constexpr std::array all_tangent_sources{TangentSource::vertices, TangentSource::polygons};
 inline constexpr std::array all_normalisations{Normalisation::exact, Normalisation::cube_map,
                                                Normalisation::newton_raphson};

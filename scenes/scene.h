@@ -44,9 +44,9 @@ struct Material {
     bool gloss_in_alpha = false;      ///< the decal's alpha times the specular colour
     Bump bump = Bump::none;
     std::uint32_t bump_map = no_texture; ///< index into Scene::textures; none where bump is
-    double bump_scale =
-        1; ///< of a normal's x and y, or of a height: in texels or in units of space
-    bool height_in_space = false; ///< the latter: bumps are less steep where a texel is stretched
+    double bump_scale = 1;               ///< of a normal's x and y, or of a height
+    bool height_in_space = false; ///< heights are in units of space, not texels, so that bumps are
+                                  ///< less steep where a texel is stretched
 };
 
 /// A triangle's corner as lighting sees it, in world space, rounded once to float: the same array

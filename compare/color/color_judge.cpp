@@ -200,7 +200,8 @@ ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scr
         ColorJudgement found{
             .bound = bound(pixel, spread), .predicted = predicted(pixel, spread), .spread = spread};
         const bool is_predicted = contains(found.predicted, claimed);
-        if (is_exact(frame_.color_model, scene_)) found.bound = cut_to_a_step(found.bound, shading.color());
+        if (is_exact(frame_.color_model, scene_))
+            found.bound = cut_to_a_step(found.bound, shading.color());
         if (contains(found.bound, claimed))
             found.verdict = is_predicted ? ColorVerdict::within : ColorVerdict::unpredicted;
         else
@@ -226,7 +227,7 @@ ColorTerms ColorJudge::weights(const Shading& shading, std::uint32_t triangle,
     const InputPoint centre = input_at(pixel, {.middle = shading.weights});
     const InputPoint freed = input_at(pixel, spread);
     return weights_of(frame_.color_model, true_inputs(tables_, centre),
-                      lone_inputs(tables_, centre), claimed_inputs(tables_, centre),
+                      single_step_inputs(tables_, centre), claimed_inputs(tables_, centre),
                       claimed_inputs(tables_, freed));
 }
 

@@ -113,7 +113,7 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, const ColorModel
     for (const LitRun& run : pass.all_runs) {
         const Material& material = scene.materials[run.material];
         const auto same = std::ranges::find_if(made_of, [&](std::uint32_t other) {
-            return have_same_bumps(material, scene.materials[other]);
+            return other == run.material || have_same_bumps(material, scene.materials[other]);
         });
         pass.bumps_of[run.material] = static_cast<std::size_t>(same - made_of.begin());
         if (same == made_of.end()) {
@@ -151,14 +151,14 @@ Buffer upload_texel_sides(const GlFunctions& gl, const Scene& scene) {
     return make_filled_buffer(gl, std::array{std::as_bytes(std::span(sides))});
 }
 
-void upload_corners(const GlFunctions& gl, const Scene& scene, TangentSource tangents,
+void upload_corners(const GlFunctions& gl, const Scene& scene, const ColorModel& model,
                     LightingPass& pass) {
     std::vector<glm::vec3> positions;
     positions.reserve(scene.surfaces.size());
     for (const glm::uvec3& triangle : scene.triangles)
         for (int k = 0; k < 3; ++k) positions.push_back(scene.positions[triangle[k]]);
     pass.positions = make_filled_buffer(gl, std::array{std::as_bytes(std::span(positions))});
-    pass.surfaces = upload_surfaces(gl, scene, tangents);
+    pass.surfaces = upload_surfaces(gl, scene, model.tangents);
     pass.corners = make_vertex_array(gl);
     const GLuint corners = pass.corners.name();
     gl.VertexArrayVertexBuffer(corners, 0, pass.positions.name(), 0, sizeof(glm::vec3));
@@ -175,7 +175,8 @@ void upload_corners(const GlFunctions& gl, const Scene& scene, TangentSource tan
     attribute(2, 1, 4, offsetof(Surface, tangent));
     attribute(3, 1, 2, offsetof(Surface, decal_at));
     attribute(4, 1, 2, offsetof(Surface, bump_at));
-    if (!has_heights_in_space(scene)) return;
+    // Tangent space does without.
+    if (model.axes != ColorModel::Axes::eye || !has_heights_in_space(scene)) return;
     pass.texel_sides = upload_texel_sides(gl, scene);
     gl.VertexArrayVertexBuffer(corners, 2, pass.texel_sides.name(), 0, 2 * sizeof(glm::vec3));
     attribute(5, 2, 3, 0);
@@ -339,7 +340,7 @@ LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
                                 const ClipTransform& transform, const LightingRecipe& recipe) {
     assert(is_bump_lit(scene));
     LightingPass pass;
-    upload_corners(gl, scene, recipe.model.tangents, pass);
+    upload_corners(gl, scene, recipe.model, pass);
     make_runs(gl, scene, pass);
     upload_textures(gl, scene, recipe.model, pass);
     if (recipe.model.reflects) pass.environment = upload_environment(gl, scene);

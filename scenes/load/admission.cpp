@@ -2,11 +2,13 @@
 
 #include "scenes/error.h"
 #include "scenes/scaling.h"
+#include "scenes/surface/texel_sides.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <string>
 #include <vector>
@@ -200,6 +202,23 @@ private:
         for (int k = 0; k < 3; ++k) check_number(what, numbers[k]);
     }
 
+    /// Of heights in units of space: over the shortest way across a texel of each triangle.
+    void check_slopes() const {
+        for (const Mesh& mesh : scene_.meshes) {
+            const Material& material = scene_.materials[mesh.material];
+            if (!material.height_in_space) continue;
+            for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
+                const TexelSides sides = texel_sides(scene_, mesh.first_triangle + i);
+                const double area = glm::length(glm::cross(sides.along, sides.down));
+                const double longer = std::max(glm::length(sides.along), glm::length(sides.down));
+                if (!(area > 0)) continue;
+                check_number(fmt::format("material \"{}\": on triangle {} of {} a slope of heights",
+                                         material.name, i, named("mesh", mesh.name)),
+                             material.bump_scale * longer / area);
+            }
+        }
+    }
+
     void check_lighting() const {
         check_number("an ambient light", scene_.ambient);
         for (const Material& material : scene_.materials) {
@@ -207,8 +226,11 @@ private:
             check_number(of + "colour", material.color);
             check_number(of + "specular colour", material.specular);
             check_number(of + "reflectance", material.reflectance);
-            check_number(of + "scale of bumps", material.bump_scale);
+            check_number(of + "scale of bumps", material.height_in_space
+                                                    ? material.bump_scale * scene_.unit
+                                                    : material.bump_scale);
         }
+        check_slopes();
         for (const Light& light : scene_.lights) {
             check_number(named("light", light.name) + ": a colour", light.color);
             if (scene_.inverse_square)

@@ -8,9 +8,10 @@ namespace shadowproof {
 
 std::vector<Surface> surfaces_with_polygon_tangents(const Scene& scene) {
     std::vector<Surface> surfaces = scene.surfaces;
-    for (std::size_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        Surface* const corners = &surfaces[3 * triangle];
-        if (glm::vec3(corners[0].tangent) == glm::vec3(0)) continue;
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const Mesh& mesh = scene.meshes[mesh_of(scene, triangle)];
+        if (scene.materials[mesh.material].bump == Bump::none) continue;
+        Surface* const corners = &surfaces[std::size_t{3} * triangle];
         std::array<glm::dvec3, 3> positions{};
         std::array<glm::dvec2, 3> at{};
         for (int k = 0; k < 3; ++k) {

@@ -39,7 +39,8 @@ std::vector<std::unique_ptr<Lit>> lit_scenes() {
     std::vector<std::unique_ptr<Lit>> lit;
     for (const BundledScene& bundled : bundled_scenes()) {
         Scene scene = load_scene(std::string(bundled.name), {});
-        if (is_bump_lit(scene) && !scene.environment) // what they leave out
+        // What they leave out, and what most of them take for something else (see `stretched`).
+        if (is_bump_lit(scene) && !scene.environment && !has_heights_in_space(scene))
             lit.push_back(std::make_unique<Lit>(std::move(scene)));
     }
     return lit;
@@ -229,25 +230,20 @@ Section spaces_agree(const std::vector<std::unique_ptr<Lit>>& scenes, Gpu& gpu) 
 Section shares_of_the_error(const std::vector<std::unique_ptr<Lit>>& scenes, Gpu& gpu) {
     using enum VectorOrigin;
     std::string text =
-        "CS448 and Kilgard carry L and H into tangent space at the vertices, interpolate them, "
-        "and\n"
-        "normalise them by a cube map; Kilgard's tangents are each polygon's own, and his "
-        "arithmetic\n"
-        "has 9 bits. Root mean square distances from the truth in 1/255, of `bump_tangent_space`\n"
-        "(floats at each pixel, from which the truth is nowhere off by 0.1/255) with one of these\n"
-        "steps and no other; and of the four combiner stages, which are held against the truth "
-        "with\n"
-        "the highlight dimmed as they do it, with exact vectors at each pixel and with all "
-        "steps:\n\n"
-        "| scene | at vertices | and normalised there | polygons' tangents | cube map | 9 bits | "
-        "all "
-        "|\n|---|---|---|---|---|---|---|\n";
+        "CS448 and Kilgard carry L and H into tangent space at the vertices, interpolate them,\n"
+        "and normalise them by a cube map; Kilgard's tangents are each polygon's own, and his\n"
+        "arithmetic has 9 bits. Root mean square distances from the truth in 1/255: first those\n"
+        "of `bump_tangent_space`, in floats at each pixel, as it is and with one of these steps\n"
+        "and no other; then those of the four combiner stages, held against the truth with the\n"
+        "highlight dimmed as they do it, with exact vectors at each pixel and with all steps:\n\n"
+        "| scene | as it is | at vertices | and normalised there | polygons' tangents | cube map "
+        "| 9 bits | all |\n|---|---|---|---|---|---|---|---|\n";
     for (const std::unique_ptr<Lit>& lit : scenes) {
         const Image<glm::dvec3> rule = shaded(*lit, lit->scene.highlight.shadow);
         const Image<glm::dvec3> both = shaded(*lit, HighlightShadow::both);
         text += fmt::format("| {} |", lit->scene.name);
         for (const LightingSettings& settings :
-             {LightingSettings{.vectors = at_vertices},
+             {LightingSettings{}, LightingSettings{.vectors = at_vertices},
               LightingSettings{.vectors = unit_at_vertices},
               LightingSettings{.tangents = TangentSource::polygons},
               LightingSettings{.normalisation = Normalisation::cube_map}})
@@ -261,13 +257,38 @@ Section shares_of_the_error(const std::vector<std::unique_ptr<Lit>>& scenes, Gpu
     }
     text +=
         "\nOn finely tessellated models the bytes cost most, most of all where filtering leaves\n"
-        "normals short of their length. On coarse ones it is the vertices: `coarse_curve` lacks the\n"
-        "\"reasonable tessellation around curvature\" that the slides assume no more. L is linear "
+        "normals short of their length. On coarse ones it is the vertices: `coarse_curve` lacks\n"
+        "the \"reasonable tessellation around curvature\" that the slides assume. L is linear "
         "over\n"
-        "a flat triangle while it keeps its length, so that normalising it at the vertices, as "
-        "the\n"
-        "lecture does, makes it worse there.\n";
+        "a flat triangle while it keeps its length, so that normalising it at the vertices, as\n"
+        "the lecture does, makes it worse there.\n";
     return {"How much is interpolation, the cube map, the bytes", text, ""};
+}
+
+/// Heights in units of space, on texels that are no squares.
+Section stretched(Gpu& gpu) {
+    std::string text =
+        "CS448, \"Distortions\": the length of the parametric derivatives controls the relative\n"
+        "height of bumps across the surface. With heights in units of space, how far techniques\n"
+        "are from the truth, root mean square and at most, in 1/255:\n\n"
+        "| scene | `bump_eye_space` | | `bump_tangent_space` | | `bump_one_pass` | |\n"
+        "|---|---|---|---|---|---|---|\n";
+    for (const char* name : {"stretched_relief", "skewed_relief"}) {
+        const Lit lit(load_scene(name, {}));
+        text += fmt::format("| {} |", name);
+        for (const char* technique : {"bump_eye_space", "bump_tangent_space", "bump_one_pass"}) {
+            const ColorCheck colors =
+                check_colors(lit.tracer, lit.truth, draw(lit, gpu, technique));
+            text += fmt::format(" {:.2f} | {:.2f} |", colors.rmse, colors.largest);
+        }
+        text += '\n';
+    }
+    text +=
+        "\nIt does. Blinn's formula with the derivatives' true length, in eye space, is the "
+        "truth;\n"
+        "tangent space, whose frame is of unit vectors, knows no lengths, and a normal map has\n"
+        "none: both take all texels for squares of one size.\n";
+    return {"Stretched mappings change how steep bumps are", text, ""};
 }
 
 Section cube_map_error() {
@@ -441,6 +462,7 @@ std::vector<Section> bump_claims() {
             whose_self_shadowing(scenes, gpu),
             spaces_agree(scenes, gpu),
             shares_of_the_error(scenes, gpu),
+            stretched(gpu),
             cube_map_error(),
             averaging_normals(),
             plane_coefficients()};

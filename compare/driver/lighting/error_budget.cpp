@@ -62,8 +62,8 @@ struct BumpPlace {
 VectorRange normal_of(const LightingTables& tables, const BumpPlace& place,
                       const RangeOf<glm::dvec2>& slope, const TangentFrame& frame) {
     if (place.material.height_in_space)
-        return over_true_lengths(*tables.scene, place.point.triangle, frame,
-                                 place.point.shading.side, slope);
+        return normal_over_texel_sides(*tables.scene, place.point.triangle, frame,
+                                       place.point.shading.side, slope);
     return {{-1 * slope[0], slope[1], around(1)}};
 }
 

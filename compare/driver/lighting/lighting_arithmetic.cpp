@@ -309,20 +309,37 @@ Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
                     {.steps = floating ? Steps::none : Steps::within, .bytes = model.bytes});
 }
 
-bool shades_otherwise(const ColorModel& model, const Scene& scene) {
-    const bool knows_lengths =
-        model.axes == ColorModel::Axes::eye && model.bump_form == BumpForm::as_given;
-    return !makes_vectors_as_truth(model) || (has_heights_in_space(scene) && !knows_lengths);
+namespace {
+
+/// Whether it draws heights over texels of their true sides: from slopes, in eye space.
+bool knows_texel_sides(const ColorModel& model) {
+    const BumpForm form = model.bump_form;
+    return model.axes == ColorModel::Axes::eye &&
+           (form == BumpForm::as_given || form == BumpForm::height_field ||
+            form == BumpForm::derivatives);
+}
+
+/// Whether the form is the asset's own. Heights are made of no other.
+bool is_given(BumpForm form) {
+    return form == BumpForm::as_given || form == BumpForm::height_field;
+}
+
+} // namespace
+
+bool is_off_by_nature(const ColorModel& model, const Scene& scene) {
+    return !makes_vectors_as_truth(model) ||
+           (has_heights_in_space(scene) && !knows_texel_sides(model));
 }
 
 bool is_exact(const ColorModel& model, const Scene& scene) {
     return model.arithmetic == ColorModel::Arithmetic::floating &&
-           model.normalisation == Normalisation::exact && model.bump_form == BumpForm::as_given &&
-           !shades_otherwise(model, scene);
+           model.normalisation == Normalisation::exact && is_given(model.bump_form) &&
+           !is_off_by_nature(model, scene);
 }
 
-ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, const LoneInputs& lone,
-                      const LightingInputs& claimed, const LightingInputs& freed) {
+ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
+                      const SingleStepInputs& single, const LightingInputs& claimed,
+                      const LightingInputs& freed) {
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
     const Ways own = ways_of(model);
     const glm::dvec3 right = middle(color_of(arithmetic, truth, {}));
@@ -337,14 +354,14 @@ ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, cons
         inputs.half = of.half;
         weigh(term, inputs, {});
     };
-    weigh_vectors(ColorTerm::normalisation, lone.normalised);
-    weigh_vectors(ColorTerm::vertices, lone.at_vertices);
-    inputs.reflection = lone.of_polygons.reflection;
-    weigh_vectors(ColorTerm::tangents, lone.of_polygons);
+    weigh_vectors(ColorTerm::normalisation, single.normalised);
+    weigh_vectors(ColorTerm::vertices, single.at_vertices);
+    inputs.reflection = single.of_polygons.reflection;
+    weigh_vectors(ColorTerm::tangents, single.of_polygons);
     const glm::dvec3 bump = middle(claimed.bump.box);
     const double length = glm::length(bump);
     inputs = truth;
-    inputs.reflection = lone.normalised.reflection;
+    inputs.reflection = single.normalised.reflection;
     if (length > 0) inputs.bump = {around(bump / length)};
     weigh(ColorTerm::bump_form, inputs, {});
     inputs = truth;

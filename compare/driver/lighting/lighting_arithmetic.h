@@ -34,20 +34,21 @@ Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed
 /// to half a step, and the colour is clamped to [0, 1].
 Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted);
 
-/// Whether a technique of this model is off by nature on the scene, whatever its numbers: its vectors
-/// are not made as the truth's are; or heights are in units of space, and it takes all texels for
-/// squares of one size, as tangent space and normal maps do.
-bool shades_otherwise(const ColorModel& model, const Scene& scene);
+/// Whether a technique of this model is off by nature on the scene, whatever its numbers: its
+/// vectors are not made as the truth's are; or heights are in units of space, and it takes all
+/// texels for squares of one size, as tangent space and normal maps do.
+bool is_off_by_nature(const ColorModel& model, const Scene& scene);
 
-/// Whether the technique uses floats alone, without bytes and tables, and does not shade otherwise. A
+/// Whether the technique uses floats alone, without bytes and tables, and is not off by nature. A
 /// colour of such a technique is wrong if it is beyond 1/255 of the truth.
 bool is_exact(const ColorModel& model, const Scene& scene);
 
-/// How far each term alone moves the colour, in the channel that it moves most. `truth`, `lone`,
+/// How far each term alone moves the colour, in the channel that it moves most. `truth`, `single`,
 /// `claimed`: inputs at the pixel's centre; `freed`: claimed inputs over all that the rasterizer
 /// may draw there.
-ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth, const LoneInputs& lone,
-                      const LightingInputs& claimed, const LightingInputs& freed);
+ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
+                      const SingleStepInputs& single, const LightingInputs& claimed,
+                      const LightingInputs& freed);
 
 /// The truth's colour as a technique of this model can show it: clamped to [0, 1] where it keeps 8
 /// bits.

@@ -104,14 +104,24 @@ std::optional<RangeOf<glm::dvec2>> stored_slopes(const LightingTables& tables,
         RangeOf<glm::dvec2>{any, any});
 }
 
-/// N' of a technique that perturbs normals by slopes over texels of their true size. Floats: the
-/// heights' scale and the mean side that it is divided by are rounded, and their product with a
-/// slope is, twice: 4 v of a slope.
+/// The largest slope of a texel, in texels.
+double largest_slope(const BumpTexels& bumps) {
+    // Half of what heights between 0 and 1 differ by.
+    return bumps.form == BumpForm::derivatives ? bumps.slope_range : 0.5 * std::abs(bumps.scale);
+}
+
+/// N' of a technique that perturbs normals by slopes over texels of their true sides. Floats, of
+/// the largest texel's slope: its difference, the scale and their product (3 v), the mixture's six
+/// roundings along rows and between them, the mean side and its product with the slope (2 v). Skew
+/// can make much of them.
 VectorRange bump_in_space(const InputPoint& point, const Scene& scene, const TangentFrame& frame,
-                          const RangeOf<glm::dvec2>& slopes, double texel_side) {
+                          const RangeOf<glm::dvec2>& slopes, const BumpTexels& bumps) {
+    const double rounding = 12 * v * bumps.texel_side * largest_slope(bumps);
     RangeOf<glm::dvec2> in_space;
-    for (std::size_t k = 0; k < 2; ++k) in_space[k] = around(1, 4 * v) * (texel_side * slopes[k]);
-    return unit(over_true_lengths(scene, point.triangle, frame, point.shading.side, in_space));
+    for (std::size_t k = 0; k < 2; ++k)
+        in_space[k] = widened(bumps.texel_side * slopes[k], rounding);
+    return unit(
+        normal_over_texel_sides(scene, point.triangle, frame, point.shading.side, in_space));
 }
 
 /// m of the technique: normalised if it is made from slopes or if lighting is in floats throughout;
@@ -128,7 +138,7 @@ VectorRange bump_range(const LightingTables& tables, const InputPoint& point,
     if (const auto slopes = stored_slopes(tables, material, at)) {
         const bool in_space =
             material.height_in_space && tables.model.axes == ColorModel::Axes::eye;
-        return in_space ? bump_in_space(point, *tables.scene, frame, *slopes, bumps.texel_side)
+        return in_space ? bump_in_space(point, *tables.scene, frame, *slopes, bumps)
                         : unit({normal_of(*slopes)});
     }
     if (bumps.form == BumpForm::indexed) {
@@ -213,6 +223,42 @@ LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point
 
 namespace {
 
+/// L and H in the tangent space of the seen side.
+struct LightingVectors {
+    VectorRange light;
+    VectorRange half;
+};
+
+LightingVectors made_per_pixel(const LightingTables& tables, const ColorModel& model,
+                               const Interpolated& at, const TangentFrame& world) {
+    const glm::dmat3 axes = lighting_axes(*tables.scene, model);
+    const TangentFrame frame = rotated(axes, world);
+    const VectorRange light =
+        normalised(tables, model, {around(axes * at.to_light), at.to_light_off});
+    const VectorRange to_eye =
+        normalised(tables, model, {around(-(axes * at.from_eye)), at.from_eye_off});
+    VectorRange between = light + to_eye;
+    between.box = widened(between.box, v);
+    return {into(frame, light), into(frame, normalised(tables, model, between))};
+}
+
+/// Of a surface without bumps, which has no tangent space at its vertices, they are carried into
+/// the pixel's.
+LightingVectors made_at_vertices(const LightingTables& tables, const ColorModel& model,
+                                 const InputPoint& point, std::span<const Surface, 3> corners,
+                                 const TangentFrame& world) {
+    const bool is_bumpy = material_of(*tables.scene, point.triangle).bump != Bump::none;
+    const auto on_seen_side = [&](const VectorRange& interpolated) {
+        VectorRange vector = normalised(tables, model, interpolated);
+        if (!is_bumpy) return into(world, vector);
+        for (Interval& component : vector.box) component = point.shading.side * component;
+        return vector;
+    };
+    const VertexVectors made =
+        vertex_vectors(*tables.scene, point.triangle, corners, model.vectors, point.spread);
+    return {on_seen_side(made.light), on_seen_side(made.half)};
+}
+
 /// The technique's inputs, were its model this one, which may differ from the tables' in how
 /// vectors are made.
 LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
@@ -225,33 +271,13 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
         point.interpolated = interpolated_at(scene, point.triangle, corners, point.spread);
         point.interpolated.tangent_off += polygon_tangent_error;
     }
-    const Interpolated& at = point.interpolated;
-    const glm::dmat3 axes = lighting_axes(scene, model);
     const TangentFrame world = frame_range(point);
-    const TangentFrame frame = rotated(axes, world);
-    const bool has_tangents = frame.tangent != glm::dvec3(0);
+    const LightingVectors vectors = model.vectors == VectorOrigin::per_pixel
+                                        ? made_per_pixel(tables, model, point.interpolated, world)
+                                        : made_at_vertices(tables, model, point, corners, world);
     LightingInputs inputs;
-    if (model.vectors == VectorOrigin::per_pixel) {
-        const VectorRange light =
-            normalised(tables, model, {around(axes * at.to_light), at.to_light_off});
-        const VectorRange to_eye =
-            normalised(tables, model, {around(-(axes * at.from_eye)), at.from_eye_off});
-        VectorRange between = light + to_eye;
-        between.box = widened(between.box, v);
-        inputs.light = into(frame, light);
-        inputs.half = into(frame, normalised(tables, model, between));
-    } else {
-        const VertexVectors made =
-            vertex_vectors(scene, point.triangle, corners, model.vectors, point.spread);
-        const auto carried = [&](const VectorRange& interpolated) {
-            VectorRange vector = normalised(tables, model, interpolated);
-            if (!has_tangents) return into(frame, vector);
-            for (Interval& component : vector.box) component = point.shading.side * component;
-            return vector;
-        };
-        inputs.light = carried(made.light);
-        inputs.half = carried(made.half);
-    }
+    inputs.light = vectors.light;
+    inputs.half = vectors.half;
     inputs.bump = bump_range(tables, point, world);
     inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, scene, point, world, model.reflects);
@@ -270,7 +296,7 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
     return claimed_by(tables, tables.model, point);
 }
 
-LoneInputs lone_inputs(const LightingTables& tables, const InputPoint& centre) {
+SingleStepInputs single_step_inputs(const LightingTables& tables, const InputPoint& centre) {
     ColorModel plain = tables.model;
     plain.normalisation = Normalisation::exact;
     plain.vectors = VectorOrigin::per_pixel;

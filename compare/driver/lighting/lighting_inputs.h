@@ -69,11 +69,11 @@ LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& po
 
 /// The truth's vectors with one of the technique's ways of making them and no other, at the pixel's
 /// centre; what does not depend on it is the technique's.
-struct LoneInputs {
+struct SingleStepInputs {
     LightingInputs normalised;  ///< its way of normalising
     LightingInputs at_vertices; ///< made at vertices, where it does that
     LightingInputs of_polygons; ///< carried by polygons' tangents, where it uses them
 };
-LoneInputs lone_inputs(const LightingTables& tables, const InputPoint& centre);
+SingleStepInputs single_step_inputs(const LightingTables& tables, const InputPoint& centre);
 
 } // namespace shadowproof

@@ -2,6 +2,7 @@
 
 #include "scenes/driver.h"
 #include "scenes/spot_cone.h"
+#include "scenes/surface/tangents.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -41,8 +42,9 @@ TangentFrame centre_frame(const Shading& shading) {
 
 // T is t - N (N . t), normalised. Before it is normalised it is off by the error of t, by twice the
 // error of N times the length of t, as N stands there twice, and by 8 v of that length for
-// rounding. Normalising adds 8 v to N and to T. A vector that vanishes keeps the direction that the
-// definition gives it instead, and a surface without bumps has no T.
+// rounding. Normalising adds 8 v to N and to T. An N that vanishes keeps the direction that the
+// definition gives it instead, and a surface without bumps has no T. Where t runs along N, nothing
+// but rounding is left of it: T may be anything, 0 among it.
 TangentFrame frame_range(const InputPoint& point) {
     const Shading& shading = point.shading;
     const Interpolated& at = point.interpolated;
@@ -54,14 +56,12 @@ TangentFrame frame_range(const InputPoint& point) {
     const glm::dvec3 n = shading.side * frame.normal;
     const glm::dvec3 across = at.tangent - n * glm::dot(n, at.tangent);
     const double across_length = glm::length(across);
-    if (across_length > 0) {
-        const glm::dvec3 t = across / across_length;
-        frame.tangent = shading.side * t;
-        frame.bitangent = shading.side * shading.hand * glm::cross(n, t);
-        const double off =
-            at.tangent_off + (2 * frame.normal_off + 8 * v) * glm::length(at.tangent);
-        frame.tangent_off = turned_by(off / across_length) + 8 * v;
-    }
+    const double off = at.tangent_off + (2 * frame.normal_off + 8 * v) * glm::length(at.tangent);
+    const bool any = !(across_length > off);
+    const glm::dvec3 t = any ? any_tangent(n) : across / across_length;
+    frame.tangent = shading.side * t;
+    frame.bitangent = shading.side * shading.hand * glm::cross(n, t);
+    frame.tangent_off = any ? 2 : turned_by(off / across_length) + 8 * v;
     frame.bitangent_off = frame.tangent_off + frame.normal_off;
     return frame;
 }

@@ -189,25 +189,36 @@ glm::dvec3 expected_normal(std::uint16_t number) {
     return to_unit(place.u, place.v, z);
 }
 
-// Of a triangle's points those that share the texture's column t form a line along the rows: from
-// the third corner the combination of both edges whose step in t is zero, taken so that its step in
-// s is positive.
+// Combinations of two edges, from the last corner, that step by one texel in s or t and by none in
+// the other.
+ExpectedTexelSides expected_texel_sides(const Scene& scene, std::uint32_t triangle) {
+    const Material& material = scene.materials[scene.meshes[mesh_of(scene, triangle)].material];
+    const Image<glm::vec4>& texels = scene.textures[material.bump_map].texels;
+    const Surface* const corners = &scene.surfaces[std::size_t{3} * triangle];
+    const auto place = [&](int k) {
+        return glm::dvec2(corners[k].bump_at) * glm::dvec2(texels.width, texels.height);
+    };
+    const glm::dvec3 to_a = corner(scene, triangle, 0) - corner(scene, triangle, 2);
+    const glm::dvec3 to_b = corner(scene, triangle, 1) - corner(scene, triangle, 2);
+    const glm::dvec2 a = place(0) - place(2);
+    const glm::dvec2 b = place(1) - place(2);
+    const double both = a.x * b.y - a.y * b.x;
+    if (both == 0) return {};
+    return {(b.y * to_a - a.y * to_b) / both, (a.x * to_b - b.x * to_a) / both};
+}
+
 std::vector<Surface> expected_polygon_surfaces(const Scene& scene) {
     std::vector<Surface> surfaces = scene.surfaces;
-    for (std::uint32_t triangle = 0; 3 * std::size_t{triangle} < surfaces.size(); ++triangle) {
-        Surface* const corners = &surfaces[std::size_t{3} * triangle];
-        if (corners[0].tangent == glm::vec4(0)) continue;
-        const glm::dvec3 to_a = corner(scene, triangle, 0) - corner(scene, triangle, 2);
-        const glm::dvec3 to_b = corner(scene, triangle, 1) - corner(scene, triangle, 2);
-        const glm::dvec2 a = glm::dvec2(corners[0].bump_at) - glm::dvec2(corners[2].bump_at);
-        const glm::dvec2 b = glm::dvec2(corners[1].bump_at) - glm::dvec2(corners[2].bump_at);
-        const double step = b.y * a.x - a.y * b.x;
-        glm::dvec3 row = b.y * to_a - a.y * to_b;
-        const double length = glm::length(row);
-        if (step == 0 || !(length > 0)) continue;
-        row *= (step < 0 ? -1 : 1) / length;
-        for (int k = 0; k < 3; ++k)
-            corners[k].tangent = glm::vec4(glm::vec3(row), corners[k].tangent.w);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        const Mesh& mesh = scene.meshes[mesh_of(scene, triangle)];
+        if (scene.materials[mesh.material].bump == Bump::none) continue;
+        const glm::dvec3 along = expected_texel_sides(scene, triangle).along;
+        const double length = glm::length(along);
+        if (!(length > 0)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            glm::vec4& tangent = surfaces[std::size_t{3} * triangle + k].tangent;
+            tangent = glm::vec4(glm::vec3(along / length), tangent.w);
+        }
     }
     return surfaces;
 }

@@ -1,6 +1,7 @@
 // The tables of the techniques' lighting, made a second time from their definitions, so that the
-// judge shares no code with the claim: it uses nothing of scenes/surface/bump_forms.cpp,
-// scenes/surface/relief.cpp, scenes/surface/plane_equations.cpp or make_normalisation_cube.
+// judge shares no code with the claim: it uses nothing of bump_forms.cpp, relief.cpp,
+// plane_equations.cpp, polygon_tangents.cpp, texel_sides.cpp and make_normalisation_cube in
+// scenes/surface/.
 #pragma once
 
 #include "scenes/scene.h"
@@ -24,6 +25,14 @@ BumpTexels expected_bump_texels(const Scene& scene, const Material& material, Bu
 
 /// The normal that a number stands for (indexed_normal's definition).
 glm::dvec3 expected_normal(std::uint16_t number);
+
+/// As texel_sides.h defines them; the triangle must have a bump map. Zero where it has no area in
+/// the texture.
+struct ExpectedTexelSides {
+    glm::dvec3 along{0, 0, 0};
+    glm::dvec3 down{0, 0, 0};
+};
+ExpectedTexelSides expected_texel_sides(const Scene& scene, std::uint32_t triangle);
 
 /// As polygon_tangents.h defines them. The technique's tangents and these are rounded to floats,
 /// and may fall to either side: polygon_tangent_error apart.

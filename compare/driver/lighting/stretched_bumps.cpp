@@ -1,5 +1,6 @@
 #include "compare/driver/lighting/stretched_bumps.h"
 
+#include "compare/driver/lighting/lighting_tables.h"
 #include "scenes/driver.h"
 
 #include <algorithm>
@@ -11,27 +12,6 @@ namespace shadowproof {
 namespace {
 
 constexpr double v = float_roundoff;
-
-/// The ways over a triangle from one texel to the next: combinations of two edges that step by one
-/// texel in s or t and by none in the other. Solved from the last corner, unlike texel_sides.cpp.
-struct ExpectedSides {
-    glm::dvec3 along{0, 0, 0};
-    glm::dvec3 down{0, 0, 0};
-};
-ExpectedSides expected_sides(const Scene& scene, std::uint32_t triangle) {
-    const Image<glm::vec4>& texels = scene.textures[material_of(scene, triangle).bump_map].texels;
-    const Surface* const corners = &scene.surfaces[std::size_t{3} * triangle];
-    const auto place = [&](int k) {
-        return glm::dvec2(corners[k].bump_at) * glm::dvec2(texels.width, texels.height);
-    };
-    const glm::dvec3 to_a = corner(scene, triangle, 0) - corner(scene, triangle, 2);
-    const glm::dvec3 to_b = corner(scene, triangle, 1) - corner(scene, triangle, 2);
-    const glm::dvec2 a = place(0) - place(2);
-    const glm::dvec2 b = place(1) - place(2);
-    const double both = a.x * b.y - a.y * b.x;
-    if (both == 0) return {};
-    return {(b.y * to_a - a.y * to_b) / both, (a.x * to_b - b.x * to_a) / both};
-}
 
 Intervals cross(const Intervals& a, const Intervals& b) {
     return {a[1] * b[2] + -1 * (a[2] * b[1]), a[2] * b[0] + -1 * (a[0] * b[2]),
@@ -48,19 +28,22 @@ double largest(const Interval& a) {
 
 } // namespace
 
-// Floats: a side is rounded (v) and turned into the axes of lighting (3 v, of its length). Of a
-// cross product with N three roundings, times a slope one, their sum one: 5 v of each slope times
-// the other side. Of the area 6 v of both sides' product; the quotient v, of at most as much as
-// comes out.
-VectorRange over_true_lengths(const Scene& scene, std::uint32_t triangle, const TangentFrame& frame,
-                              double side, const RangeOf<glm::dvec2>& slope) {
-    const ExpectedSides sides = expected_sides(scene, triangle);
+// Floats: a side is rounded (v a component), and turned into the axes of lighting by a rounded
+// matrix: of each component its entries (v), three products (v) and two sums (2 v), the root of 3
+// of which is 7 v of the length. Of a cross product with N three roundings, times a slope one,
+// their sum one: 5 v of each slope times the other side. Of the area 6 v of both sides' product;
+// the quotient v, of at most as much as comes out. G lies across the normal that is drawn: along
+// this one it has as much as both differ by.
+VectorRange normal_over_texel_sides(const Scene& scene, std::uint32_t triangle,
+                                    const TangentFrame& frame, double side,
+                                    const RangeOf<glm::dvec2>& slope) {
+    const ExpectedTexelSides sides = expected_texel_sides(scene, triangle);
     const double along_length = glm::length(sides.along);
     const double down_length = glm::length(sides.down);
     const double rounding = frame.normal_off > 0 ? v : 0;
     const Intervals normal = around(frame.normal, frame.normal_off);
-    const Intervals along = around(sides.along, 4 * rounding * along_length);
-    const Intervals down = around(sides.down, 4 * rounding * down_length);
+    const Intervals along = around(sides.along, 8 * rounding * along_length);
+    const Intervals down = around(sides.down, 8 * rounding * down_length);
     const Interval area =
         widened(dot(normal, cross(along, down)), 6 * rounding * along_length * down_length);
     if (area.low == 0 && area.high == 0) return {around(glm::dvec3(0, 0, 1)), frame.normal_off};
@@ -77,7 +60,8 @@ VectorRange over_true_lengths(const Scene& scene, std::uint32_t triangle, const 
     const auto component = [&](const glm::dvec3& axis) {
         return widened(-side * dot(gradient, around(axis)), quotient);
     };
-    return {{component(frame.tangent), component(frame.bitangent), around(1)}, frame.normal_off};
+    return {{component(frame.tangent), component(frame.bitangent), around(1)},
+            frame.normal_off * (1 + longest(gradient))};
 }
 
 } // namespace shadowproof

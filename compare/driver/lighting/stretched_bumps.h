@@ -16,7 +16,8 @@ namespace shadowproof {
 /// texel_sides.h). `slope`: heights per texel along a row and down the rows. `frame`: of the seen
 /// side, in world axes; the normal may be off by its normal_off, and floats are counted unless that
 /// is 0. `side`: -1 where the back is seen.
-VectorRange over_true_lengths(const Scene& scene, std::uint32_t triangle, const TangentFrame& frame,
-                              double side, const RangeOf<glm::dvec2>& slope);
+VectorRange normal_over_texel_sides(const Scene& scene, std::uint32_t triangle,
+                                    const TangentFrame& frame, double side,
+                                    const RangeOf<glm::dvec2>& slope);
 
 } // namespace shadowproof

@@ -29,12 +29,14 @@ CornerVector normalised(const CornerVector& a) {
     return {a.value / length, turned_by(a.off / length) + 4 * v};
 }
 
-/// A difference of places, each component of which is rounded twice at most (lit.vert).
-CornerVector difference(const glm::dvec3& value) {
-    return {value, 2 * v * glm::length(value)};
+/// A way from a place of floats to one of doubles, each component of which is rounded twice
+/// (lit.vert): less the place as the nearest float, and less the rest of it, which is rounded once
+/// more. `size`: of that place.
+CornerVector difference(const glm::dvec3& value, double size) {
+    return {value, 2 * v * glm::length(value) + std::sqrt(3.0) * two_floats_roundoff * size};
 }
 
-/// The frame's transpose, and how far an axis may be off.
+/// The frame's transpose, and how far its worst axis may be off.
 struct CornerFrame {
     glm::dmat3 into{1};
     double off = 0;
@@ -47,7 +49,6 @@ struct CornerFrame {
 /// are.
 CornerFrame frame_of(const Surface& corner) {
     const glm::dvec3 t(glm::vec3(corner.tangent));
-    if (t == glm::dvec3(0)) return {};
     const glm::dvec3 n = glm::normalize(glm::dvec3(corner.normal));
     const glm::dvec3 across = t - n * glm::dot(n, t);
     const double length = glm::length(across);
@@ -58,8 +59,8 @@ CornerFrame frame_of(const Surface& corner) {
     return {glm::transpose(frame), 4 * v + tangent_off + 3 * v};
 }
 
-/// Three products of a vector with axes that are off, each rounded three times. No two axes are off
-/// the same way: the root of 3 of what one makes.
+/// Three components, each a product with an axis that is off, of three roundings: the root of 3 of
+/// what one is off.
 CornerVector carried(const CornerFrame& frame, const CornerVector& a) {
     return {frame.into * a.value,
             a.off + std::sqrt(3.0) * (frame.off + 3 * v) * (glm::length(a.value) + a.off)};
@@ -98,21 +99,22 @@ VertexVectors vertex_vectors(const Scene& scene, std::uint32_t triangle,
                              const PixelSpread& spread) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3& eye = scene.camera.eye;
+    const bool is_bumpy = material_of(scene, triangle).bump != Bump::none;
     Corners lights;
     Corners halves;
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const glm::dvec3 from_eye = corner(scene, triangle, k) - eye;
-        CornerVector to_light =
-            difference((glm::dvec3(light) - light.w * eye) - light.w * from_eye);
+        CornerVector to_light = difference((glm::dvec3(light) - light.w * eye) - light.w * from_eye,
+                                           glm::length(glm::dvec3(light)));
         const CornerVector l = normalised(to_light);
-        const CornerVector e = normalised(difference(-from_eye));
+        const CornerVector e = normalised(difference(-from_eye, glm::length(eye)));
         CornerVector half{l.value + e.value, l.off + e.off + 2 * v};
         if (origin == VectorOrigin::unit_at_vertices) {
             to_light = l;
             half = normalised(half);
         }
-        const CornerFrame frame = frame_of(corners[i]);
+        const CornerFrame frame = is_bumpy ? frame_of(corners[i]) : CornerFrame{};
         lights[i] = carried(frame, to_light);
         halves[i] = carried(frame, half);
     }

@@ -13,7 +13,7 @@
 namespace shadowproof {
 
 /// As interpolated at a pixel, before they are normalised there. In tangent space; of a surface
-/// without tangents in world axes.
+/// without a bump map in world axes.
 struct VertexVectors {
     VectorRange light;
     VectorRange half;

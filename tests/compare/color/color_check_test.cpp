@@ -154,6 +154,27 @@ TEST(Colors, of_smooth_surfaces_beside_bumps_are_predicted) {
     }
 }
 
+/// Tangents of an asset that run along its normals: what rounding leaves of them is no direction.
+TEST(Colors, of_tangents_along_the_normals_are_predicted) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"bumpy_torus", "skewed_relief"}) {
+        SceneRequest request;
+        request.width = request.height = 96;
+        Scene given = load_scene(name, request);
+        for (Surface& surface : given.surfaces)
+            if (surface.tangent != glm::vec4(0))
+                surface.tangent = glm::vec4(surface.normal, surface.tangent.w);
+        const TracedScene scene(std::move(given));
+        for (const Technique* technique : techniques_for(scene.scene)) {
+            SCOPED_TRACE(name + (", " + std::string(technique->name)));
+            const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
+            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            EXPECT_EQ(colors.unpredicted, 0U)
+                << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+        }
+    }
+}
+
 /// With all that has bumps stretched along x.
 TracedScene stretched(const std::string& name, float by) {
     SceneRequest request;

@@ -222,6 +222,31 @@ TEST(Admission, numbers_of_lighting_that_leave_the_range_of_floats_are_refused_w
     }
 }
 
+/// Heights in units of space are over texels of any size.
+TEST(Admission, slopes_that_leave_the_range_of_floats_are_refused) {
+    const auto refusal = [&](double scale, double texels) {
+        return refusal_after([&](Scene& s) {
+            s.materials[0].name = "tin";
+            s.materials[0].bump = Bump::height_field;
+            s.materials[0].height_in_space = true;
+            s.materials[0].bump_scale = scale;
+            s.textures.emplace_back();
+            s.textures[0].texels = Image<glm::vec4>(1, 1);
+            s.materials[0].bump_map = 0;
+            s.surfaces.resize(6);
+            for (std::size_t i = 0; i < 6; ++i) {
+                const glm::vec3 place = s.positions[s.triangles[i / 3][static_cast<int>(i % 3)]];
+                s.surfaces[i].bump_at = static_cast<float>(texels) * glm::vec2(place.x, place.y + place.z);
+            }
+        });
+    };
+    EXPECT_EQ(refusal(1, 1), "");
+    EXPECT_EQ(refusal(1e6, 100), "");
+    EXPECT_EQ(refusal(1e6, 0), ""); // no area in the texture: no slope
+    expect_says(refusal(1e6, 1e6), "material \"tin\": on triangle 0 of the mesh ");
+    expect_says(refusal(1e6, 1e6), "a slope of heights of ");
+}
+
 TEST(Admission, is_asked_of_every_file_that_is_loaded) {
     nlohmann::json gltf = test::triangle_gltf();
     gltf["nodes"][0]["translation"] = {0, 0, 1e20};

@@ -25,6 +25,9 @@ Scene scene_of(const std::vector<Corner>& corners) {
         scene.surfaces.push_back(
             {.normal = {0, 0, 1}, .tangent = {0, 1, 0, -1}, .bump_at = corner.at});
     }
+    scene.materials = {{.name = "bumpy", .bump = Bump::normal_map}, {.name = "smooth"}};
+    scene.meshes.push_back(
+        {.name = "bumpy", .triangle_count = static_cast<std::uint32_t>(scene.triangles.size())});
     return scene;
 }
 
@@ -56,6 +59,9 @@ TEST(PolygonTangents, of_triangles_without_area_or_bumps_stay_the_vertices_own) 
                             {{2, 0, 0}, {1, 0}},
                             {{0, 2, 0}, {0, 1}}});
     for (std::size_t k = 6; k < 9; ++k) scene.surfaces[k].tangent = glm::vec4(0);
+    scene.meshes[0].triangle_count = 2;
+    scene.meshes.push_back(
+        {.name = "smooth", .first_triangle = 2, .triangle_count = 1, .material = 1});
     const std::vector<Surface> made = surfaces_with_polygon_tangents(scene);
     for (std::size_t k = 0; k < made.size(); ++k)
         EXPECT_EQ(made[k].tangent, scene.surfaces[k].tangent) << k;

@@ -37,6 +37,32 @@ Bytes admitted(ColorModel::Arithmetic arithmetic, const ByteErrors& bytes, doubl
 constexpr auto one_pass = ColorModel::Arithmetic::four_stages;
 constexpr auto three_passes = ColorModel::Arithmetic::three_passes;
 
+/// Slopes in eye space know the sides of texels; normals do not, nor does tangent space.
+TEST(OffByNature, are_vectors_made_elsewhere_and_heights_in_space_but_as_slopes_in_eye_space) {
+    Scene scene;
+    scene.materials.push_back({.name = "relief", .bump = Bump::height_field});
+    scene.meshes.push_back({.name = "relief", .triangle_count = 1});
+    constexpr auto eye = ColorModel::Axes::eye;
+    for (const BumpForm form : all_bump_forms) {
+        EXPECT_FALSE(is_off_by_nature({.bump_form = form}, scene));
+        EXPECT_FALSE(is_off_by_nature({.axes = eye, .bump_form = form}, scene));
+        EXPECT_EQ(is_exact({.bump_form = form}, scene),
+                  form == BumpForm::as_given || form == BumpForm::height_field);
+    }
+    EXPECT_TRUE(is_off_by_nature({.vectors = VectorOrigin::at_vertices}, scene));
+    EXPECT_TRUE(is_off_by_nature({.vectors = VectorOrigin::unit_at_vertices}, scene));
+    EXPECT_TRUE(is_off_by_nature({.tangents = TangentSource::polygons}, scene));
+    scene.materials[0].height_in_space = true;
+    for (const BumpForm form : all_bump_forms) {
+        const bool slopes = form != BumpForm::normal_map && form != BumpForm::indexed;
+        EXPECT_TRUE(is_off_by_nature({.bump_form = form}, scene));
+        EXPECT_EQ(is_off_by_nature({.axes = eye, .bump_form = form}, scene), !slopes);
+        EXPECT_FALSE(is_exact({.bump_form = form}, scene));
+        EXPECT_EQ(is_exact({.axes = eye, .bump_form = form}, scene),
+                  form == BumpForm::as_given || form == BumpForm::height_field);
+    }
+}
+
 TEST(OverwrittenByte, is_the_nearest_on_llvmpipe) {
     for (const double rest : {-0.49, -0.3, 0.0, 0.3, 0.49})
         EXPECT_EQ(admitted(one_pass, llvmpipe_bytes, 61 + rest), (Bytes{61, 61})) << rest;

@@ -71,6 +71,8 @@ protected:
                 {.normal = normal, .tangent = glm::vec4(along, k == 2 ? -1 : 1)});
         }
         scene.triangles = {{0, 1, 2}};
+        scene.materials.push_back({.name = "bumpy", .bump = Bump::normal_map});
+        scene.meshes.push_back({.name = "bumpy", .triangle_count = 1});
         scene.camera.eye = origin + 3.0 * direction();
         Light light;
         light.kind = directional ? Light::Kind::directional : Light::Kind::point;
