@@ -1,5 +1,6 @@
 #include "compare/verdict.h"
 
+#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/evidence.h"
 
 #include <algorithm>
@@ -35,6 +36,12 @@ std::string_view name_of(Verdict verdict) {
         break;
     }
     return "timed_out";
+}
+
+std::vector<Cause> known_on(const Scene& scene, const Frame& frame, std::vector<Cause> causes) {
+    const bool shades = !frame.color.pixels.empty() && is_off_by_nature(frame.color_model, scene);
+    if (shades && !contains(causes, Cause::shading)) causes.push_back(Cause::shading);
+    return causes;
 }
 
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,

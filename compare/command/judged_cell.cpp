@@ -2,26 +2,11 @@
 
 #include "compare/blank.h"
 #include "compare/command/process/stopwatch.h"
-#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/families.h"
 #include "compare/memory.h"
 #include "raster/render.h"
 
-#include <algorithm>
-
 namespace shadowproof {
-
-namespace {
-
-/// Known causes, and the one that scene and settings add: a user may ask any technique that lights
-/// bumps for vectors that are off.
-std::vector<Cause> with_shading(std::vector<Cause> causes, bool off_by_nature) {
-    if (off_by_nature && std::ranges::find(causes, Cause::shading) == causes.end())
-        causes.push_back(Cause::shading);
-    return causes;
-}
-
-} // namespace
 
 JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, const Plan& plan,
                        Gpu& gpu, const Wanted& wanted) {
@@ -38,10 +23,8 @@ JudgedCell judged_cell(const Technique& technique, const TracedScene& traced, co
     cell.comparison = classify(traced, cell.frame, *family);
     refuse_blank(technique.name, traced.truth(), cell.frame,
                  pixels_of(cell.comparison, Cause::unexplained) > 0);
-    const bool off_by_nature =
-        !cell.frame.color.pixels.empty() && is_off_by_nature(cell.frame.color_model, scene);
-    const std::vector<Cause> fails_at = with_shading(technique.fails_at, off_by_nature);
-    const std::vector<Cause> by_nature = with_shading(technique.by_nature, off_by_nature);
+    const std::vector<Cause> fails_at = known_on(scene, cell.frame, technique.fails_at);
+    const std::vector<Cause> by_nature = known_on(scene, cell.frame, technique.by_nature);
     cell.verdict = judge(scene, fails_at, by_nature, cell.comparison);
     cell.excused = excused_causes(scene, fails_at, by_nature, cell.comparison);
     if (wanted.strain) judged.strain = family->strain();

@@ -93,7 +93,8 @@ std::optional<std::string> judged(const Truth& truth, const Technique& technique
         refuse_blank(technique.name, truth.truth, frame,
                      pixels_of(comparison, Cause::unexplained) > 0);
         const Verdict verdict =
-            judge(truth.scene, technique.fails_at, technique.by_nature, comparison);
+            judge(truth.scene, known_on(truth.scene, frame, technique.fails_at),
+                  known_on(truth.scene, frame, technique.by_nature), comparison);
         if (verdict == Verdict::unexplained || (robust && verdict == Verdict::defect))
             return kind_of(technique, verdict, comparison);
     } catch (const Error& error) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <stdexcept>
 
 namespace shadowproof {
 
@@ -29,7 +30,8 @@ bool holds_name(std::string_view list, std::string_view name) {
 }
 
 Verdict judged(const Technique& technique, const tests::TracedScene& traced, const Frame& frame) {
-    return judge(traced.scene, technique.fails_at, technique.by_nature,
+    return judge(traced.scene, known_on(traced.scene, frame, technique.fails_at),
+                 known_on(traced.scene, frame, technique.by_nature),
                  tests::compared(traced, frame));
 }
 
@@ -58,6 +60,7 @@ bool concerns(const Fault& fault, const Technique& technique, const Scene& scene
 }
 
 void Trial::run(int number, const Technique& technique, Outcome& outcome, double amount) {
+    right(technique); // or nothing that is caught counts
     TriedCell finding{traced_.scene.name + "/" + std::string(technique.name), "", ""};
     try {
         const auto [verdict, effect] = tried(number, technique, amount);
@@ -98,8 +101,12 @@ std::pair<Verdict, Effect> Trial::tried(int number, const Technique& technique, 
 const Frame& Trial::right(const Technique& technique) {
     const auto known = right_.find(technique.name);
     if (known != right_.end()) return known->second;
-    return right_.emplace(technique.name, render(technique, traced_.scene, traced_.plan, gpu_))
-        .first->second;
+    Frame frame = render(technique, traced_.scene, traced_.plan, gpu_);
+    const Verdict verdict = judged(technique, traced_, frame);
+    if (verdict == Verdict::defect || verdict == Verdict::unexplained)
+        throw std::logic_error(traced_.scene.name + "/" + std::string(technique.name) + ": " +
+                               std::string(name_of(verdict)) + " without any fault");
+    return right_.emplace(technique.name, std::move(frame)).first->second;
 }
 
 } // namespace shadowproof
