@@ -261,10 +261,13 @@ std::string with_constants(const ShaderText& shader, const LightingPass& pass,
     assert(shader.text.starts_with(version));
     unsigned forms = 0;
     for (const BumpMap& bumps : pass.bumps) forms |= 1U << static_cast<unsigned>(bumps.form);
+    const bool in_space =
+        std::ranges::any_of(pass.bumps, [](const BumpMap& bumps) { return bumps.texel_side > 0; });
     return std::string(version) +
            "const int normalisation = " + std::to_string(static_cast<int>(model.normalisation)) +
            ";\nconst int newton_steps = " + std::to_string(model.newton_steps) +
            ";\nconst int forms_in_use = " + std::to_string(forms) +
+           ";\nconst bool heights_in_space = " + (in_space ? "true" : "false") +
            ";\nconst int vectors = " + std::to_string(static_cast<int>(model.vectors)) +
            ";\n#line 2\n" + std::string(shader.text.substr(version.size()));
 }

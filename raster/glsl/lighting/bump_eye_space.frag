@@ -1,5 +1,6 @@
 #version 450 core
-// Lighting in eye space: the normal is perturbed there.
+// Lighting in eye space: the normal is perturbed there. `heights_in_space` is defined before this
+// text: whether any material has heights in units of space.
 #include lighting.glsl
 
 // N' = N + h_u (N x P_v) + h_v (P_u x N), negated where the parametrization is mirrored, of a
@@ -27,7 +28,7 @@ vec3 perturbed_over_true_lengths(vec3 normal) {
 
 vec3 perturbed_normal(mat3 frame) {
     vec3 normal = !has_slopes() ? frame * mapped_normal()
-                  : texel_side > 0 ? perturbed_over_true_lengths(frame[2])
+                  : heights_in_space && texel_side > 0 ? perturbed_over_true_lengths(frame[2])
                                    : perturbed_by_slopes(frame);
     return dot(normal, normal) > 0 ? unit(normal) : frame[2];
 }

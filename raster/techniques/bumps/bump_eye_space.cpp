@@ -23,7 +23,7 @@ Technique bump_eye_space_technique() {
             .summary = "zfail_reversed, and bumps lit in eye space, in floating point",
             .source = "Blinn 1978; with stencil shadows: Kilgard 2001",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
-            .cost = 3.7,
+            .cost = 4.4,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,

@@ -32,7 +32,7 @@ Technique bump_one_pass_technique() {
             .summary = "zfail_reversed, and bumps lit in one pass of register combiners",
             .source = "Kilgard 2001 (GeForce3)",
             .needs = "bump maps, and an RGBA8 colour buffer",
-            .cost = 3.8,
+            .cost = 4.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,

@@ -25,7 +25,7 @@ Technique bump_one_pass_per_pixel_technique() {
             .summary = "bump_one_pass with vectors made at each pixel",
             .source = "Kilgard 2001 (GeForce3)",
             .needs = "bump maps, and an RGBA8 colour buffer",
-            .cost = 3.8,
+            .cost = 3.9,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,

@@ -22,7 +22,7 @@ Technique bump_reflective_technique() {
             .summary = "bump_tangent_space, and bumps that reflect an environment",
             .source = "CS448 lecture 11, reflective bump mapping",
             .needs = "bump maps, an environment, and blending into an RGBA32F colour buffer",
-            .cost = 4.4,
+            .cost = 4.7,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .needs_environment = true,

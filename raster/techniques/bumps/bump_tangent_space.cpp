@@ -26,7 +26,7 @@ Technique bump_tangent_space_technique() {
             .summary = "zfail_reversed, and bumps lit in tangent space per pixel, in floats",
             .source = "Peercy, Airey & Cabral 1997; with stencil shadows: Kilgard 2001",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
-            .cost = 3.9,
+            .cost = 3.4,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,

@@ -24,7 +24,7 @@ Technique bump_tangent_space_per_vertex_technique() {
             .summary = "zfail_reversed, and bumps lit in tangent space per vertex, in floats",
             .source = "CS448 lecture 11, fast algorithm",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
-            .cost = 3.9,
+            .cost = 3.8,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,

@@ -41,7 +41,7 @@ Technique bump_three_pass_technique() {
             .summary = "zfail_reversed, and bumps lit in three passes of 8 bits a channel",
             .source = "Kilgard 2001 (GeForce 256 and GeForce2)",
             .needs = "bump maps, and blending into an RGBA8 colour buffer",
-            .cost = 4.7,
+            .cost = 4.8,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,

@@ -32,7 +32,7 @@ Technique bump_three_pass_per_pixel_technique() {
             .summary = "bump_three_pass with vectors made at each pixel, and floats in a pass",
             .source = "Kilgard 2001 (GeForce 256 and GeForce2)",
             .needs = "bump maps, and blending into an RGBA8 colour buffer",
-            .cost = 4.7,
+            .cost = 5.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
             .by_nature = {Cause::shading},
             .needs_bump_maps = true,
