@@ -23,15 +23,15 @@ enum class Verdict : std::uint8_t {
 std::string_view name_of(Verdict verdict);
 
 /// A technique's known causes (fails_at, or by_nature), and `shading` where its frame lights bumps
-/// in a way that is off by nature on the scene (is_off_by_nature): the user may ask any technique that
-/// lights bumps for that, and heights in units of space make it so.
+/// in a way that is off by nature on the scene (is_off_by_nature): the user may ask any technique
+/// that lights bumps for that, and heights in units of space make it so.
 std::vector<Cause> known_on(const Scene& scene, const Frame& frame, std::vector<Cause> causes);
 
-/// `fails_at`: the causes the technique is known to have on the scene. A cause is excused where the technique
-/// has it and the scene declares that it provokes it, or may (a scene that declares nothing may
-/// provoke any). `edge` is not a failure. No scene need declare `precision`, which lies in the
-/// depth format, or the causes in `by_nature`, which lie in the technique. Nearer than the depth to
-/// which a technique's numbers suffice, `precision` is a defect (Comparison::too_near).
+/// `fails_at`: the causes the technique is known to have on the scene. A cause is excused where the
+/// technique has it and the scene declares that it provokes it, or may (a scene that declares
+/// nothing may provoke any). `edge` is not a failure. No scene need declare `precision`, which lies
+/// in the depth format, or the causes in `by_nature`, which lie in the technique. Nearer than the
+/// depth to which a technique's numbers suffice, `precision` is a defect (Comparison::too_near).
 Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<const Cause> by_nature,
               const Comparison& comparison);
 

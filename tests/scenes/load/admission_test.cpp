@@ -236,7 +236,8 @@ TEST(Admission, slopes_that_leave_the_range_of_floats_are_refused) {
             s.surfaces.resize(6);
             for (std::size_t i = 0; i < 6; ++i) {
                 const glm::vec3 place = s.positions[s.triangles[i / 3][static_cast<int>(i % 3)]];
-                s.surfaces[i].bump_at = static_cast<float>(texels) * glm::vec2(place.x, place.y + place.z);
+                s.surfaces[i].bump_at =
+                    static_cast<float>(texels) * glm::vec2(place.x, place.y + place.z);
             }
         });
     };
