@@ -169,7 +169,7 @@ void color(const JsonPlace& place) {
                    {"cube_size", size, Need::optional},
                    {"newton_steps", count, Need::optional},
                    {"bumps", text},
-                   {"vectors", text, Need::optional},
+                   {"vectors", text, Need::optional}, // absent in results of older versions
                    {"tangents", text, Need::optional}});
 }
 

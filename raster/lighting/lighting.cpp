@@ -329,6 +329,19 @@ std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit) {
         {.fragment = lit, .where = LightingStep::Where::lit, .blend = LightingStep::Blend::add}};
 }
 
+std::vector<LightingStep> replace_ambient_where_lit(const ShaderText& lit) {
+    return {{.fragment = shader_file("ambient.frag")},
+            {.fragment = lit, .where = LightingStep::Where::lit}};
+}
+
+std::vector<LightingStep> three_passes(const ShaderText& diffuse, const ShaderText& specular) {
+    using Step = LightingStep;
+    return {{.fragment = shader_file("ambient_alone.frag")},
+            {.fragment = diffuse, .where = Step::Where::lit},
+            {.fragment = shader_file("decal.frag"), .blend = Step::Blend::multiply},
+            {.fragment = specular, .where = Step::Where::lit, .blend = Step::Blend::add}};
+}
+
 LightingStep add_reflection(const ShaderText& reflection) {
     return {.fragment = reflection,
             .where = LightingStep::Where::everywhere,

@@ -35,6 +35,14 @@ struct LightingRecipe {
 /// Ambient light everywhere and, added to it on lit pixels, the result of a shader.
 std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit);
 
+/// Ambient light times the decal everywhere and, over it on lit pixels, the result of a shader that
+/// computes all of the lighting.
+std::vector<LightingStep> replace_ambient_where_lit(const ShaderText& lit);
+
+/// Kilgard's passes: ambient light, over it on lit pixels ambient and diffuse light, all of it
+/// times the decal, and the highlight added on lit pixels.
+std::vector<LightingStep> three_passes(const ShaderText& diffuse, const ShaderText& specular);
+
 /// The result of such a shader, added everywhere. The recipe's model must have `reflects` set.
 LightingStep add_reflection(const ShaderText& reflection);
 

@@ -18,9 +18,7 @@ LightingRecipe lighting(const Plan& plan) {
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map,
                                .vectors = VectorOrigin::at_vertices};
-    LightingRecipe made{.steps = {{.fragment = shader_file("ambient.frag")},
-                                  {.fragment = shader_file("bump_four_stages.frag"),
-                                   .where = LightingStep::Where::lit}},
+    LightingRecipe made{.steps = replace_ambient_where_lit(shader_file("bump_four_stages.frag")),
                         .model = with_settings(model, plan.asked.lighting)};
     return made;
 }

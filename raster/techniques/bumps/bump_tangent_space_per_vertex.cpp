@@ -3,6 +3,8 @@
 
 namespace shadowproof {
 
+Technique bump_tangent_space_technique();
+
 namespace {
 
 /// The lecture's fast algorithm: light and half-angle vector are carried into tangent space and
@@ -20,18 +22,15 @@ LightingRecipe lighting(const Plan& plan) {
 } // namespace
 
 Technique bump_tangent_space_per_vertex_technique() {
-    return {.name = "bump_tangent_space_per_vertex",
-            .summary = "zfail_reversed, and bumps lit in tangent space per vertex, in floats",
-            .source = "CS448 lecture 11, fast algorithm",
-            .needs = "bump maps, and blending into an RGBA32F colour buffer",
-            .cost = 3.8,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::shading},
-            .by_nature = {Cause::shading},
-            .needs_bump_maps = true,
-            .depth_model = reversed_depths,
-            .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
-            .recipe = zfail_reversed_recipe,
-            .lighting = lighting};
+    Technique made = bump_tangent_space_technique();
+    made.name = "bump_tangent_space_per_vertex";
+    made.summary = "zfail_reversed, and bumps lit in tangent space per vertex, in floats";
+    made.source = "CS448 lecture 11, fast algorithm";
+    made.cost = 3.8;
+    made.fails_at.push_back(Cause::shading);
+    made.by_nature = {Cause::shading};
+    made.lighting = lighting;
+    return made;
 }
 
 } // namespace shadowproof

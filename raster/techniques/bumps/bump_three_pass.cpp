@@ -17,20 +17,13 @@ namespace {
 /// highlight looks up H alone: H's self-shadowing dims it, not L's, which the rule has. Three
 /// squarings make its eighth power, and no other (two_stages.glsl).
 LightingRecipe lighting(const Plan& plan) {
-    using Step = LightingStep;
     constexpr ColorModel model{.arithmetic = ColorModel::Arithmetic::two_stages,
                                .normalisation = Normalisation::cube_map,
                                .bump_form = BumpForm::normal_map,
                                .vectors = VectorOrigin::at_vertices};
-    LightingRecipe made{
-        .steps = {{.fragment = shader_file("ambient_alone.frag")},
-                  {.fragment = shader_file("bump_diffuse_two_stages.frag"),
-                   .where = Step::Where::lit},
-                  {.fragment = shader_file("decal.frag"), .blend = Step::Blend::multiply},
-                  {.fragment = shader_file("bump_specular_two_stages.frag"),
-                   .where = Step::Where::lit,
-                   .blend = Step::Blend::add}},
-        .model = with_settings(model, plan.asked.lighting)};
+    LightingRecipe made{.steps = three_passes(shader_file("bump_diffuse_two_stages.frag"),
+                                              shader_file("bump_specular_two_stages.frag")),
+                        .model = with_settings(model, plan.asked.lighting)};
     return made;
 }
 

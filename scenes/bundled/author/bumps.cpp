@@ -96,6 +96,7 @@ Stage stretched_relief() {
     Stage stage = lit_from_the_left(
         "stretched_relief", "A relief of heights in the file's units, stretched four to one "
                             "over the long faces of a beam.");
+    stage.provokes = {"shading"};
     stage.textures = {{"ripples", png_of(height_map(64, 64, ripples()))}};
     add(stage, {beam(textured_box({2.052, 0.513, 0.513}, 3))});
     return stage;
@@ -106,6 +107,7 @@ Stage skewed_relief() {
     Stage stage = lit_from_the_left("skewed_relief",
                                     "A relief of heights in the file's units, whose texels are "
                                     "parallelograms on the faces of a beam.");
+    stage.provokes = {"shading"};
     stage.textures = {{"ripples", png_of(height_map(64, 64, ripples()))}};
     Shape leaning = textured_box({2.052, 0.513, 0.513}, 3);
     for (glm::dvec2& at : leaning.coordinates) at = {4 * at.x + at.y, at.y};
