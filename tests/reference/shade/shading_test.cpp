@@ -169,17 +169,23 @@ TEST(shading, of_a_decal_multiplies_diffuse_and_ambient_and_its_alpha_the_highli
     expect_near(glossy.specular_color, plain.specular_color * 0.125);
 }
 
+/// Heights that rise by 1/16 to the right and 1/32 down the picture, a texel.
+TextureImage even_slope() {
+    TextureImage map;
+    map.texels = Image<glm::vec4>(8, 8);
+    map.wrap_s = map.wrap_t = Wrap::clamp_to_edge;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            map.texels.at(x, y) =
+                glm::vec4(static_cast<float>(x) / 16 + static_cast<float>(y) / 32);
+    return map;
+}
+
 TEST(shading, of_a_height_field_that_rises_evenly_leans_as_its_slope_does) {
     Scene scene = wall({0, 0, 1});
     scene.materials[0].bump = Bump::height_field;
     scene.materials[0].bump_scale = 2;
-    TextureImage& map = scene.textures[0];
-    map.texels = Image<glm::vec4>(8, 8);
-    map.wrap_s = map.wrap_t = Wrap::clamp_to_edge;
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) // by 1/16 to the right and 1/32 down the picture, a texel
-            map.texels.at(x, y) =
-                glm::vec4(static_cast<float>(x) / 16 + static_cast<float>(y) / 32);
+    scene.textures[0] = even_slope();
     for (Surface& surface : scene.surfaces) surface.bump_at = {0.5F, 0.5F};
     const auto seen = shade_ray(Tracer(scene), {0.0625, 0.0625, -1});
     expect_near(seen->bumped, glm::normalize(glm::dvec3(-2.0 / 16, 2.0 / 32, 1)));
@@ -191,13 +197,7 @@ TEST(shading, of_heights_in_space_is_less_steep_where_a_texel_is_longer) {
     Scene scene = wall({0, 0, 1});
     scene.materials[0] = {
         .name = "relief", .bump = Bump::height_field, .bump_map = 0, .height_in_space = true};
-    TextureImage& map = scene.textures[0];
-    map.texels = Image<glm::vec4>(8, 8);
-    map.wrap_s = map.wrap_t = Wrap::clamp_to_edge;
-    for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 8; ++x) // by 1/16 to the right and 1/32 down the picture, a texel
-            map.texels.at(x, y) =
-                glm::vec4(static_cast<float>(x) / 16 + static_cast<float>(y) / 32);
+    scene.textures[0] = even_slope();
     const auto bumped_over = [&](const glm::dvec2& across, const glm::dvec2& down) {
         // Texture coordinates of a place, of sides that are `across` and `down` long.
         const glm::dmat2 sides(across, down);
