@@ -118,7 +118,7 @@ test('the cell tells how far its colours are off, with a link to the pixel that 
   const words = plain(await text(page, '.cell-head .colors'));
   assert.ok(words.startsWith(`Colours: off by at most ${color.largest.toFixed(2)}/255 at (${x}, ${y}), ` +
                              `rmse ${color.rmse.toFixed(2)}, 99.9 % within ${color.p999.toFixed(2)}; `));
-  assert.match(words, /; normalised by cube-map of 64 texels a side, bumps as normal-map\.$/);
+  assert.match(words, /; normalised by cube-map of 64 texels a side, bumps as normal-map, vectors made at vertices\.$/);
   await page.locator('.cell-head .colors a').focus();
   await page.keyboard.press('Enter');
   await page.waitForFunction(() => location.hash.includes('zoom=16'));
