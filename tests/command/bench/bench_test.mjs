@@ -39,13 +39,15 @@ test('settings are swept one at a time, each but the technique\'s own', () => {
   const swept = colors.points.filter(({ technique }) => technique === 'bump_one_pass');
   const [own, ...others] = swept;
   assert.deepEqual(own.settings, {});
-  assert.deepEqual(own.own, { normalise: 'cube-map', 'cube-size': '64', bumps: 'normal-map' });
+  assert.deepEqual(own.own, { normalise: 'cube-map', 'cube-size': '64', bumps: 'normal-map',
+                               vectors: 'at-vertices', tangents: 'vertices' });
   const sweptWords = others.map(({ settings }) =>
     Object.entries(settings).map((each) => each.join('=')).join(' '));
   assert.deepEqual(sweptWords.filter((words) => !words.startsWith('bumps')),
                    ['normalise=exact', 'normalise=newton-raphson',
                     ...[8, 16, 32, 128, 256].map((size) => `cube-size=${size}`),
-                    ...[0, 2, 3].map((steps) => `normalise=newton-raphson newton-steps=${steps}`)]);
+                    ...[0, 2, 3].map((steps) => `normalise=newton-raphson newton-steps=${steps}`),
+                    'vectors=per-pixel', 'vectors=unit-at-vertices', 'tangents=polygons']);
   for (const { settings, own: made } of others)
     for (const [name, value] of Object.entries(settings)) {
       assert.notEqual(value, own.own[name]);
