@@ -1,5 +1,6 @@
 #include "tests/raster/drawn_pixels.h"
 
+#include "raster/gl/context.h"
 #include "raster/gl/shader.h"
 
 #include <array>
@@ -31,6 +32,21 @@ void draw_pixels(const GlFunctions& gl, const Picture& picture, const std::strin
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.BindVertexArray(0);
     check(gl, "drawing pixels");
+}
+
+double red_steps_of(const std::string& expression, const std::string& file) {
+    const Gpu gpu(GlPlatform::osmesa);
+    const GlFunctions& gl = gpu.gl();
+    const Picture picture = make_picture(gl, GL_R32F, 1, 1);
+    draw_pixels(gl, picture,
+                std::string(glsl_source(file)) +
+                    "layout(location = 0) out float result;\n"
+                    "const vec3 z = vec3(0, 0, 1);\n"
+                    "void main() { result = (" +
+                    expression + ").r; }\n");
+    float result = 0;
+    gl.ReadPixels(0, 0, 1, 1, GL_RED, GL_FLOAT, &result);
+    return 255.0 * result;
 }
 
 } // namespace shadowproof::tests

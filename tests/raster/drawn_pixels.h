@@ -21,4 +21,8 @@ Picture make_picture(const GlFunctions& gl, GLenum format, int width, int height
 /// picture. Blending is the caller's.
 void draw_pixels(const GlFunctions& gl, const Picture& picture, const std::string& fragment);
 
+/// The red of a GLSL expression, in floats and in steps of 1/255, as OSMesa computes it behind the
+/// text of a file of raster/glsl/. `z` is (0, 0, 1).
+double red_steps_of(const std::string& expression, const std::string& file);
+
 } // namespace shadowproof::tests

@@ -1,6 +1,4 @@
 // The register combiners of four_stages.glsl against what is worked out by hand.
-#include "raster/gl/context.h"
-#include "raster/gl/shader.h"
 #include "tests/raster/drawn_pixels.h"
 
 #include <gtest/gtest.h>
@@ -14,21 +12,9 @@ namespace {
 /// In steps of 1/255; normal and half-angle vector are (0, 0, 1), the decal is 0.5 (128 steps) with
 /// a gloss of 1, the light 1, the specular light 0.2 (51 steps), the ambient light 0.4 (102 steps).
 double combined_steps(const std::string& to_light) {
-    const Gpu gpu(GlPlatform::osmesa);
-    const GlFunctions& gl = gpu.gl();
-    const Picture picture = make_picture(gl, GL_R32F, 1, 1);
-    draw_pixels(gl, picture,
-                std::string(glsl_source("four_stages.glsl")) +
-                    "layout(location = 0) out float result;\n"
-                    "void main() {\n"
-                    "    const vec3 z = vec3(0, 0, 1);\n"
-                    "    result = combined(z, " +
-                    to_light +
-                    ", z, vec4(vec3(0.5), 1), vec3(1), vec3(0.2), vec3(0.4)).r;\n"
-                    "}\n");
-    float result = 0;
-    gl.ReadPixels(0, 0, 1, 1, GL_RED, GL_FLOAT, &result);
-    return 255.0 * result;
+    return red_steps_of("combined(z, " + to_light +
+                            ", z, vec4(vec3(0.5), 1), vec3(1), vec3(0.2), vec3(0.4))",
+                        "four_stages.glsl");
 }
 
 constexpr double float_rounding = 1e-4; // steps

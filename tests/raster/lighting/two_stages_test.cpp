@@ -1,6 +1,4 @@
 // The passes of two register combiners of two_stages.glsl against what is worked out by hand.
-#include "raster/gl/context.h"
-#include "raster/gl/shader.h"
 #include "tests/raster/drawn_pixels.h"
 
 #include <gtest/gtest.h>
@@ -13,21 +11,8 @@ namespace {
 
 constexpr double float_rounding = 1e-4; // steps
 
-/// The red of an expression, in steps of 1/255.
 double steps_of(const std::string& expression) {
-    const Gpu gpu(GlPlatform::osmesa);
-    const GlFunctions& gl = gpu.gl();
-    const Picture picture = make_picture(gl, GL_R32F, 1, 1);
-    draw_pixels(gl, picture,
-                std::string(glsl_source("two_stages.glsl")) +
-                    "layout(location = 0) out float result;\n"
-                    "void main() {\n"
-                    "    const vec3 z = vec3(0, 0, 1);\n"
-                    "    result = " +
-                    expression + ".r;\n}\n");
-    float result = 0;
-    gl.ReadPixels(0, 0, 1, 1, GL_RED, GL_FLOAT, &result);
-    return 255.0 * result;
+    return red_steps_of(expression, "two_stages.glsl");
 }
 
 // N' and L are (1, 1, 255) / 255: their product is 1 in a register.
