@@ -1,5 +1,6 @@
 #include "compare/classify.h"
 
+#include "compare/driver/mask_errors.h"
 #include "compare/judge/surface_check.h"
 #include "reference/parallel.h"
 
@@ -28,9 +29,11 @@ std::vector<Neighbourhood> neighbourhoods(const Case& tried, const Region& regio
     const Camera& camera = tried.claim.traced.scene().camera;
     const std::vector<BandRadius> radii = tried.judge.radii(region.places);
     std::vector<Neighbourhood> around;
-    for (std::size_t i = 0; i < region.places.size(); ++i)
+    for (std::size_t i = 0; i < region.places.size(); ++i) {
         around.push_back(
             neighbourhood(camera, {region.places[i].x + 0.5, region.places[i].y + 0.5}, radii[i]));
+        if (has_masks(tried.claim.traced.scene())) read_masks_in_all_ways(around.back());
+    }
     return around;
 }
 
@@ -65,12 +68,20 @@ void look_around_batch(const Case& tried, const std::vector<Region>& regions) {
     for_regions([&](std::size_t i) { around[i] = neighbourhoods(tried, regions[i]); });
     std::vector<std::size_t> first; // of each region's rays among all
     std::vector<glm::dvec3> rays;
+    std::vector<MaskReading> readings;
     for (const std::vector<Neighbourhood>& region : around) {
         first.push_back(rays.size());
-        for (const Neighbourhood& pixel : region)
+        for (const Neighbourhood& pixel : region) {
             rays.insert(rays.end(), pixel.rays.begin(), pixel.rays.end());
+            readings.insert(readings.end(), pixel.readings.begin(), pixel.readings.end());
+        }
     }
-    const std::vector<RayTruth> truths = trace_rays(tried.tracer(), rays);
+    const Scene& scene = tried.claim.traced.scene();
+    const DepthModel& depth_model = tried.claim.frame.depth_model;
+    const double far = depth_model.clips_at_far() ? tried.claim.traced.far()
+                                                  : std::numeric_limits<double>::infinity();
+    const DriverMaskErrors errors(scene, depth_model, drawing_of(scene, depth_model, far));
+    const std::vector<RayTruth> truths = trace_rays(tried.tracer(), rays, {readings, &errors});
     for_regions([&](std::size_t i) {
         tried.judge.look_around(regions[i], around[i], std::span(truths).subspan(first[i]));
     });

@@ -46,6 +46,8 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     for (const TextureImage& texture : scene.textures) texels += texture.texels.pixels.size();
     if (scene.environment)
         for (const auto& face : *scene.environment) texels += face.pixels.size();
+    std::uint64_t of_masks = 0; // once in the program, once in OpenGL
+    for (const AlphaMask& mask : scene.masks) of_masks += mask.alpha.pixels.size();
     const std::uint64_t pixels = pixels_of(scene.camera.width, scene.camera.height);
     const std::uint64_t triangles = scene.triangles.size();
     return {Part{pixels * pixel_bytes(work, lit),
@@ -55,8 +57,8 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
                      scene.positions.size() * vertex_bytes(work) +
                      scene.surfaces.size() * sizeof(Surface) * 2,
                  fmt::format("{} triangles", triangles), "give the scene fewer triangles"},
-            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)), fmt::format("{} texels", texels),
-                 "make its textures smaller"}};
+            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)) + of_masks * 2 * sizeof(float),
+                 fmt::format("{} texels", texels + of_masks), "make its textures smaller"}};
 }
 
 } // namespace

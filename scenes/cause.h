@@ -19,6 +19,7 @@ enum class Cause : std::uint8_t {
     parity,       ///< overlapping volumes of even depth, counted by inverting
     open_mesh,    ///< the caster does not enclose a volume towards the light
     light_inside, ///< a closed caster holds the light, and perhaps none of its triangles faces it
+    alpha,        ///< what an alpha mask leaves out of a caster casts a shadow
     resolution,   ///< the texel's ray from the light does not go through the pixel's point
     acne,         ///< the receiver shadows itself: the bias or epsilon is too small
     leak,         ///< an occluder lies within the bias or epsilon, which is too large
@@ -39,7 +40,7 @@ struct CauseWords {
 };
 
 /// All causes in the order of the enumerators.
-inline constexpr std::array<CauseWords, 20> all_causes{{
+inline constexpr std::array<CauseWords, 21> all_causes{{
     {Cause::edge, "edge", "within the rasterizer's lateral error"},
     {Cause::near_plane, "near_plane", "crossings were lost before the near plane"},
     {Cause::far_plane, "far_plane", "crossings were lost past the far plane"},
@@ -50,6 +51,7 @@ inline constexpr std::array<CauseWords, 20> all_causes{{
     {Cause::parity, "parity", "overlapping volumes of even depth"},
     {Cause::open_mesh, "open_mesh", "the caster encloses no volume towards the light"},
     {Cause::light_inside, "light_inside", "the light is inside a closed caster"},
+    {Cause::alpha, "alpha", "an alpha mask's holes in a caster were shadowed"},
     {Cause::resolution, "resolution", "the map is too coarse"},
     {Cause::acne, "acne", "the receiver shadows itself: a larger bias or epsilon mends it"},
     {Cause::leak, "leak", "an occluder lies within the bias or epsilon: a smaller one mends it"},

@@ -64,4 +64,13 @@ std::vector<std::uint8_t> receiving_triangles(const Scene& scene) {
     return triangles_where(scene, [](const Mesh& mesh) { return mesh.receives; });
 }
 
+std::vector<std::uint32_t> masks_of_triangles(const Scene& scene) {
+    if (!has_masks(scene)) return {};
+    std::vector<std::uint32_t> masks(scene.triangles.size(), no_mask);
+    for (const Mesh& mesh : scene.meshes)
+        std::fill_n(masks.begin() + mesh.first_triangle, mesh.triangle_count,
+                    scene.materials[mesh.material].mask);
+    return masks;
+}
+
 } // namespace shadowproof

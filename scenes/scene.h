@@ -24,6 +24,7 @@ namespace shadowproof {
 
 inline constexpr std::uint32_t no_triangle = 0xffffffffU;
 inline constexpr std::uint32_t no_texture = 0xffffffffU;
+inline constexpr std::uint32_t no_mask = 0xffffffffU;
 
 /// What perturbs a surface's normals.
 enum class Bump : std::uint8_t {
@@ -32,12 +33,13 @@ enum class Bump : std::uint8_t {
     height_field, ///< red is the height, in units of Material::bump_scale
 };
 
-/// Colours are linear. All but the first two members are set only in scenes with bump maps
+/// Colours are linear. All but the first three members are set only in scenes with bump maps
 /// (is_bump_lit).
 struct Material {
     std::string name;
-    bool double_sided = false; ///< otherwise a triangle is not seen from behind, as glTF says
-    glm::dvec3 color{1, 1, 1}; ///< times the decal's
+    bool double_sided = false;    ///< otherwise a triangle is not seen from behind, as glTF says
+    std::uint32_t mask = no_mask; ///< index into Scene::masks
+    glm::dvec3 color{1, 1, 1};    ///< times the decal's
     glm::dvec3 specular{1, 1, 1};
     glm::dvec3 reflectance{0, 0, 0};  ///< times the environment; 0 where there is none
     std::uint32_t decal = no_texture; ///< index into Scene::textures
@@ -152,6 +154,8 @@ struct Scene {
     std::vector<Surface> surfaces;      ///< three per triangle, in the order of its corners; empty
                                         ///< where no material of a mesh has a bump map
     std::vector<TextureImage> textures; ///< what such a scene's materials need
+    std::vector<AlphaMask> masks;       ///< empty where no material of a mesh has one
+    std::vector<glm::vec2> mask_at;     ///< texture coordinates, one per position; empty likewise
     glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
     bool inverse_square = false;        ///< extras.shadowproof.inverseSquare: the light's intensity
                                         ///< and distance count
@@ -184,6 +188,10 @@ double side(const Scene& scene, std::uint32_t triangle, const glm::dvec4& point)
 inline bool is_bump_lit(const Scene& scene) {
     return !scene.surfaces.empty();
 }
+/// Whether parts of some surfaces are left out.
+inline bool has_masks(const Scene& scene) {
+    return !scene.masks.empty();
+}
 /// Whether a material that is drawn has heights in units of space.
 inline bool has_heights_in_space(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes)
@@ -198,9 +206,18 @@ inline const Light& chosen_light(const Scene& scene) {
 /// Index into Scene::meshes of the mesh that holds a triangle.
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
 
+/// Whether a triangle has an alpha mask.
+inline bool has_mask(const Scene& scene, std::uint32_t triangle) {
+    return has_masks(scene) &&
+           scene.materials[scene.meshes[mesh_of(scene, triangle)].material].mask != no_mask;
+}
+
 /// One flag per triangle: 1 where its material is double sided, its mesh casts, its mesh receives.
 std::vector<std::uint8_t> double_sided_triangles(const Scene& scene);
 std::vector<std::uint8_t> casting_triangles(const Scene& scene);
 std::vector<std::uint8_t> receiving_triangles(const Scene& scene);
+
+/// Per triangle the index of its mask, or no_mask; empty where the scene has none.
+std::vector<std::uint32_t> masks_of_triangles(const Scene& scene);
 
 } // namespace shadowproof

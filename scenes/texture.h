@@ -22,6 +22,19 @@ struct TextureImage {
     Wrap wrap_s = Wrap::repeat; ///< along a row
     Wrap wrap_t = Wrap::repeat; ///< down the rows
     int bits = 8;               ///< per channel, in the file
+    bool nearest = false;       ///< magFilter; evaluated in alpha masks alone
+};
+
+/// What glTF's alphaMode MASK leaves out of a surface: all places where alpha is below `least`.
+/// Alpha is the texels', read at level 0 by the definition below: between texels it is
+/// interpolated.
+struct AlphaMask {
+    std::string name;     ///< for messages: its texture's JSON pointer
+    Image<float> alpha{}; ///< as the file has it, rounded to float: the same array goes to OpenGL
+    Wrap wrap_s = Wrap::repeat;
+    Wrap wrap_t = Wrap::repeat;
+    bool nearest = false; ///< alpha is that of the texel that holds the place: floor(n * at)
+    double least = 0.5;   ///< the cutoff over the alpha of the material's colour
 };
 
 /// The two texels around a coordinate along one axis, and how far it lies from the first to the

@@ -81,6 +81,15 @@ std::vector<double> stops_along(const Line& line, const std::vector<Line>& lines
 
 // Each part that lies next to a line has a piece of it as a side, from one crossing to the next.
 // From the piece's middle, half the way to the nearest of all other lines leads into that part.
+void read_masks_in_all_ways(Neighbourhood& around) {
+    const std::vector<glm::dvec3> rays = around.rays;
+    around.readings.assign(rays.size(), MaskReading::exact);
+    for (const MaskReading reading : {MaskReading::most, MaskReading::least}) {
+        around.rays.insert(around.rays.end(), rays.begin(), rays.end());
+        around.readings.insert(around.readings.end(), rays.size(), reading);
+    }
+}
+
 std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<glm::dvec3> planes) {
     constexpr std::size_t most_lines = 12;
     const glm::dvec3& centre = around.rays.front();

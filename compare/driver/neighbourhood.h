@@ -2,6 +2,7 @@
 // cover it when their corners are moved by as much.
 #pragma once
 
+#include "reference/trace/trace.h"
 #include "scenes/scene.h"
 
 #include <array>
@@ -22,12 +23,16 @@ struct BandRadius {
 /// Rays through the sample points of a pixel's neighbourhood.
 struct Neighbourhood {
     std::vector<glm::dvec3> rays; ///< the pixel's centre first, then one grid for each radius
-    double reach = 0;             ///< the larger radius, pixels
+    std::vector<MaskReading> readings{}; ///< of masks, one per ray; empty: all are exact
+    double reach = 0;                    ///< the larger radius, pixels
     std::array<glm::dvec3, 4> corners{}; ///< rays around the larger grid: bounds of what is linear
 };
 /// `centre`: a place of the picture, in pixels from its top left corner.
 Neighbourhood neighbourhood(const Camera& camera, const glm::dvec2& centre,
                             const BandRadius& radius);
+
+/// In scenes with masks: each ray three times, with each of the readings.
+void read_masks_in_all_ways(Neighbourhood& around);
 
 /// Planes through the eye divide the neighbourhood into parts. Gives one ray within each part that
 /// lies next to a plane: however thin, such a part may be drawn at the pixel. If there are many

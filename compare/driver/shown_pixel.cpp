@@ -102,7 +102,9 @@ public:
         const PicturedFace face = pictured_face(making_, {at(0), at(1), at(2)}, nullptr, 0);
         // A sliver may come out either way round.
         const bool drawn = sides_of(tracer_, triangle).visible;
-        const bool certainly_drawn = drawn && (face.change != 0 || is_double_sided(triangle));
+        // Through the holes of its mask others are seen.
+        const bool certainly_drawn =
+            drawn && !has_mask(scene_, triangle) && (face.change != 0 || is_double_sided(triangle));
         const bool maybe_drawn = drawn || face.change == 0;
         for (const std::size_t i : by_row.within(by_row.rows_of(face))) {
             const Chance covered = covers(face, pixels[i]);

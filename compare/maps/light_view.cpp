@@ -52,6 +52,36 @@ std::optional<std::uint32_t> LightView::shown(const Texel& texel, std::uint32_t 
     return shown_around(texel);
 }
 
+Scene casters_alone(const Scene& scene, bool double_sided, std::vector<std::uint32_t>& of_scene) {
+    const std::vector<std::uint8_t> casts = casting_triangles(scene);
+    Scene casters;
+    casters.name = scene.name;
+    casters.positions = scene.positions;
+    casters.mask_at = scene.mask_at;
+    casters.masks = scene.masks;
+    casters.lights = {chosen_light(scene)};
+    casters.materials = {{.name = "caster", .double_sided = double_sided}};
+    for (std::uint32_t mask = 0; mask < scene.masks.size(); ++mask)
+        casters.materials.push_back(
+            {.name = "masked caster", .double_sided = double_sided, .mask = mask});
+    of_scene.clear();
+    const std::vector<std::uint32_t> masks = masks_of_triangles(scene);
+    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+        if (casts[triangle] == 0) continue;
+        const std::uint32_t mask = masks.empty() ? no_mask : masks[triangle];
+        const std::uint32_t material = mask == no_mask ? 0 : mask + 1;
+        if (casters.meshes.empty() || casters.meshes.back().material != material)
+            casters.meshes.push_back(
+                {.name = "casters",
+                 .first_triangle = static_cast<std::uint32_t>(casters.triangles.size()),
+                 .material = material});
+        ++casters.meshes.back().triangle_count;
+        casters.triangles.push_back(scene.triangles[triangle]);
+        of_scene.push_back(triangle);
+    }
+    return casters;
+}
+
 std::vector<std::uint32_t> inverse_of(std::span<const std::uint32_t> of_scene,
                                       std::size_t triangles) {
     std::vector<std::uint32_t> place(triangles, no_triangle);

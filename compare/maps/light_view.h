@@ -114,6 +114,11 @@ private:
     std::vector<Camera> cameras_; ///< one per face
 };
 
+/// The scene's casting triangles under its light, with their masks: as they are drawn, for the
+/// order of a triangle's corners decides into which ones clipping divides it. `of_scene`: set to
+/// their numbers in the scene.
+Scene casters_alone(const Scene& scene, bool double_sided, std::vector<std::uint32_t>& of_scene);
+
 /// By each triangle of a scene its place in a list of some of them; no_triangle of others.
 std::vector<std::uint32_t> inverse_of(std::span<const std::uint32_t> of_scene,
                                       std::size_t triangles);

@@ -1,8 +1,12 @@
 #include "compare/maps/parallel_view.h"
 
+#include "compare/driver/mask_errors.h"
+#include "compare/driver/setup_error.h"
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
+#include "reference/trace/state.h"
 #include "scenes/driver.h"
+#include "scenes/surface/alpha_mask.h"
 
 #include <algorithm>
 #include <array>
@@ -30,19 +34,8 @@ bool is_drawn(const Scene& casters, std::uint32_t caster, MapCulling culling) {
 ParallelView::ParallelView(const Scene& scene, const MapEvidence& map, int subpixel_bits,
                            int threads)
     : LightView(scene, map), half_step_(half_snapping_step(subpixel_bits)) {
-    const std::vector<std::uint8_t> casts = casting_triangles(scene);
-    casters_.name = scene.name;
-    casters_.positions = scene.positions;
-    casters_.materials = {{.name = "caster", .double_sided = true}};
-    casters_.lights = {chosen_light(scene)};
+    casters_ = casters_alone(scene, true, of_scene_);
     casters_.camera = camera(0);
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        if (casts[triangle] == 0) continue;
-        casters_.triangles.push_back(scene.triangles[triangle]);
-        of_scene_.push_back(triangle);
-    }
-    casters_.meshes = {{.name = "casters",
-                        .triangle_count = static_cast<std::uint32_t>(casters_.triangles.size())}};
     reach_ = half_step_;
     std::vector<CasterBox> boxes;
     for (std::uint32_t caster = 0; caster < casters_.triangles.size(); ++caster) {
@@ -84,14 +77,15 @@ AnyRay ParallelView::ray_through(const glm::dvec3& from_light, const LiftedLimit
     return ray_from(from.eye + from_light - along, lifted);
 }
 
-std::vector<FromLight> ParallelView::met(std::span<const AnyRay> rays,
-                                         const LiftedLimits& lifted) const {
+std::vector<FromLight>
+ParallelView::met(std::span<const AnyRay> rays, const LiftedLimits& lifted,
+                  const std::function<bool(const AnyRay&, std::uint32_t)>& stands) const {
     std::vector<FromLight> found(rays.size(), {no_triangle, infinity});
     if (!tracer_) return found;
     const auto counts = [&](std::uint32_t caster) {
         return lifted.culling ? is_drawn(casters_, caster, MapCulling::none) : drawn_[caster] != 0;
     };
-    const std::vector<MetTriangle> first = first_met(*tracer_, rays, counts);
+    const std::vector<MetTriangle> first = first_met(*tracer_, rays, counts, stands);
     for (std::size_t i = 0; i < first.size(); ++i)
         if (first[i].triangle != no_triangle) found[i] = {of_scene_[first[i].triangle], first[i].t};
     return found;
@@ -181,6 +175,56 @@ bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
            (drawn_[caster] != 0 || may_be_flipped(polygon, half_step_));
 }
 
+// Coordinates are interpolated by a plane over the picture, as window depths are, and divided by w,
+// which is 1. Of a caster that the near or far plane cuts nothing is known.
+MaskError ParallelView::mask_error(const Texel& texel, std::uint32_t caster) const {
+    const std::vector<PicturePoint> polygon = pictured_in_parallel(casters_, camera(0), caster);
+    if (polygon.size() != 3) return {.at = glm::dvec2(infinity)};
+    const std::array<glm::dvec2, 3> at = mask_coordinates(casters_, caster);
+    MaskError error{.alpha = alpha_roundings};
+    for (int axis = 0; axis < 2; ++axis) {
+        std::array<PicturePoint, 3> corners{polygon[0], polygon[1], polygon[2]};
+        double largest = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k].inverse_depth = at[k][axis];
+            corners[k].depth_error = 0;
+            largest = std::max(largest, std::abs(at[k][axis]));
+        }
+        error.at[axis] = setup_error(corners, {texel.x + 0.5, texel.y + 0.5}, half_step_) +
+                         8 * float_roundoff * largest + mask_place_roundings;
+    }
+    return error;
+}
+
+/// Of a caster that has a mask.
+bool ParallelView::stands(const Texel& texel, const AnyRay& ray, std::uint32_t caster,
+                          MaskReading reading) const {
+    return may_stand_on_ray({ray.origin, ray.direction, {}}, tracer_->state().masked(caster),
+                            mask_error(texel, caster), reading);
+}
+
+bool ParallelView::may_stand(const Texel& texel, std::span<const AnyRay> rays,
+                             std::uint32_t caster) const {
+    return !has_mask(casters_, caster) || std::ranges::any_of(rays, [&](const AnyRay& ray) {
+        return stands(texel, ray, caster, MaskReading::most);
+    });
+}
+
+/// What rays meet that pass a texel, as its masks may be read.
+std::vector<FromLight> ParallelView::met_in_all_ways(const Texel& texel,
+                                                     std::span<const AnyRay> rays) const {
+    std::vector<FromLight> all = met(rays);
+    if (!has_masks(casters_)) return all;
+    for (const MaskReading reading : {MaskReading::most, MaskReading::least}) {
+        const std::vector<FromLight> more =
+            met(rays, {}, [&](const AnyRay& ray, std::uint32_t caster) {
+                return stands(texel, ray, caster, reading);
+            });
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+}
+
 LightView::Shown ParallelView::showing(const Texel& texel, std::uint32_t triangle) const {
     if (triangle == no_triangle) return {};
     const double depth = plane(texel, caster_of(triangle)).depth;
@@ -201,7 +245,7 @@ std::optional<std::uint32_t> ParallelView::shown_around(const Texel& texel) cons
         for (const double down : steps)
             rays.push_back(ray_at(texel.x + 0.5 + reach_ * right, texel.y + 0.5 + reach_ * down));
     double farthest = 0;
-    for (const FromLight& seen : met(rays)) {
+    for (const FromLight& seen : met_in_all_ways(texel, rays)) {
         double hidden_behind = infinity;
         if (seen.triangle != no_triangle) {
             const std::uint32_t caster = caster_of(seen.triangle);
@@ -219,7 +263,8 @@ std::optional<std::uint32_t> ParallelView::shown_around(const Texel& texel) cons
     if (stored(texel) > farthest) return std::nullopt;
     const glm::dvec2 place(texel.x + 0.5, texel.y + 0.5);
     for (const std::uint32_t caster : grid_.around(place, std::numbers::sqrt2 * half_step_))
-        if (may_draw(texel, caster) && may_store(texel, caster)) return of_scene_[caster];
+        if (may_draw(texel, caster) && may_store(texel, caster) && may_stand(texel, rays, caster))
+            return of_scene_[caster];
     return std::nullopt;
 }
 

@@ -45,7 +45,14 @@ private:
     AnyRay ray_from(const glm::dvec3& origin, const LiftedLimits& lifted) const;
     AnyRay ray_at(double x, double y, const LiftedLimits& lifted = {}) const;
     AnyRay ray_through(const glm::dvec3& from_light, const LiftedLimits& lifted) const;
-    std::vector<FromLight> met(std::span<const AnyRay> rays, const LiftedLimits& lifted = {}) const;
+    std::vector<FromLight>
+    met(std::span<const AnyRay> rays, const LiftedLimits& lifted = {},
+        const std::function<bool(const AnyRay&, std::uint32_t)>& stands = {}) const;
+    MaskError mask_error(const Texel& texel, std::uint32_t caster) const;
+    bool stands(const Texel& texel, const AnyRay& ray, std::uint32_t caster,
+                MaskReading reading) const;
+    bool may_stand(const Texel& texel, std::span<const AnyRay> rays, std::uint32_t caster) const;
+    std::vector<FromLight> met_in_all_ways(const Texel& texel, std::span<const AnyRay> rays) const;
     double window(double depth) const { return map_window_depth(model(), depth); }
     Plane plane(const Texel& texel, std::uint32_t caster) const;
     PolygonOffset offset(const Texel& texel, std::uint32_t caster) const;

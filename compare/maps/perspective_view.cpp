@@ -2,6 +2,7 @@
 
 #include "compare/driver/clipped_polygon.h"
 #include "compare/driver/error_bounds.h"
+#include "compare/driver/mask_errors.h"
 #include "compare/driver/neighbourhood.h"
 #include "compare/driver/setup_error.h"
 #include "reference/parallel.h"
@@ -28,20 +29,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// decides into which ones clipping divides it.
 Scene casters_of(const Scene& scene, const MapModel& model, std::size_t face,
                  std::vector<std::uint32_t>& of_scene) {
-    const std::vector<std::uint8_t> casts = casting_triangles(scene);
-    Scene casters;
-    casters.name = scene.name;
-    casters.positions = scene.positions;
-    of_scene.clear();
-    for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
-        if (casts[triangle] == 0) continue;
-        casters.triangles.push_back(scene.triangles[triangle]);
-        of_scene.push_back(triangle);
-    }
-    casters.materials = {{.name = "caster", .double_sided = model.culling == MapCulling::none}};
-    casters.meshes = {{.name = "casters",
-                       .triangle_count = static_cast<std::uint32_t>(casters.triangles.size())}};
-    casters.lights = {chosen_light(scene)};
+    Scene casters = casters_alone(scene, model.culling == MapCulling::none, of_scene);
     casters.camera = map_camera(chosen_light(scene), model, face);
     return casters;
 }
@@ -363,11 +351,13 @@ std::optional<std::uint32_t> PerspectiveView::shown_around(const Texel& texel) c
     const glm::dvec3 centre = direction(texel);
     const double reach =
         lateral_error(scene, depth_model_, scene.camera.eye + model().near * centre);
-    const Neighbourhood around =
+    Neighbourhood around =
         neighbourhood(scene.camera, {texel.x + 0.5, texel.y + 0.5}, {reach, reach});
+    if (has_masks(scene)) read_masks_in_all_ways(around);
+    const DriverMaskErrors errors(scene, depth_model_, pictures_[texel.face].drawing);
     double farthest = 0;
     double deepest_seen = 0; // as a window depth; with a polygon offset
-    for (const SeenSurface& seen : see_rays(*tracer_, around.rays)) {
+    for (const SeenSurface& seen : see_rays(*tracer_, around.rays, {around.readings, &errors})) {
         const bool clipped = may_be_clipped(texel, seen);
         if ((seen.triangle == no_triangle || clipped) && stored(texel) == 1) return no_triangle;
         if (model().has_offset())
@@ -378,6 +368,7 @@ std::optional<std::uint32_t> PerspectiveView::shown_around(const Texel& texel) c
     }
     // `nearest` is an inverse depth.
     const auto may_show = [&](std::uint32_t caster, double nearest) {
+        if (!may_stand(*tracer_, around, errors, caster)) return false;
         if (model().has_offset())
             return stored(texel) <= deepest_seen && may_store(plane(texel, caster), texel, caster);
         const bool hidden = nearest * farthest * (1 + 0x1p-16) < 1;

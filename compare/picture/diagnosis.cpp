@@ -16,10 +16,10 @@ Diagnosed diagnose(const TracedScene& traced, const Frame& frame,
     // The cheap ones first: once one explains all and contradicts nothing, no other is tried.
     for (const Try& attempt : std::initializer_list<Try>{
              [&] { try_operations(trial); }, [&] { try_lights(trial); }, [&] { try_meshes(trial); },
-             [&] { try_one_sided(trial); }, [&] { try_counters(trial, counts); },
-             [&] { try_near_plane(trial, counts); }, [&] { try_far_plane(trial, counts); },
-             [&] { try_length(trial, counts); }, [&] { try_range(trial); },
-             [&] { try_epsilon(trial); }, [&] { try_cube_maps(trial); },
+             [&] { try_masks(trial); }, [&] { try_one_sided(trial); },
+             [&] { try_counters(trial, counts); }, [&] { try_near_plane(trial, counts); },
+             [&] { try_far_plane(trial, counts); }, [&] { try_length(trial, counts); },
+             [&] { try_range(trial); }, [&] { try_epsilon(trial); }, [&] { try_cube_maps(trial); },
              [&] { try_plane_maps(trial); }, [&] { try_moved_light(trial); }})
         if (!trial.is_settled()) attempt();
     return trial.best(most);

@@ -14,8 +14,8 @@ namespace shadowproof {
 
 struct Diagnosis {
     /// "no_shadow", "inverted", "other_light", "light_moved", "caster_missing",
-    /// "receiver_missing", "mesh_missing", "one_sided_casters", "zpass", "zfail_far",
-    /// "short_volumes", "missing_cap", "stencil_bits", "shadow_map", "ray_epsilon"
+    /// "receiver_missing", "mesh_missing", "alpha_ignored", "one_sided_casters", "zpass",
+    /// "zfail_far", "short_volumes", "missing_cap", "stencil_bits", "shadow_map", "ray_epsilon"
     std::string hypothesis;
     std::vector<std::pair<std::string, double>> parameters; ///< "range", 12
     std::uint64_t explained = 0;                            ///< wrong pixels that it predicts

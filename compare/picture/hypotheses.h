@@ -10,6 +10,7 @@ namespace shadowproof {
 void try_operations(Trial& trial);  ///< no_shadow, inverted
 void try_lights(Trial& trial);      ///< other_light
 void try_meshes(Trial& trial);      ///< receiver_missing, caster_missing, mesh_missing
+void try_masks(Trial& trial);       ///< alpha_ignored
 void try_one_sided(Trial& trial);   ///< one_sided_casters
 void try_moved_light(Trial& trial); ///< light_moved
 

@@ -1,5 +1,7 @@
 #include "compare/picture/hypotheses.h"
+#include "reference/predict/whole_casters.h"
 #include "scenes/camera.h"
+#include "scenes/surface/alpha_mask.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 
 namespace shadowproof {
 
@@ -137,6 +140,19 @@ void try_meshes(Trial& trial) {
                                return without;
                            }));
     }
+}
+
+void try_masks(Trial& trial) {
+    if (!has_masks(trial.scene())) return;
+    const auto whole =
+        std::make_shared<const Image<Visibility>>(under_whole_casters(trial.traced().tracer()));
+    trial.consider(
+        "alpha_ignored", {{"surfaces", 0}},
+        "casters throw shadows as if their alpha masks left nothing out",
+        changed(trial.traced(), [whole](std::size_t i, Visibility) { return whole->pixels[i]; }));
+    trial.consider("alpha_ignored", {{"surfaces", 1}},
+                   "alpha masks leave nothing out, of surfaces and of casters",
+                   truth_without(trial, [&scene = trial.scene()] { return without_masks(scene); }));
 }
 
 void try_one_sided(Trial& trial) {

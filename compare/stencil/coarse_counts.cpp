@@ -167,7 +167,8 @@ private:
     bool never_in_front(const DrawnFace& drawn, const PicturedFace& face) const {
         const Scene& scene = judged_.traced.scene();
         if (drawn.part != DrawnFace::Part::light_cap || drawn.triangle >= scene.triangles.size() ||
-            judged_.frame.depth_model.clamp || std::isfinite(scene.camera.far))
+            judged_.frame.depth_model.clamp || std::isfinite(scene.camera.far) ||
+            has_mask(scene, drawn.triangle))
             return false;
         const bool double_sided =
             scene.materials[scene.meshes[mesh_of(scene, drawn.triangle)].material].double_sided;

@@ -134,8 +134,8 @@ bool PixelFaces::is_never_in_front(const Crossing& crossing) const {
     if (crossing.depth >= depths_.clip_depth(far_, -1)) return false;
     if (frame_.depth_model.clamp && crossing.depth <= depths_.clip_depth(scene_.camera.near, 1))
         return false; // which is not drawn as a surface either
-    // A triangle that fills a hole is not drawn as a surface.
-    return crossing.triangle < scene_.triangles.size() &&
+    // A triangle that fills a hole is not drawn as a surface; nor is one in the holes of its mask.
+    return crossing.triangle < scene_.triangles.size() && !has_mask(scene_, crossing.triangle) &&
            sides_of(tracer_, crossing.triangle).visible;
 }
 
@@ -156,6 +156,8 @@ std::int64_t PixelFaces::ideal_depth(const Sample& sample, std::vector<Crossing>
     RegionLedger& ledger = volumes_.ideal != nullptr ? *volumes_.ideal : volumes_.counted;
     ledger.crossings(sample.direction, crossings);
     std::int64_t s = volumes_.ideal_at_eye;
+    if (volumes_.masked != nullptr)
+        s -= volumes_.masked->ideal_let_through(sample.direction, shown_);
     for (const Crossing& crossing : crossings) {
         const bool before_near = crossing.depth < scene_.camera.near;
         if (is_nominally_in_front(crossing, sample) &&

@@ -28,6 +28,7 @@ struct PixelVolumes {
     std::span<const FlatVolume> flat{}; ///< see Volumes::flat
     std::int32_t counted_at_eye = 0;    ///< shadow depths of the eye
     std::int32_t ideal_at_eye = 0;
+    const Volumes* masked = nullptr; ///< these, where the scene has masks
 };
 
 /// What the pixel shows if it is covered as one ray is.
@@ -36,7 +37,8 @@ struct Sample {
     double depth = 0;       ///< view depth of the shown surface
     bool in_cone = true;    ///< as Reading::in_cone
     bool moved = false;     ///< only depths that are rounded show it, or order its faces so
-    std::int64_t ideal = 0; ///< its shadow depth in the casters' own volumes
+    std::int64_t ideal = 0; ///< its shadow depth in the casters' own volumes,
+                            ///< without what masks let through
     std::vector<Crossing> crossings{}; ///< of the counted volumes along the ray
 };
 

@@ -60,7 +60,8 @@ Finding find_in_band(const CountedClaim& judged, PixelPlace p, const Neighbourho
                             volumes.are_ideal() ? nullptr : &ideal,
                             volumes.flat(),
                             judged.prediction.depths().at_eye,
-                            judged.prediction.ideal_depths().at_eye};
+                            judged.prediction.ideal_depths().at_eye,
+                            has_masks(judged.traced.scene()) ? &volumes : nullptr};
     const PixelBand band =
         find_band(judged.tracer(), here, judged.frame, judged.traced.far(),
                   judged.frame.triangle.at(p.x, p.y), around, truth,

@@ -1,6 +1,7 @@
 #include "compare/traced/float_bounds.h"
 
 #include "reference/exact/norms.h"
+#include "reference/trace/state.h"
 #include "scenes/roundoff.h"
 
 #include <algorithm>
@@ -157,6 +158,18 @@ Meeting box_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlar
     return met;
 }
 
+/// U / |den| and V / |den| by a reciprocal: at most 8 u for that. First order is doubled for the
+/// rest, as long as the divisor is known well.
+glm::dvec2 weight_errors(const Numbers& n, const Bounds& b, bool overflow) {
+    if (overflow || !(n.den > 8 * b.den))
+        return glm::dvec2(std::numeric_limits<double>::infinity());
+    const auto error = [&](double number, double bound) {
+        const double weight = std::abs(number / n.den);
+        return 2 * (bound / n.den + weight * (b.den / n.den + 8 * u));
+    };
+    return {error(n.u_, b.u_), error(n.v, b.v)};
+}
+
 } // namespace
 
 FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement) {
@@ -175,7 +188,25 @@ FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3
     const double at = numbers.t / numbers.den;
     const double error = relative < 0.125 && !overflow ? 2 * relative * std::abs(at)
                                                        : std::numeric_limits<double>::infinity();
-    return {meeting, at, error};
+    return {meeting, at, error, weight_errors(numbers, bounds, overflow)};
+}
+
+// The weights of the corners, one of which is 1 less the others, round six times together, products
+// and sums included; places among the texels four times, of coordinates up to 2 (float_mask.cpp);
+// alpha, up to 1, three times a difference, a product and a sum, of which two follow each other.
+FloatMeeting float_meeting(const Tracer& tracer, const AnyRay& ray, std::uint32_t triangle,
+                           const glm::dvec3& enlargement) {
+    FloatMeeting met = float_meeting(ray, corners(tracer.scene(), triangle), enlargement);
+    if (met.meeting == Meeting::never || !tracer.state().has_mask(triangle)) return met;
+    const MaskedTriangle masked = tracer.state().masked(triangle);
+    const auto& [a, b, c] = masked.at;
+    MaskError error{.alpha = 6 * u};
+    error.at = met.weight_error.x * glm::abs(b - a) + met.weight_error.y * glm::abs(c - a) +
+               6 * u * (glm::abs(a) + glm::abs(b) + glm::abs(c)) + 4 * 2 * u;
+    const EyeRay exact{ray.origin, ray.direction, {}};
+    if (!may_stand_on_ray(exact, masked, error, MaskReading::most)) return {};
+    if (!may_stand_on_ray(exact, masked, error, MaskReading::least)) met.meeting = Meeting::perhaps;
+    return met;
 }
 
 } // namespace shadowproof

@@ -19,8 +19,9 @@ enum class Meeting : std::uint8_t {
 
 struct FloatMeeting {
     Meeting meeting = Meeting::never;
-    double t = 0;       ///< where; of a meeting that is not ruled out
-    double t_error = 0; ///< within which Embree's t lies
+    double t = 0;                  ///< where; of a meeting that is not ruled out
+    double t_error = 0;            ///< within which Embree's t lies
+    glm::dvec2 weight_error{0, 0}; ///< the same of the second and third corner's weights
 };
 
 /// By how much Embree's traversal may misplace the sides of boxes, as a share of the coordinates
@@ -35,5 +36,10 @@ inline constexpr double traversal_share = 8 * float_roundoff;
 /// `t`. `enlargement`: by how much its traversal may misplace the sides of boxes along each axis
 /// (traversal_share). `perhaps` wherever a product of its floats may overflow.
 FloatMeeting float_meeting(const AnyRay& ray, const Corners& t, const glm::dvec3& enlargement);
+
+/// The same of a triangle of the scene, whose mask, if it has one, is read in float where the ray
+/// meets it.
+FloatMeeting float_meeting(const Tracer& tracer, const AnyRay& ray, std::uint32_t triangle,
+                           const glm::dvec3& enlargement);
 
 } // namespace shadowproof

@@ -43,7 +43,9 @@ std::uint32_t first_seen(const TracedClaim& claim, const AnyRay& ray) {
     std::uint32_t first = no_triangle;
     for (const std::uint32_t triangle : nearby(claim.tracer(), ray)) {
         const Corners t = corners(claim.scene(), triangle);
-        if (claim.tables.visible[triangle] == 0 || !meets(ray, t)) continue;
+        if (claim.tables.visible[triangle] == 0 || !meets(ray, t) ||
+            !stands_on_ray(claim.tracer(), ray, triangle))
+            continue;
         const int order =
             first == no_triangle ? -1 : order_along(ray, t, corners(claim.scene(), first));
         if (order < 0 || (order == 0 && triangle < first)) first = triangle;
@@ -83,7 +85,8 @@ std::vector<ExactHit> hits_of(const TracedClaim& claim, PixelPlace p, const AnyR
     std::vector<ExactHit> hits;
     for (const std::uint32_t triangle : nearby(claim.tracer(), ray)) {
         const Corners t = corners(claim.scene(), triangle);
-        if (claim.may_stop(p, triangle) && meets(ray, t))
+        if (claim.may_stop(p, triangle) && meets(ray, t) &&
+            stands_on_ray(claim.tracer(), ray, triangle))
             hits.push_back({triangle, place_on(ray, t)});
     }
     std::ranges::stable_sort(hits, {}, &ExactHit::t);

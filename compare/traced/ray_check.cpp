@@ -129,11 +129,11 @@ public:
     }
     void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) override {
         if (eye_rays_ && claim_.tables.visible[triangle] == 0) return;
-        const Corners t = corners(claim_.scene(), triangle);
         for_lanes(lanes, [&](int lane) {
             const auto l = static_cast<std::size_t>(lane);
             if (!eye_rays_ && !claim_.may_stop(tile_.places[l], triangle)) return;
-            if (float_meeting(rays.ray(lane), t, enlargement_[l]).meeting != Meeting::always)
+            if (float_meeting(claim_.tracer(), rays.ray(lane), triangle, enlargement_[l]).meeting !=
+                Meeting::always)
                 return;
             met_ |= 1U << lane;
             rays.lanes &= ~(1U << lane);
@@ -150,7 +150,7 @@ private:
 };
 
 FloatMeeting meeting_of(const TracedClaim& claim, const AnyRay& ray, std::uint32_t triangle) {
-    return float_meeting(ray, corners(claim.scene(), triangle),
+    return float_meeting(claim.tracer(), ray, triangle,
                          enlargement(claim.tracer(), traversal_share, ray.origin));
 }
 

@@ -99,13 +99,16 @@ ClipTransform transform_of(const Scene& scene, const MapModel& model, std::size_
     return clip_transform(seen_from_light, map_depth_model(model));
 }
 
-std::string_view fragment_of(const MapModel& model) {
-    if (model.is_ramp()) return "map_ramp.frag";
-    return model.value == MapValue::distance ? "map_distance.frag" : "map_depth.frag";
+std::string_view fragment_of(const MapModel& model, bool masked) {
+    if (model.is_ramp()) return masked ? "map_ramp_masked.frag" : "map_ramp.frag";
+    if (model.value == MapValue::distance)
+        return masked ? "map_distance_masked.frag" : "map_distance.frag";
+    return masked ? "map_depth_masked.frag" : "map_depth.frag";
 }
 
-Program link_all_faces(const GlFunctions& gl, const Scene& scene, const MapModel& model) {
-    Program program = link_files(gl, {"project.vert", "map_cube.geom", fragment_of(model)});
+Program link_all_faces(const GlFunctions& gl, const Scene& scene, const MapModel& model,
+                       bool masked) {
+    Program program = link_files(gl, {"project.vert", "map_cube.geom", fragment_of(model, masked)});
     set_transform(gl, program, transform_of(scene, model, 0));
     std::vector<glm::mat4> clip_from_light;
     for (std::size_t face = 0; face < model.faces(); ++face)
@@ -115,17 +118,25 @@ Program link_all_faces(const GlFunctions& gl, const Scene& scene, const MapModel
     return program;
 }
 
+template <class Link>
+SurfacePrograms link_both(const Geometry& geometry, const Link& link) {
+    SurfacePrograms programs{link(false)};
+    if (!geometry.masks.empty()) programs.masked = link(true);
+    return programs;
+}
+
 std::vector<SurfaceRun> casting_runs(const Scene& scene) {
     std::vector<SurfaceRun> runs;
     for (const Mesh& mesh : scene.meshes) {
         if (!mesh.casts) continue;
+        const std::uint32_t mask = scene.materials[mesh.material].mask;
         const bool adjoins =
-            !runs.empty() &&
+            !runs.empty() && runs.back().mask == mask &&
             runs.back().first_triangle + runs.back().triangle_count == mesh.first_triangle;
         if (adjoins)
             runs.back().triangle_count += mesh.triangle_count;
         else
-            runs.push_back({mesh.first_triangle, mesh.triangle_count, true});
+            runs.push_back({mesh.first_triangle, mesh.triangle_count, true, mask});
     }
     return runs;
 }
@@ -179,18 +190,25 @@ MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry&
     if (making == MapMaking::geometry_shader) {
         pass.all = make_framebuffer(gl);
         gl.NamedFramebufferTexture(pass.all.name(), GL_DEPTH_ATTACHMENT, pass.texture.name(), 0);
-        pass.programs.push_back(link_all_faces(gl, scene, model));
+        pass.programs.push_back(link_both(
+            geometry, [&](bool masked) { return link_all_faces(gl, scene, model, masked); }));
     } else {
         for (std::size_t face = 0; face < model.faces(); ++face)
-            pass.programs.push_back(link_projection(gl, fragment_of(model),
-                                                    transform_of(scene, model, face), geometry));
+            pass.programs.push_back(link_both(geometry, [&](bool masked) {
+                return link_projection(gl, fragment_of(model, masked),
+                                       transform_of(scene, model, face), geometry);
+            }));
     }
-    for (const Program& program : pass.programs) {
+    const auto set = [&](const Program& program) {
         if (model.value == MapValue::distance)
             gl.ProgramUniform1f(program.name(), 6, static_cast<float>(model.far));
         if (model.is_ramp()) set_ramp(gl, program, map_camera(chosen_light(scene), model, 0));
         // No corner is moved to infinity.
         gl.ProgramUniform1i(program.name(), 5, static_cast<GLint>(geometry.position_count));
+    };
+    for (const SurfacePrograms& programs : pass.programs) {
+        set(programs.whole);
+        if (has_masks(scene)) set(programs.masked);
     }
     check(gl, "making the shadow map");
     return pass;
@@ -221,9 +239,10 @@ void draw_map(const GlFunctions& gl, const MapPass& pass, const Geometry& geomet
             gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, last_step.data());
         }
         gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-        gl.UseProgram(pass.programs[i].name());
-        for (const SurfaceRun& run : pass.casters)
+        for (const SurfaceRun& run : pass.casters) {
+            use(gl, pass.programs[i], geometry, run);
             draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
+        }
     }
     gl.CullFace(GL_BACK);
     gl.Disable(GL_POLYGON_OFFSET_FILL);

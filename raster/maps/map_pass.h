@@ -18,13 +18,13 @@ enum class MapMaking : std::uint8_t {
 struct MapPass {
     MapModel model;
     MapMaking making = MapMaking::pass_per_face;
-    Texture texture{};                 ///< of depths or steps; a cube map, or a plain one
-    Texture depth{};                   ///< with a ramp only: of the casters that are drawn
-    Texture ramp{};                    ///< with a ramp only
-    std::vector<Framebuffer> faces{};  ///< one for each
-    Framebuffer all{};                 ///< all faces as layers; with a geometry shader only
-    std::vector<Program> programs{};   ///< one per pass
-    std::vector<SurfaceRun> casters{}; ///< what is drawn
+    Texture texture{};                       ///< of depths or steps; a cube map, or a plain one
+    Texture depth{};                         ///< with a ramp only: of the casters that are drawn
+    Texture ramp{};                          ///< with a ramp only
+    std::vector<Framebuffer> faces{};        ///< one for each
+    Framebuffer all{};                       ///< all faces as layers; with a geometry shader only
+    std::vector<SurfacePrograms> programs{}; ///< one per pass
+    std::vector<SurfaceRun> casters{};       ///< what is drawn
 };
 
 /// OpenGL's name of the format.

@@ -107,7 +107,7 @@ struct Frames {
     Target target;
     Geometry geometry;
     MapPass map;
-    Program surface;
+    SurfacePrograms surface;
     Program shadow{}; ///< asks the map, where the stencil keeps the answer
     Program light;    ///< asks the map, or the stencil
     bool in_stencil = false;
@@ -124,7 +124,7 @@ struct Frames {
           in_stencil(recipe.in_stencil), visible{static_cast<float>(scene.camera.near),
                                                  static_cast<float>(scene.camera.far)},
           drawn(scene) {
-        surface = link_projection(gl, "surface.frag", clip_transform(scene, depth_model), geometry);
+        surface = link_surface(gl, clip_transform(scene, depth_model), geometry);
         const auto link_pass = [&](std::string_view shader) {
             return link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
                               Between::nothing, shader);

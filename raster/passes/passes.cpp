@@ -23,6 +23,13 @@ float rounded(double value) {
     return nearest;
 }
 
+/// The least float that is not below: what is not below the one is not below the other.
+float float_not_below(double value) {
+    const float nearest = rounded(value);
+    return double{nearest} < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+                                   : nearest;
+}
+
 glm::dmat4 clip_from_view(const Camera& camera, const DepthModel& model) {
     switch (model.projection) {
     case DepthModel::Projection::finite:
@@ -100,13 +107,48 @@ Triangles upload_triangles(const GlFunctions& gl,
 std::vector<SurfaceRun> surface_runs(const Scene& scene) {
     std::vector<SurfaceRun> runs;
     for (const Mesh& mesh : scene.meshes) {
-        const bool double_sided = scene.materials[mesh.material].double_sided;
-        if (runs.empty() || runs.back().double_sided != double_sided)
-            runs.push_back({mesh.first_triangle, 0, double_sided});
+        const Material& material = scene.materials[mesh.material];
+        if (runs.empty() || runs.back().double_sided != material.double_sided ||
+            runs.back().mask != material.mask)
+            runs.push_back({mesh.first_triangle, 0, material.double_sided, material.mask});
         runs.back().triangle_count += mesh.triangle_count;
     }
     return runs;
 }
+
+namespace {
+
+MaskTexture upload_mask(const GlFunctions& gl, const AlphaMask& mask) {
+    MaskTexture made{.alpha = make_texture(gl, GL_TEXTURE_2D),
+                     .wrap_s = static_cast<GLint>(mask.wrap_s),
+                     .wrap_t = static_cast<GLint>(mask.wrap_t),
+                     .nearest = mask.nearest,
+                     .least = float_not_below(mask.least)};
+    const GLuint name = made.alpha.name();
+    gl.TextureStorage2D(name, 1, GL_R32F, mask.alpha.width, mask.alpha.height);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    gl.TextureSubImage2D(name, 0, 0, 0, mask.alpha.width, mask.alpha.height, GL_RED, GL_FLOAT,
+                         mask.alpha.pixels.data());
+    gl.TextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST); // texels are fetched
+    gl.TextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return made;
+}
+
+/// Coordinates of all vertices, of which only the scene's have some.
+void upload_masks(const GlFunctions& gl, const Scene& scene, std::size_t vertices,
+                  Geometry& geometry) {
+    std::vector<glm::vec2> at = scene.mask_at;
+    at.resize(vertices);
+    geometry.mask_at = make_filled_buffer(gl, std::array{std::as_bytes(std::span(at))});
+    const GLuint name = geometry.vertices.name();
+    gl.VertexArrayVertexBuffer(name, 1, geometry.mask_at.name(), 0, sizeof(glm::vec2));
+    gl.VertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, 0);
+    gl.VertexArrayAttribBinding(name, 1, 1);
+    gl.EnableVertexArrayAttrib(name, 1);
+    for (const AlphaMask& mask : scene.masks) geometry.masks.push_back(upload_mask(gl, mask));
+}
+
+} // namespace
 
 Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::vec3> far_ends,
                 std::span<const glm::vec3> more) {
@@ -122,6 +164,8 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
     gl.VertexArrayAttribFormat(vertices, 0, 3, GL_FLOAT, GL_FALSE, 0);
     gl.VertexArrayAttribBinding(vertices, 0, 0);
     gl.EnableVertexArrayAttrib(vertices, 0);
+    if (has_masks(scene))
+        upload_masks(gl, scene, 2 * scene.positions.size() + more.size(), geometry);
     geometry.surface = upload_triangles(gl, std::array{std::span(scene.triangles)});
 
     const LitSides sides = lit_sides(scene);
@@ -157,6 +201,28 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
                         geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
                                                   : std::numeric_limits<GLint>::max());
     return program;
+}
+
+SurfacePrograms link_surface(const GlFunctions& gl, const ClipTransform& transform,
+                             const Geometry& geometry, Between between) {
+    SurfacePrograms programs{link_projection(gl, "surface.frag", transform, geometry, between)};
+    if (!geometry.masks.empty())
+        programs.masked = link_projection(gl, "surface_masked.frag", transform, geometry, between);
+    return programs;
+}
+
+void use(const GlFunctions& gl, const SurfacePrograms& programs, const Geometry& geometry,
+         const SurfaceRun& run) {
+    const Program& program = programs.of(run);
+    gl.UseProgram(program.name());
+    if (run.mask == no_mask) return;
+    const MaskTexture& mask = geometry.masks[run.mask];
+    // As mask.glsl lays them out.
+    gl.BindTextureUnit(6, mask.alpha.name());
+    gl.ProgramUniform1f(program.name(), 31, mask.least);
+    gl.ProgramUniform1i(program.name(), 32, mask.wrap_s);
+    gl.ProgramUniform1i(program.name(), 33, mask.wrap_t);
+    gl.ProgramUniform1i(program.name(), 34, mask.nearest ? 1 : 0);
 }
 
 Program link_light(const GlFunctions& gl, const Scene& scene, const ClipTransform& transform,
@@ -211,7 +277,7 @@ void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Tr
     }
 }
 
-void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil) {
     const bool reversed = depth_model.reversed();
@@ -229,12 +295,12 @@ void draw_surface(const GlFunctions& gl, const Program& surface, const Target& t
     gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);
 
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl.UseProgram(surface.name());
-    // Locations as surface.frag lays them out.
-    gl.ProgramUniform2f(surface.name(), 6, visible.near, visible.far);
     for (const SurfaceRun& run : geometry.runs) {
+        use(gl, surface, geometry, run);
         set_enabled(gl, GL_CULL_FACE, !run.double_sided);
-        gl.ProgramUniform1ui(surface.name(), 7, run.first_triangle);
+        // Locations as surface.glsl lays them out.
+        gl.ProgramUniform2f(surface.of(run).name(), 6, visible.near, visible.far);
+        gl.ProgramUniform1ui(surface.of(run).name(), 7, run.first_triangle);
         draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
     }
     check(gl, "the surface pass");

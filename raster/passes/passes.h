@@ -51,14 +51,24 @@ Buffer make_filled_buffer(const GlFunctions& gl, std::span<const std::span<const
 Triangles upload_triangles(const GlFunctions& gl,
                            std::span<const std::span<const glm::uvec3>> parts);
 
-/// A run of triangles that are culled alike.
+/// A run of triangles that are culled alike and have one mask, or none.
 struct SurfaceRun {
     std::uint32_t first_triangle = 0;
     std::uint32_t triangle_count = 0;
     bool double_sided = false;
+    std::uint32_t mask = no_mask; ///< index into Geometry::masks
 };
 /// Covers all triangles in order with the fewest runs.
 std::vector<SurfaceRun> surface_runs(const Scene& scene);
+
+/// An alpha mask on the GPU.
+struct MaskTexture {
+    Texture alpha{};
+    GLint wrap_s = 0; ///< values of Wrap
+    GLint wrap_t = 0;
+    bool nearest = false;
+    float least = 0;
+};
 
 /// A scene on the GPU.
 struct Geometry {
@@ -68,6 +78,8 @@ struct Geometry {
     VertexArray vertices{};
     Triangles surface{}; ///< the scene's triangles
     std::vector<SurfaceRun> runs{};
+    Buffer mask_at{}; ///< Scene::mask_at, where it has masks
+    std::vector<MaskTexture> masks{};
     Triangles lit_sides{};       ///< from lit_sides.h
     std::uint32_t receivers = 0; ///< how many of them, the first, receive shadows
     Buffer lit_side_indices{};   ///< their indices into Scene::triangles
@@ -93,6 +105,23 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
                         const ClipTransform& transform, const Geometry& geometry,
                         Between between = Between::nothing);
 
+/// Two programs of a pass that draws surfaces: of those that are whole, and, where the scene has
+/// masks, of those that have one.
+struct SurfacePrograms {
+    Program whole{};
+    Program masked{};
+
+    const Program& of(const SurfaceRun& run) const { return run.mask == no_mask ? whole : masked; }
+};
+
+/// Those of draw_surface.
+SurfacePrograms link_surface(const GlFunctions& gl, const ClipTransform& transform,
+                             const Geometry& geometry, Between between = Between::nothing);
+
+/// Binds a run's mask, if it has one, and its program.
+void use(const GlFunctions& gl, const SurfacePrograms& programs, const Geometry& geometry,
+         const SurfaceRun& run);
+
 void draw_triangles(const GlFunctions& gl, const Geometry& geometry, const Triangles& triangles,
                     std::uint32_t first, std::uint32_t count);
 
@@ -116,7 +145,7 @@ struct VisibleDepths {
 
 /// Clears the target, the stencil to `stencil`, and draws the nearest surfaces:
 /// Visibility::shadowed, depth and triangle.
-void draw_surface(const GlFunctions& gl, const Program& surface, const Target& target,
+void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 

@@ -146,7 +146,7 @@ Technique auto_technique() {
             .source = "McGuire, Hughes, Egan, Kilgard & Everitt 2003",
             .needs = "closed volumes, glClipControl, a D32F depth buffer, and a plan of the scene",
             .cost = 0.81,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe,
             .remark = remark};

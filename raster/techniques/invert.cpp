@@ -22,7 +22,7 @@ Technique invert_technique() {
             .needs = "volumes that do not overlap",
             .cost = 0.91,
             .fails_at = {Cause::parity, Cause::near_plane, Cause::eye_inside, Cause::precision,
-                         Cause::open_mesh, Cause::light_inside},
+                         Cause::open_mesh, Cause::alpha, Cause::light_inside},
             .by_nature = {Cause::parity},
             .depth_model = finite_depths,
             .recipe = recipe};

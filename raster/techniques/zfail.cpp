@@ -22,7 +22,7 @@ Technique zfail_technique() {
             .needs = "closed volumes, and a far plane that cuts none of them",
             .cost = 1.08,
             .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
-                         Cause::light_inside},
+                         Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
             .recipe = recipe};
 }

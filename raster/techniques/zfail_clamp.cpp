@@ -21,7 +21,7 @@ Technique zfail_clamp_technique() {
             .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
             .needs = "closed volumes, and GL_DEPTH_CLAMP",
             .cost = 1,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = finite_depths,
             .recipe = recipe};
 }

@@ -21,7 +21,7 @@ Technique zfail_degenerate_quads_technique() {
             .source = "VGP353 week 5, degenerate quads",
             .needs = "both triangles of each edge, known beforehand",
             .cost = 1.42,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe};
 }

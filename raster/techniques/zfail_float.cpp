@@ -24,7 +24,7 @@ Technique zfail_float_technique() {
                 "Roettger, Irion & Ertl 2002, \"Shadow Volumes Revisited\": counting by blending",
             .needs = "blending into an R32F colour buffer",
             .cost = 1.09,
-            .fails_at = {Cause::precision, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe,
             .counts_in_sum = true};

@@ -20,7 +20,7 @@ Technique zfail_geometry_shader_technique() {
             .source = "omni-directional shadows with geometry shaders",
             .needs = "geometry shaders, and triangles with adjacency",
             .cost = 1.14,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe};
 }

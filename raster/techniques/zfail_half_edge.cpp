@@ -24,7 +24,7 @@ Technique zfail_half_edge_technique() {
             .source = "VGP353 week 5, half-edge meshes",
             .needs = "a half-edge mesh; holes are filled",
             .cost = 0.99,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe};
 }

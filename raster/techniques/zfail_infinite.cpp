@@ -19,7 +19,7 @@ Technique zfail_infinite_technique() {
             .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
             .needs = "closed volumes",
             .cost = 0.99,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = infinite_depths,
             .recipe = recipe};
 }

@@ -28,7 +28,7 @@ Technique zfail_per_triangle_technique() {
             .source = "techniques without adjacency; VGP353 week 5",
             .needs = "nothing of the mesh",
             .cost = 8.1,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe};
 }

@@ -21,7 +21,7 @@ Technique zfail_reversed_technique() {
             .source = "Everitt & Kilgard 2002, with the depth range reversed",
             .needs = "closed volumes, glClipControl and a D32F depth buffer",
             .cost = 1,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
             .recipe = recipe};
 }

@@ -21,7 +21,7 @@ Technique zfail_saturate_technique() {
             .source = "Kilgard 2001, before EXT_stencil_wrap",
             .needs = "faces in an order that never counts below zero",
             .cost = 0.85,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .by_nature = {Cause::counter},
             .depth_model = reversed_depths,
             .recipe = recipe};

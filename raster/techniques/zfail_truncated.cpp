@@ -23,7 +23,8 @@ Technique zfail_truncated_technique() {
             .source = "Kilgard 2001, truncated and capped volumes",
             .needs = "shadows that end within the distance",
             .cost = 0.95,
-            .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh,
+                         Cause::alpha},
             .depth_model = reversed_depths,
             .settings = {"extrusion"},
             .recipe = recipe};

@@ -34,7 +34,7 @@ Technique zp_plus_technique() {
             .needs = "a light that does not lie in the near plane",
             .cost = 0.99,
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
-                         Cause::light_inside},
+                         Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
             .recipe = recipe,
             .remark = remark};

@@ -21,7 +21,7 @@ Technique zpass_technique() {
             .needs = "a near plane outside every shadow volume",
             .cost = 1.05,
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
-                         Cause::open_mesh, Cause::light_inside},
+                         Cause::open_mesh, Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
             .recipe = recipe};
 }

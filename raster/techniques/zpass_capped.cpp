@@ -26,7 +26,7 @@ Technique zpass_capped_technique() {
             .source = "Kilgard 2001, \"A New Robust Technique\"",
             .needs = "a finite projection, and a CPU that cuts volumes",
             .cost = 1.14,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = finite_depths,
             .recipe = recipe};
 }

@@ -22,7 +22,7 @@ Technique zpass_eye_count_technique() {
             .needs = "no volume between the eye and a part of the near plane",
             .cost = 1,
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
-                         Cause::light_inside},
+                         Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
             .recipe = recipe};
 }

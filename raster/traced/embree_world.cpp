@@ -1,5 +1,6 @@
 #include "raster/traced/embree_world.h"
 
+#include "raster/traced/float_mask.h"
 #include "scenes/error.h"
 
 #include <embree3/rtcore.h>
@@ -27,14 +28,26 @@ using World = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 struct Tables {
     std::vector<std::uint8_t> seen;
     std::vector<std::uint8_t> casts;
+    std::vector<std::uint32_t> masks; ///< masks_of_triangles
 };
 
 /// A context that a query's filter finds again.
 struct Query : RTCIntersectContext {
+    const Scene* scene = nullptr;
+    const Tables* tables = nullptr;
     const std::vector<std::uint8_t>* meets = nullptr; ///< of Tables
     FloatRays* rays = nullptr;
     bool notes_hits = false; ///< shadow rays report no triangle but through the filter
 };
+
+/// Whether a hit lies in a hole of the triangle's mask.
+bool is_left_out(const Query& query, const RTCFilterFunctionNArguments* args, unsigned int i,
+                 unsigned int triangle) {
+    const std::vector<std::uint32_t>& masks = query.tables->masks;
+    if (masks.empty() || masks[triangle] == no_mask) return false;
+    return !stands_at(*query.scene, masks[triangle], triangle,
+                      {RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)});
+}
 
 /// Rejects what a ray passes through; of those accepted, notes the first.
 void filter(const RTCFilterFunctionNArguments* args) {
@@ -43,7 +56,8 @@ void filter(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] == 0) continue;
         const unsigned int triangle = RTCHitN_primID(args->hit, args->N, i);
         const std::size_t lane = RTCRayN_id(args->ray, args->N, i);
-        if ((*query.meets)[triangle] == 0 || query.rays->own[lane] == triangle)
+        if ((*query.meets)[triangle] == 0 || query.rays->own[lane] == triangle ||
+            is_left_out(query, args, i, triangle))
             args->valid[i] = 0;
         else if (query.notes_hits && query.rays->hit[lane] == no_triangle)
             query.rays->hit[lane] = triangle;
@@ -51,7 +65,8 @@ void filter(const RTCFilterFunctionNArguments* args) {
 }
 
 Tables tables_of(const Scene& scene) {
-    Tables tables{double_sided_triangles(scene), casting_triangles(scene)};
+    Tables tables{double_sided_triangles(scene), casting_triangles(scene),
+                  masks_of_triangles(scene)};
     const glm::dvec4 eye(scene.camera.eye, 1);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         const double of_eye = side(scene, i, eye);
@@ -125,6 +140,7 @@ void copy_rays(const FloatRays& rays, RTCRay16& to, std::array<int, traced_packe
 } // namespace
 
 struct EmbreeWorld::State {
+    const Scene& scene;
     Tables tables;
     Device device;
     World world;
@@ -132,6 +148,8 @@ struct EmbreeWorld::State {
     Query query(const std::vector<std::uint8_t>& meets, FloatRays& rays, bool notes_hits) const {
         Query query;
         rtcInitIntersectContext(&query);
+        query.scene = &scene;
+        query.tables = &tables;
         query.meets = &meets;
         query.rays = &rays;
         query.notes_hits = notes_hits;
@@ -147,7 +165,7 @@ struct EmbreeWorld::State {
 };
 
 EmbreeWorld::EmbreeWorld(const Scene& scene)
-    : state_(new State{tables_of(scene), Device(rtcNewDevice(settings_of_device().c_str())),
+    : state_(new State{scene, tables_of(scene), Device(rtcNewDevice(settings_of_device().c_str())),
                        nullptr}) {
     if (!state_->device)
         throw Error("Embree", "cannot be started", "leave the traced techniques out");

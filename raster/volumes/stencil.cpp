@@ -134,7 +134,7 @@ struct Frames {
     Target target;
     Geometry geometry;
     ClipTransform transform;
-    Program surface;
+    SurfacePrograms surface;
     Program light;
     std::optional<VolumePass> occluders;
     std::optional<LightingPass> lighting;
@@ -150,7 +150,7 @@ struct Frames {
                               : std::vector<glm::vec3>{},
                           split_points(drawn, with, parts))),
           transform(clip_transform(drawn, with.depth_model)),
-          surface(link_projection(gl, "surface.frag", transform, geometry, between(with))),
+          surface(link_surface(gl, transform, geometry, between(with))),
           light(link_light(gl, drawn, transform, geometry, between(with))) {
         add_sum(gl, target);
         touches_light =

@@ -11,14 +11,14 @@ namespace {
 /// Sets the counts of one picture at `point` of each pixel's ray.
 template <class PointOf>
 void count_tile(Prober& prober, const Tile& tile, Image<std::int32_t>& counts,
-                const PointOf& point_of) {
+                const PointOf& point_of, Prober::Masks masks = Prober::Masks::ignored) {
     Lanes<Prober::Point> points{};
     std::uint32_t lanes = 0;
     for (std::size_t lane = 0; lane < packet_size; ++lane)
         if ((tile.lanes >> lane & 1U) != 0 && point_of(tile.x(lane), tile.y(lane), points[lane]))
             lanes |= 1U << lane;
     Lanes<std::int32_t> found{};
-    prober.count(tile.directions, lanes, points, found);
+    prober.count(tile.directions, lanes, points, found, masks);
     for (std::size_t lane = 0; lane < packet_size; ++lane)
         if ((lanes >> lane & 1U) != 0) counts.at(tile.x(lane), tile.y(lane)) = found[lane];
 }
@@ -62,12 +62,21 @@ ShadowDepths count_depths(const Tracer& tracer, double far, const SurfaceOf& sur
 
 } // namespace
 
-ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far) {
-    return count_depths(tracer, far, [&](int x, int y, Prober::Point& point) {
+namespace {
+
+/// The visible surface of each pixel.
+auto surface_of(const GroundTruth& truth) {
+    return [&truth](int x, int y, Prober::Point& point) {
         point.kind = RayPoint::Kind::surface;
         point.skip = truth.triangle.at(x, y);
         return point.skip != no_triangle;
-    });
+    };
+}
+
+} // namespace
+
+ShadowDepths count_shadow_depths(const Tracer& tracer, const GroundTruth& truth, double far) {
+    return count_depths(tracer, far, surface_of(truth));
 }
 
 ShadowDepths count_shadow_depths_at(const Tracer& tracer, const Image<double>& surface,
@@ -76,6 +85,33 @@ ShadowDepths count_shadow_depths_at(const Tracer& tracer, const Image<double>& s
         point.depth = surface.at(x, y);
         return std::isfinite(point.depth);
     });
+}
+
+Image<std::int32_t> count_let_through(const Tracer& tracer, const GroundTruth& truth) {
+    const Camera& camera = tracer.scene().camera;
+    Image<std::int32_t> all(camera.width, camera.height);
+    Image<std::int32_t> standing(camera.width, camera.height);
+    for_tiles(tracer.state(), [&](Prober& prober, const Tile& tile) {
+        count_tile(prober, tile, all, surface_of(truth));
+        count_tile(prober, tile, standing, surface_of(truth), Prober::Masks::kept);
+    });
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) all.pixels[i] -= standing.pixels[i];
+    return all;
+}
+
+std::int32_t count_let_through(const Tracer& tracer, const glm::dvec3& direction,
+                               std::uint32_t seen) {
+    if (seen == no_triangle) return 0;
+    Prober prober(tracer.state());
+    Lanes<Prober::Point> points{};
+    points[0] = {.kind = RayPoint::Kind::surface, .skip = seen};
+    Vectors directions;
+    directions.set(0, direction);
+    Lanes<std::int32_t> all{};
+    Lanes<std::int32_t> standing{};
+    prober.count(directions, 1, points, all);
+    prober.count(directions, 1, points, standing, Prober::Masks::kept);
+    return all[0] - standing[0];
 }
 
 } // namespace shadowproof

@@ -57,6 +57,8 @@ void lift(Limitation limitation, CountingModel& model) {
     case Limitation::light_inside:
         counting.flips.around_light = true;
         break;
+    case Limitation::alpha: // volumes are of triangles: no way of counting them lifts it
+        break;
     }
 }
 
@@ -81,9 +83,11 @@ Cause cause_of(Limitation limitation) {
     case Limitation::open_mesh:
         return Cause::open_mesh;
     case Limitation::light_inside:
+        return Cause::light_inside;
+    case Limitation::alpha:
         break;
     }
-    return Cause::light_inside;
+    return Cause::alpha;
 }
 
 std::vector<Limitation> listed(Limitations limitations) {

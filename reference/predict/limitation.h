@@ -12,7 +12,8 @@
 
 namespace shadowproof {
 
-/// In the order in which causes are listed.
+/// In the order in which causes are listed, but that alpha comes before what changes how many of a
+/// closed caster's triangles are counted: a mask's hole is seldom the parity of something else.
 enum class Limitation : std::uint8_t {
     near_clip,    ///< faces in front of the near plane are lost
     far_clip,     ///< faces past the far plane are lost, and with them dark caps at infinity
@@ -20,12 +21,13 @@ enum class Limitation : std::uint8_t {
     extrusion,    ///< volumes end at a finite distance
     caps,         ///< light caps or dark caps are not drawn
     counter,      ///< the counter has limited bits, or stops at its limits
+    alpha,        ///< what alpha masks leave out of casters casts a shadow
     parity,       ///< only the parity of the count is kept
     open_mesh,    ///< casters' triangles that face away from the light cast no shadow by
                   ///< themselves, or triangles that fill holes cast one
     light_inside, ///< closed shells that contain the light cast no shadow
 };
-inline constexpr int limitation_count = 9;
+inline constexpr int limitation_count = 10;
 
 /// The cause of a difference that a limitation explains.
 Cause cause_of(Limitation limitation);
@@ -42,6 +44,7 @@ public:
     constexpr int size() const { return std::popcount(bits_); }
     constexpr Limitations operator|(Limitations other) const { return of(bits_ | other.bits_); }
     constexpr Limitations operator&(Limitations other) const { return of(bits_ & other.bits_); }
+    constexpr Limitations operator-(Limitations other) const { return of(bits_ & ~other.bits_); }
     friend constexpr auto operator<=>(Limitations, Limitations) = default;
 
     /// One bit per limitation, the lowest for the first: how pictures store them.
@@ -75,7 +78,7 @@ struct CountingModel {
     DepthModel depth_model;
 };
 
-/// The limitations that a technique has, whatever the scene.
+/// The limitations that a technique has, whatever the scene: all but alpha.
 Limitations limitations_of(const CountingModel& model);
 
 /// The technique without some of its limitations. Without near_clip the near plane is at the eye,

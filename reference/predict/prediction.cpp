@@ -245,6 +245,12 @@ const CountingModel& Prediction::without(Limitations limitations) const {
         .first->second;
 }
 
+const CountedVolumes& Prediction::volumes_without(Limitations limitations) const {
+    if ((limitations & of_volumes).empty()) return *own_;
+    const std::lock_guard lock(cache_->mutex);
+    return lifted(limitations);
+}
+
 const CountedVolumes& Prediction::lifted(Limitations limitations) const {
     std::shared_ptr<const CountedVolumes>& found = cache_->volumes[limitations & of_volumes];
     if (!found)
@@ -252,7 +258,36 @@ const CountedVolumes& Prediction::lifted(Limitations limitations) const {
     return *found;
 }
 
+Limitations Prediction::limitations() const {
+    const Limitations found = limitations_of(model_);
+    return has_masks(store_->tracer().scene()) ? found | Limitation::alpha : found;
+}
+
+namespace {
+
+/// A counter that stops at 0 had nothing to lose.
+std::int64_t less(std::int64_t count, std::int64_t let_through, const Counting& counting) {
+    const bool stops = counting.operation == Counting::Operation::saturate;
+    return stops ? std::max<std::int64_t>(count - let_through, 0) : count - let_through;
+}
+
+} // namespace
+
+std::int64_t Prediction::count_with_masks(Limitations limitations, int x, int y) const {
+    const Limitations others = limitations - Limitation::alpha;
+    const std::int64_t count = count_without(others, x, y);
+    return less(count, volumes_without(others).let_through->at(x, y), without(others).counting);
+}
+
+std::int64_t Prediction::count_with_masks(Limitations limitations, const SurfaceRay& ray) const {
+    const Limitations others = limitations - Limitation::alpha;
+    const std::int64_t count = count_without(others, ray);
+    return less(count, volumes_without(others).volumes.let_through(ray.direction, ray.seen),
+                without(others).counting);
+}
+
 std::int64_t Prediction::count_without(Limitations limitations, int x, int y) const {
+    if (limitations.contains(Limitation::alpha)) return count_with_masks(limitations, x, y);
     if (limitations.empty()) return counts_.at(x, y);
     const CountingModel& model = without(limitations);
     const bool own_volumes = (limitations & of_volumes).empty();
@@ -268,16 +303,13 @@ std::int64_t Prediction::count_without(Limitations limitations, int x, int y) co
 }
 
 std::int64_t Prediction::count_without(Limitations limitations, const SurfaceRay& ray) const {
+    if (limitations.contains(Limitation::alpha)) return count_with_masks(limitations, ray);
     const CountingModel& model = without(limitations);
     const Tracer& tracer = store_->tracer();
     const double far = store_->depths().far;
-    const CountedVolumes* made = own_.get();
-    if (!(limitations & of_volumes).empty()) {
-        const std::lock_guard lock(cache_->mutex);
-        made = &lifted(limitations);
-    }
-    const std::int32_t at_eye = made->depths->at_eye;
-    RegionLedger ledger = made->volumes.ledger(ray.corners);
+    const CountedVolumes& made = volumes_without(limitations);
+    const std::int32_t at_eye = made.depths->at_eye;
+    RegionLedger ledger = made.volumes.ledger(ray.corners);
     std::vector<Crossing> crossings;
     ledger.crossings(ray.direction, crossings);
     std::int32_t at_near = at_eye;
@@ -287,6 +319,7 @@ std::int64_t Prediction::count_without(Limitations limitations, const SurfaceRay
         // A visible triangle's cap lies in its surface, which hides what is not in front of it.
         if (!before_near && crossing.part == Crossing::Part::light_cap &&
             crossing.depth < ray.depth && crossing.triangle < tracer.scene().triangles.size() &&
+            !has_mask(tracer.scene(), crossing.triangle) &&
             sides_of(tracer, crossing.triangle).visible && crossing.depth < far)
             crossing.depth = ray.depth;
     }

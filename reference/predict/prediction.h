@@ -95,11 +95,12 @@ public:
     const Image<std::int32_t>& counts() const { return counts_; }
 
     /// The technique's limitations.
-    Limitations limitations() const { return limitations_of(model_); }
+    Limitations limitations() const;
     /// How the technique would count without some of them.
     const CountingModel& without(Limitations limitations) const;
     /// What its counter would then be at a pixel's centre, before a wrapping counter has wrapped.
-    /// Volumes other than the technique's own are made on first use. May be called by any thread.
+    /// Volumes other than the technique's own are made on first use. Without Limitation::alpha, the
+    /// volumes that masks let the light through are not counted. May be called by any thread.
     std::int64_t count_without(Limitations limitations, int x, int y) const;
     /// The same where a ray meets a surface, by crossings computed in double. Light caps in
     /// surfaces in front of it count as behind it, since what is seen through those surfaces is
@@ -124,6 +125,9 @@ private:
     Image<std::int32_t> count_all(const CountedVolumes& counted, const CountingModel& model) const;
     /// The volumes without these limitations. The cache must be locked.
     const CountedVolumes& lifted(Limitations limitations) const;
+    const CountedVolumes& volumes_without(Limitations limitations) const;
+    std::int64_t count_with_masks(Limitations limitations, int x, int y) const;
+    std::int64_t count_with_masks(Limitations limitations, const SurfaceRay& ray) const;
 };
 
 } // namespace shadowproof

@@ -65,8 +65,11 @@ std::shared_ptr<const CountedVolumes> VolumeStore::counted(const Counting& count
                     ? given
                     : std::make_shared<const ShadowDepths>(volumes.ideal_depths(*truth_, *depths_));
     const bool are_others = depths != given || ideal != given;
-    Kept::Entry made{std::move(key), std::make_shared<const CountedVolumes>(CountedVolumes{
-                                         std::move(volumes), std::move(depths), std::move(ideal)})};
+    auto let_through = std::make_shared<const Image<std::int32_t>>(
+        has_masks(tracer_->scene()) ? volumes.let_through(*truth_) : Image<std::int32_t>());
+    Kept::Entry made{std::move(key), std::make_shared<const CountedVolumes>(
+                                         CountedVolumes{std::move(volumes), std::move(depths),
+                                                        std::move(ideal), std::move(let_through)})};
     if (are_others) return kept_->of_others.emplace(std::move(made)).second;
     return kept_->of_the_casters.emplace_back(std::move(made)).second;
 }

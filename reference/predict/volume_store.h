@@ -14,6 +14,8 @@ struct CountedVolumes {
     std::shared_ptr<const ShadowDepths> depths;
     /// In the volumes that give the right shadows (Volumes::are_ideal).
     std::shared_ptr<const ShadowDepths> ideal_depths;
+    /// What masks let through at each pixel (count_let_through); empty where the scene has none.
+    std::shared_ptr<const Image<std::int32_t>> let_through;
 };
 
 class VolumeStore {

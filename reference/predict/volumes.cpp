@@ -41,10 +41,13 @@ Scene with_flipped(const Scene& scene, const std::vector<std::uint8_t>& flipped)
 /// Appends them as a mesh that only casts.
 void add_lids(Scene& casters, const std::vector<glm::uvec3>& lids) {
     if (lids.empty()) return;
+    const auto whole = static_cast<std::uint32_t>(casters.materials.size());
+    casters.materials.emplace_back().name = "filled holes";
     casters.meshes.push_back(
         {.name = "filled holes",
          .first_triangle = static_cast<std::uint32_t>(casters.triangles.size()),
-         .triangle_count = static_cast<std::uint32_t>(lids.size())});
+         .triangle_count = static_cast<std::uint32_t>(lids.size()),
+         .material = whole});
     casters.triangles.insert(casters.triangles.end(), lids.begin(), lids.end());
 }
 

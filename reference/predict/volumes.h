@@ -37,6 +37,18 @@ public:
     /// end is no longer inside: there the far end, treated as a caster, shadows the point.
     ShadowDepths shadow_depths(const GroundTruth& truth, const ShadowDepths& depths) const;
 
+    /// What masks let through of the casters' own volumes: count_let_through.
+    Image<std::int32_t> let_through(const GroundTruth& truth) const {
+        return count_let_through(*tracer_, truth);
+    }
+    std::int32_t let_through(const glm::dvec3& direction, std::uint32_t seen) const {
+        return count_let_through(*tracer_, direction, seen);
+    }
+    /// The same of the volumes that give the right shadows.
+    std::int32_t ideal_let_through(const glm::dvec3& direction, std::uint32_t seen) const {
+        return count_let_through(*ideal_tracer_, direction, seen);
+    }
+
     /// For the rays between four corners, as RegionLedger takes them. Refers to these volumes.
     RegionLedger ledger(const std::array<glm::dvec3, 4>& corners) const;
     /// Where the casters' positions lie once extruded; null where that is at infinity.

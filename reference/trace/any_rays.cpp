@@ -192,6 +192,12 @@ bool meets_plane(const AnyRay& given, const Corners& t) {
            (std::isinf(given.far) || predicates.depth_against(ray, t, given.far).sign <= 0);
 }
 
+bool stands_on_ray(const Tracer& tracer, const AnyRay& given, std::uint32_t triangle) {
+    const Tracer::State& state = tracer.state();
+    return !state.has_mask(triangle) ||
+           mask_on_ray(Filters::on, exact_ray(given, {}), state.masked(triangle)).sign >= 0;
+}
+
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u) {
     return Predicates{}.depth_order(exact_ray(ray, {}), t, u).sign;
 }
@@ -209,7 +215,9 @@ bool stands_between(const Tracer& tracer, const AnyRay& given, std::uint32_t see
     const Decision beyond = predicates.side_of_point(ray, q, t);
     return beyond.sign * orientation > 0 && holds(predicates.shadow_edge(ray, q, t.a, t.b)) &&
            holds(predicates.shadow_edge(ray, q, t.b, t.c)) &&
-           holds(predicates.shadow_edge(ray, q, t.c, t.a));
+           holds(predicates.shadow_edge(ray, q, t.c, t.a)) &&
+           (!state.has_mask(triangle) ||
+            mask_before_light(Filters::on, ray, q, state.masked(triangle)).sign >= 0);
 }
 
 bool within_cone(const Tracer& tracer, const AnyRay& ray, std::uint32_t seen) {

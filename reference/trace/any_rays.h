@@ -63,6 +63,10 @@ bool meets(const AnyRay& ray, const Corners& t);
 /// Whether it meets the triangle's plane within its limits; the plane may not hold it.
 bool meets_plane(const AnyRay& ray, const Corners& t);
 
+/// Whether the triangle's mask, if it has one, leaves it standing where the ray meets its plane,
+/// which may not hold the ray; exactly.
+bool stands_on_ray(const Tracer& tracer, const AnyRay& ray, std::uint32_t triangle);
+
 /// Sign of t(T) - t(U), the places at which the ray meets their planes; neither may hold it.
 int order_along(const AnyRay& ray, const Corners& t, const Corners& u);
 

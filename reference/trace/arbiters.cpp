@@ -114,10 +114,24 @@ std::optional<NearestArbiter::Candidate> NearestArbiter::met(int lane, std::uint
             vertex_[static_cast<std::size_t>(lane)] = corners[(k + 1) % 3];
             at_vertex_ |= 1U << lane;
         }
-    if (!within_planes(ray, t, signs)) return std::nullopt;
+    if (!within_planes(ray, t, signs) || !stands(ray, lane, triangle, signs)) return std::nullopt;
     candidate.exactness = signs.exactness();
     candidate.exact_decisions = signs.exact_decisions();
     return candidate;
+}
+
+/// Whether its mask, if it has one, leaves the triangle standing where the ray meets it.
+bool NearestArbiter::stands(const EyeRay& ray, int lane, std::uint32_t triangle,
+                            Signs& signs) const {
+    const Tracer::State& state = *rays_.state;
+    if (!state.has_mask(triangle)) return true;
+    const MaskReading reading = rays_.leeway == nullptr
+                                    ? MaskReading::exact
+                                    : rays_.leeway->readings[static_cast<std::size_t>(lane)];
+    if (reading == MaskReading::exact)
+        return signs.at_least_zero(mask_on_ray(rays_.filters, ray, state.masked(triangle)), 1);
+    return may_stand_on_ray(ray, state.masked(triangle),
+                            rays_.leeway->errors->at(triangle, ray.direction), reading);
 }
 
 void NearestArbiter::settle(RayPacket& packet) {
@@ -214,10 +228,16 @@ Occlusion occlusion_by(const PacketRays& rays, int lane, std::uint32_t seen,
     Signs signs;
     Occlusion found;
     const Decision beyond = predicates.side_of_point(ray, q, t);
+    const auto stands = [&] {
+        return !rays.state->has_mask(triangle) ||
+               signs.at_least_zero(
+                   mask_before_light(rays.filters, ray, q, rays.state->masked(triangle)), 1);
+    };
     found.touched = signs.at_least_zero(beyond, orientation) &&
                     signs.at_least_zero(predicates.shadow_edge(ray, q, t.a, t.b), orientation) &&
                     signs.at_least_zero(predicates.shadow_edge(ray, q, t.b, t.c), orientation) &&
-                    signs.at_least_zero(predicates.shadow_edge(ray, q, t.c, t.a), orientation);
+                    signs.at_least_zero(predicates.shadow_edge(ray, q, t.c, t.a), orientation) &&
+                    stands();
     found.blocks = found.touched && beyond.sign != 0;
     found.exactness = signs.exactness();
     found.exact_decisions = signs.exact_decisions();
@@ -290,7 +310,10 @@ void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, f
         signs.above_zero(behind(ray, q, t), orientation) &&
         signs.above_zero(predicates.shadow_edge_untied(ray, q, t.a, t.b), orientation) &&
         signs.above_zero(predicates.shadow_edge_untied(ray, q, t.b, t.c), orientation) &&
-        signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation);
+        signs.above_zero(predicates.shadow_edge_untied(ray, q, t.c, t.a), orientation) &&
+        (rays_.state->has_mask(triangle) && keeps_masks_
+             ? mask_before_light(rays_.filters, ray, q, rays_.state->masked(triangle)).sign >= 0
+             : true);
     if (between) packet.crossed[l] += records_.copies(triangle);
 }
 

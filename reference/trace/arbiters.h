@@ -24,8 +24,10 @@ struct PacketRays {
     const Tracer::State* state = nullptr;
     const Vectors* directions = nullptr;
     Predicates predicates;
-    std::uint64_t exact_decisions = 0; ///< of triangles that are met
-    std::uint64_t undecided = 0;       ///< how often floats left a triangle to an arbiter
+    Filters filters = Filters::on;
+    const PacketMasks* leeway = nullptr; ///< null: masks are read exactly
+    std::uint64_t exact_decisions = 0;   ///< of triangles that are met
+    std::uint64_t undecided = 0;         ///< how often floats left a triangle to an arbiter
 
     EyeRay ray(int lane) const {
         return {state->eye, (*directions)[static_cast<std::size_t>(lane)], state->light};
@@ -87,6 +89,7 @@ private:
     bool meet_there(const Candidate& candidate, std::uint32_t other) const;
 
     bool within_planes(const EyeRay& ray, const Corners& t, Signs& signs) const;
+    bool stands(const EyeRay& ray, int lane, std::uint32_t triangle, Signs& signs) const;
 };
 
 /// Decides whether a triangle lies between a visible point and the light: last, as floats may find
@@ -132,8 +135,10 @@ private:
 /// references.
 class CountArbiter final : public Arbiter {
 public:
-    CountArbiter(PacketRays& rays, const Lanes<Prober::Point>& points, const RecordCache& records)
-        : rays_(rays), points_(points), records_(records) {}
+    CountArbiter(PacketRays& rays, const Lanes<Prober::Point>& points, const RecordCache& records,
+                 Prober::Masks masks)
+        : rays_(rays), points_(points), records_(records),
+          keeps_masks_(masks == Prober::Masks::kept) {}
 
     void decide(RayPacket& packet, int lane, std::uint32_t triangle, float hi) override;
 
@@ -141,6 +146,7 @@ private:
     PacketRays& rays_;
     const Lanes<Prober::Point>& points_;
     const RecordCache& records_;
+    bool keeps_masks_;
 
     /// Whether a point is behind a cap. A surface in the cap's plane is not. The eye is always on
     /// one side or the other: a ray from there has left the volume it began in, or has not.

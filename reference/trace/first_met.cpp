@@ -3,6 +3,7 @@
 #include "reference/parallel.h"
 #include "reference/trace/faces.h"
 #include "reference/trace/lanes.h"
+#include "reference/trace/state.h"
 #include "scenes/roundoff.h"
 
 #include <algorithm>
@@ -37,8 +38,9 @@ std::pair<double, double> reach_along(const AnyRay& ray, const Corners& t) {
 /// Keeps the nearest triangle of each ray.
 class Nearest final : public NearbyTriangles {
 public:
-    Nearest(const Tracer& tracer, const std::function<bool(std::uint32_t)>& counts)
-        : tracer_(tracer), counts_(counts) {}
+    Nearest(const Tracer& tracer, const std::function<bool(std::uint32_t)>& counts,
+            const std::function<bool(const AnyRay&, std::uint32_t)>& stands)
+        : tracer_(tracer), counts_(counts), stands_(stands) {}
 
     void visit(AnyRays& rays, std::uint32_t triangle, std::uint32_t lanes) override {
         if (!counts_(triangle)) return;
@@ -54,6 +56,7 @@ public:
             const bool is_within = least > ray.near && most <= ray.far;
             const bool is_through = (sides.through >> lane & 1U) != 0;
             if (is_through ? !is_within && !meets_plane(ray, t) : !meets(ray, t)) continue;
+            if (!stands(ray, triangle)) continue;
             MetTriangle& nearest = found[static_cast<std::size_t>(lane)];
             double& least_found = least_of_found_[static_cast<std::size_t>(lane)];
             const bool is_first = nearest.triangle == no_triangle || most < least_found;
@@ -72,7 +75,13 @@ public:
 private:
     const Tracer& tracer_;
     const std::function<bool(std::uint32_t)>& counts_;
+    const std::function<bool(const AnyRay&, std::uint32_t)>& stands_;
     Lanes<double> least_of_found_{}; ///< reach_along of the nearest so far
+
+    bool stands(const AnyRay& ray, std::uint32_t triangle) const {
+        if (!tracer_.state().has_mask(triangle)) return true;
+        return stands_ ? stands_(ray, triangle) : stands_on_ray(tracer_, ray, triangle);
+    }
 };
 
 } // namespace
@@ -83,13 +92,15 @@ double place_on_plane(const AnyRay& ray, const Corners& t) {
     return glm::dot(a - ray.origin, normal) / glm::dot(ray.direction, normal);
 }
 
-std::vector<MetTriangle> first_met(const Tracer& tracer, std::span<const AnyRay> rays,
-                                   const std::function<bool(std::uint32_t)>& counts) {
+std::vector<MetTriangle>
+first_met(const Tracer& tracer, std::span<const AnyRay> rays,
+          const std::function<bool(std::uint32_t)>& counts,
+          const std::function<bool(const AnyRay&, std::uint32_t)>& stands) {
     std::vector<MetTriangle> found(rays.size());
     const auto trace = [&](int packet, int) {
         const std::size_t first = static_cast<std::size_t>(packet) * packet_size;
         const std::size_t count = std::min<std::size_t>(packet_size, rays.size() - first);
-        Nearest nearest(tracer, counts);
+        Nearest nearest(tracer, counts, stands);
         AnyRays together;
         for (std::size_t i = 0; i < count; ++i) {
             together.set(static_cast<int>(i), rays[first + i]);

@@ -141,9 +141,14 @@ template <Query query>
 void meet_triangle(RayPacket& packet, std::uint32_t lanes, const ClusterRecord& cluster,
                    std::size_t t, Arbiter& arbiter) {
     const std::uint32_t triangle = cluster.triangle[t];
+    const bool is_masked = (cluster.masked >> t & 1U) != 0;
     for (int i = 0; i < packet_size; i += step()) {
         if ((lanes >> i & ((1U << step()) - 1)) == 0) continue;
-        const Answer answer = test<query>(packet, i, lanes, cluster, t);
+        Answer answer = test<query>(packet, i, lanes, cluster, t);
+        if (is_masked) {
+            answer.undecided = hn::Or(answer.undecided, answer.met);
+            answer.met = hn::AndNot(answer.met, answer.met);
+        }
         if (!hn::AllFalse(floats, answer.met)) {
             if constexpr (query == Query::nearest)
                 keep_nearest(packet, i, answer, triangle, arbiter);

@@ -72,18 +72,22 @@ Places find_places(const Scene& scene, const Predicates& predicates, int threads
     double size = 0;
     for (const glm::vec3& position : scene.positions)
         size = std::max(size, largest(glm::dvec3(position)));
+    // What is decided for one triangle holds for its copies only where nothing is left out of them:
+    // each with a mask gets a place of its own.
+    const std::vector<std::uint32_t> masks = masks_of_triangles(scene);
+    const auto has_mask = [&](std::size_t i) { return !masks.empty() && masks[i] != no_mask; };
     std::vector<std::uint64_t> of_place(count);
     std::vector<std::uint64_t> of_plane(count);
     parallel_for_all(count, threads, [&](std::size_t i) {
         const Corners t = corners(scene, static_cast<std::uint32_t>(i));
-        of_place[i] = place_hash(t);
+        of_place[i] = has_mask(i) ? mixed(place_hash(t) + i) : place_hash(t);
         of_plane[i] = plane_hash(t, size);
     });
     const auto at = [&](std::uint32_t triangle) { return corners(scene, triangle); };
 
     Places places;
     places.first = first_of_same(of_place, [&](std::uint32_t i, std::uint32_t j) {
-        return have_same_corners(at(i), at(j));
+        return !has_mask(i) && !has_mask(j) && have_same_corners(at(i), at(j));
     });
     // Many nearly in one plane have one hash, and would all be held against each other.
     constexpr int patience = 8;

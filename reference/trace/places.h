@@ -12,7 +12,8 @@ namespace shadowproof {
 
 /// All are per triangle.
 struct Places {
-    std::vector<std::uint32_t> first; ///< the first with the same three corners, in any order
+    std::vector<std::uint32_t> first; ///< the first with the same three corners, in any order;
+                                      ///< its own where it has a mask
     std::vector<std::uint32_t> next;  ///< the next such one, or no_triangle
     std::vector<std::uint32_t> plane; ///< triangles with the same number lie exactly in one plane
 

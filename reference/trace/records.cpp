@@ -301,8 +301,9 @@ HWY_EXPORT(make_records);
 } // namespace
 
 RecordCache::RecordCache(const OriginView& view, Part part,
-                         const std::vector<std::uint8_t>& double_sided)
-    : view_(&view), part_(part), double_sided_(&double_sided) {}
+                         const std::vector<std::uint8_t>& double_sided,
+                         const std::vector<std::uint32_t>* masks)
+    : view_(&view), part_(part), double_sided_(&double_sided), masks_(masks) {}
 
 bool RecordCache::takes_part(std::uint32_t triangle) const {
     const std::int8_t side = view_->side[triangle];
@@ -335,6 +336,17 @@ std::uint32_t RecordCache::members_of(const ClusterSides& sides) const {
         break;
     }
     return sides.front;
+}
+
+std::uint32_t RecordCache::masked_of(const ClusterRecord& record) const {
+    if (masks_ == nullptr || masks_->empty()) return 0;
+    std::uint32_t masked = 0;
+    for (std::uint32_t left = record.members; left != 0; left &= left - 1) {
+        const int place = __builtin_ctz(left);
+        if ((*masks_)[record.triangle[static_cast<std::size_t>(place)]] != no_mask)
+            masked |= 1U << place;
+    }
+    return masked;
 }
 
 /// Of the triangles in one place the first that takes part.
@@ -377,6 +389,7 @@ void RecordCache::fill(Slot& slot, std::uint32_t number) const {
                                 record);
         HWY_DYNAMIC_DISPATCH(make_records)(*view_, chosen, front, record);
     }
+    record.masked = masked_of(record);
 }
 
 } // namespace shadowproof

@@ -35,13 +35,18 @@ struct ClusterRecord {
     PerTriangle<std::uint32_t> copies{};   ///< how many take part in that place
     PerTriangle<std::uint32_t> plane{};    ///< Places::plane
     std::uint32_t members = 0;             ///< one bit for each that takes part
+    std::uint32_t masked =
+        0; ///< one for each that has a mask: whether it is met floats cannot tell
 };
 
 /// Creates records when they are first needed and keeps them in a small table, one per thread and
 /// part, as neighbouring rays meet the same clusters.
 class RecordCache {
 public:
-    RecordCache(const OriginView& view, Part part, const std::vector<std::uint8_t>& double_sided);
+    /// `masks`: Tracer::State::masks, or null where triangles are met whatever their masks leave
+    /// out.
+    RecordCache(const OriginView& view, Part part, const std::vector<std::uint8_t>& double_sided,
+                const std::vector<std::uint32_t>* masks);
 
     const OriginView& view() const { return *view_; }
     /// How many triangles take part in a triangle's place.
@@ -68,11 +73,13 @@ private:
     const OriginView* view_;
     Part part_;
     const std::vector<std::uint8_t>* double_sided_;
+    const std::vector<std::uint32_t>* masks_;
     std::vector<Slot> slots_;
     std::uint32_t last_met_ = 0;
 
     void fill(Slot& slot, std::uint32_t cluster) const;
     std::uint32_t members_of(const ClusterSides& sides) const;
+    std::uint32_t masked_of(const ClusterRecord& record) const;
     void choose_among_copies(std::uint32_t place, Cluster& chosen, std::uint32_t& front,
                              ClusterRecord& record) const;
 };

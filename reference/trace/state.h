@@ -1,12 +1,14 @@
 // The state of a Tracer: the scene, prepared for the queries of reference/.
 #pragma once
 
+#include "reference/exact/mask_sign.h"
 #include "reference/exact/predicates.h"
 #include "reference/trace/places.h"
 #include "reference/trace/shells.h"
 #include "reference/trace/trace.h"
 #include "reference/trace/view.h"
 #include "reference/walk/box_trees.h"
+#include "scenes/surface/alpha_mask.h"
 
 #include <cstdint>
 #include <optional>
@@ -35,11 +37,21 @@ struct Tracer::State {
     std::vector<std::uint8_t> double_sided; ///< one flag per triangle
     std::vector<std::uint8_t> receives;     ///< one flag per triangle
     std::vector<std::uint8_t> facing;       ///< bits of Facing, per triangle
+    std::vector<std::uint32_t> masks;       ///< masks_of_triangles
     glm::dvec3 eye{0, 0, 0};
     glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
     std::optional<Cone> cone;     ///< of a spot light
     LazyShells shells;            ///< of the casters
     double build_milliseconds = 0;
+
+    bool has_mask(std::uint32_t triangle) const {
+        return !masks.empty() && masks[triangle] != no_mask;
+    }
+    /// Of a triangle that has a mask.
+    MaskedTriangle masked(std::uint32_t triangle) const {
+        return {corners(*scene, triangle), mask_coordinates(*scene, triangle),
+                &scene->masks[masks[triangle]]};
+    }
 
     /// Whether eye and light are strictly on the same side of the triangle.
     bool faces_light(std::uint32_t triangle) const {

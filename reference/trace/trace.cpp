@@ -69,6 +69,7 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.trees.emplace(state.clusters, state.threads);
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);
+    state.masks = masks_of_triangles(scene);
     state.eye = scene.camera.eye;
     state.light = homogeneous(chosen_light(scene));
     state.cone = cone_of(chosen_light(scene));
@@ -180,16 +181,27 @@ void for_packets(const Tracer::State& state, std::size_t rays, const Direction& 
     });
 }
 
+/// `first`: the packet's first ray in the list.
+void see_with(Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first,
+              const MaskLeeway& leeway, SeenLanes& seen) {
+    if (leeway.readings.empty()) return prober.see(packet, lanes, seen);
+    PacketMasks masks{.errors = leeway.errors};
+    for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
+        masks.readings[lane] = leeway.readings[first + lane];
+    prober.see(packet, lanes, masks, seen);
+}
+
 } // namespace
 
-std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+                                 const MaskLeeway& leeway) {
     std::vector<RayTruth> truths(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             LitLanes lighting;
-            prober.see(packet, lanes, seen);
+            see_with(prober, packet, lanes, first, leeway, seen);
             prober.light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
                 truths[first + lane] = {lighting.visibility[lane], seen.triangle[lane],
@@ -211,13 +223,14 @@ std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction) {
     return triangles[0];
 }
 
-std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions) {
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+                                  const MaskLeeway& leeway) {
     std::vector<SeenSurface> surfaces(directions.size());
     for_packets(
         tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
-            prober.see(packet, lanes, seen);
+            see_with(prober, packet, lanes, first, leeway, seen);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
                 surfaces[first + lane] = {seen.triangle[lane], seen.depth[lane]};
         });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "reference/exact/exactness.h"
+#include "reference/exact/mask_reading.h"
 #include "scenes/frame.h"
 #include "scenes/image.h"
 #include "scenes/scene.h"
@@ -77,8 +78,26 @@ struct RayTruth {
     bool in_cone = true; ///< false where the visible point is outside the spot light's cone
 };
 RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
-/// The same for many rays, on all threads.
-std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+
+/// By how much another program may misread a triangle's mask along a ray.
+class MaskErrors {
+public:
+    MaskErrors() = default;
+    MaskErrors(const MaskErrors&) = delete;
+    MaskErrors& operator=(const MaskErrors&) = delete;
+    virtual ~MaskErrors() = default;
+    /// Called by several threads at once.
+    virtual MaskError at(std::uint32_t triangle, const glm::dvec3& direction) const = 0;
+};
+/// How another program may read the masks of what the eye sees, ray by ray.
+struct MaskLeeway {
+    std::span<const MaskReading> readings; ///< one per ray; empty: all are exact
+    const MaskErrors* errors = nullptr;
+};
+
+/// The truth along many rays, on all threads.
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+                                 const MaskLeeway& leeway = {});
 
 /// The lowest-numbered triangle between what a ray sees and the light; no_triangle where there is
 /// none, or nothing is seen, or its side that is seen is turned away from the light.
@@ -90,7 +109,8 @@ struct SeenSurface {
     std::uint32_t triangle = no_triangle;
     double depth = 0;
 };
-std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions);
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+                                  const MaskLeeway& leeway = {});
 /// View depths between which surfaces are seen.
 struct SeenRange {
     double near = 0;

@@ -31,10 +31,27 @@ std::uint32_t lanes_where(std::uint32_t lanes, const Holds& holds) {
 } // namespace
 
 Prober::Prober(const Tracer::State& state, Filters filters)
-    : state_(&state), filters_(filters), seen_(state.from_eye, Part::seen, state.double_sided),
-      occluding_(state.from_light, Part::occluding, state.double_sided),
-      light_facing_(state.from_light, Part::light_facing, state.double_sided),
+    : state_(&state), filters_(filters),
+      seen_(state.from_eye, Part::seen, state.double_sided, &state.masks),
+      occluding_(state.from_light, Part::occluding, state.double_sided, &state.masks),
+      light_facing_(state.from_light, Part::light_facing, state.double_sided, nullptr),
+      light_facing_masked_(state.from_light, Part::light_facing, state.double_sided, &state.masks),
       planes_(*state.scene, state.eye), own_range_(range_of(state.scene->camera)) {}
+
+PacketRays Prober::packet_rays(const Vectors& directions) const {
+    return {.state = state_,
+            .directions = &directions,
+            .predicates = Predicates(filters_),
+            .filters = filters_,
+            .leeway = leeway_};
+}
+
+void Prober::see(const Vectors& directions, std::uint32_t lanes, const PacketMasks& masks,
+                 SeenLanes& seen) {
+    leeway_ = &masks;
+    see(directions, lanes, seen);
+    leeway_ = nullptr;
+}
 
 void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen) {
     see_triangle(directions, lanes, own_range_, seen);
@@ -67,7 +84,7 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
     set_lanes(packet_, lanes, directions, limits_);
     rays_ += static_cast<std::uint64_t>(std::popcount(lanes));
     seen.exactness.fill(Exactness::filtered);
-    PacketRays rays{state_, &directions, Predicates(filters_)};
+    PacketRays rays = packet_rays(directions);
     NearestArbiter arbiter(rays, range, seen);
     find_nearest(packet_, seen_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -118,7 +135,7 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
     if (asked == 0) return;
     rays_ += static_cast<std::uint64_t>(std::popcount(asked));
     set_shadow_rays(directions, asked, seen);
-    PacketRays rays{state_, &directions, Predicates(filters_)};
+    PacketRays rays = packet_rays(directions);
     AnyArbiter arbiter(rays, seen, lighting);
     find_any(packet_, occluding_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -137,14 +154,14 @@ void Prober::occluders(const Vectors& directions, std::uint32_t lanes, const See
                (!state_->cone || ask_cone(directions[l], triangle).sign >= 0);
     });
     set_shadow_rays(directions, asked, seen);
-    PacketRays rays{state_, &directions, Predicates(filters_)};
+    PacketRays rays = packet_rays(directions);
     LowestArbiter arbiter(rays, seen);
     find_lowest(packet_, occluding_, arbiter);
     for_lanes(lanes, [&](std::size_t l) { triangles[l] = packet_.hit[l]; });
 }
 
 void Prober::count(const Vectors& directions, std::uint32_t lanes, const Lanes<Point>& points,
-                   Lanes<std::int32_t>& counts) {
+                   Lanes<std::int32_t>& counts, Masks masks) {
     Lanes<double> depth{};
     Lanes<double> depth_error{};
     Lanes<std::uint32_t> own{};
@@ -165,9 +182,10 @@ void Prober::count(const Vectors& directions, std::uint32_t lanes, const Lanes<P
         else
             packet_.active &= ~(1U << l);
     });
-    PacketRays rays{state_, &directions, Predicates(filters_)};
-    CountArbiter arbiter(rays, points, light_facing_);
-    count_all(packet_, light_facing_, arbiter);
+    PacketRays rays = packet_rays(directions);
+    RecordCache& records = masks == Masks::kept ? light_facing_masked_ : light_facing_;
+    CountArbiter arbiter(rays, points, records, masks);
+    count_all(packet_, records, arbiter);
     for_lanes(lanes, [&](std::size_t l) {
         counts[l] = static_cast<std::int32_t>(packet_.crossed[l]);
         // A light-facing triangle seen from behind lies between its own surface and the light.

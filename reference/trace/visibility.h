@@ -26,7 +26,15 @@ struct LitLanes {
     Lanes<std::uint8_t> in_cone{}; ///< of the spot light, if it is one
 };
 
+/// How the rays of a packet read masks.
+struct PacketMasks {
+    Lanes<MaskReading> readings{};
+    const MaskErrors* errors = nullptr;
+};
+
 /// Runs the queries of one thread. Lanes whose bit in `lanes` is not set are left unchanged.
+struct PacketRays;
+
 class Prober {
 public:
     explicit Prober(const Tracer::State& state, Filters filters = Filters::on);
@@ -34,6 +42,9 @@ public:
     /// The nearest triangle within [near, far] along each direction D (view depth 1), and its
     /// depth.
     void see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen);
+    /// The same as another program may read the masks on the way.
+    void see(const Vectors& directions, std::uint32_t lanes, const PacketMasks& masks,
+             SeenLanes& seen);
     /// The triangle alone, within any range.
     void see_triangle(const Vectors& directions, std::uint32_t lanes, const SeenRange& range,
                       SeenLanes& seen);
@@ -54,8 +65,12 @@ public:
         double depth = 0;                 ///< where the kind is depth
         std::uint32_t skip = no_triangle; ///< the triangle of a surface point
     };
+    enum class Masks : std::uint8_t {
+        ignored, ///< a triangle counts as a whole
+        kept,    ///< only where its mask leaves it standing
+    };
     void count(const Vectors& directions, std::uint32_t lanes, const Lanes<Point>& points,
-               Lanes<std::int32_t>& counts);
+               Lanes<std::int32_t>& counts, Masks masks = Masks::ignored);
 
     std::uint64_t rays() const { return rays_; }
     std::uint64_t exact_decisions() const { return exact_decisions_; }
@@ -67,6 +82,7 @@ private:
     RecordCache seen_;
     RecordCache occluding_;
     RecordCache light_facing_;
+    RecordCache light_facing_masked_;
     SeenPlanes planes_;
     RayPacket packet_;
     SeenRange own_range_;     ///< the camera's
@@ -75,7 +91,9 @@ private:
     std::uint64_t rays_ = 0;
     std::uint64_t exact_decisions_ = 0;
     std::uint64_t undecided_ = 0;
+    const PacketMasks* leeway_ = nullptr; ///< of the query under way
 
+    PacketRays packet_rays(const Vectors& directions) const;
     void set_shadow_rays(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen);
     Decision ask_cone(const glm::dvec3& direction, std::uint32_t seen);
 };

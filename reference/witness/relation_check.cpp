@@ -39,6 +39,7 @@ std::optional<Scene> looking_at(const Scene& scene, const glm::vec3& at, const g
         position[v] += step * corner.y;
         asked.positions.emplace_back(position);
     }
+    if (has_masks(asked)) asked.mask_at.resize(asked.positions.size());
     const auto triangle = static_cast<std::uint32_t>(asked.triangles.size());
     asked.triangles.emplace_back(first, first + 1, first + 2);
     asked.meshes.push_back({.name = "the point",

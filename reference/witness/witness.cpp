@@ -36,6 +36,61 @@ bool inside(const Plane& t, const Point& p) {
            sgn(dot(cross(minus(t.a, t.c), minus(p, t.c)), t.normal)) >= 0;
 }
 
+/// A wrapped texel number: into the texture, by mirrors at its borders, or to the border.
+long texel_number(Wrap wrap, long texels, mpz_class number) {
+    if (wrap == Wrap::clamp_to_edge) {
+        if (number < 0) return 0;
+        return number >= texels ? texels - 1 : number.get_si();
+    }
+    const long period = wrap == Wrap::repeat ? texels : 2 * texels;
+    mpz_class rest;
+    mpz_fdiv_r_ui(rest.get_mpz_t(), number.get_mpz_t(), static_cast<unsigned long>(period));
+    const long within = rest.get_si();
+    return within < texels ? within : period - 1 - within;
+}
+
+mpz_class floor_of(const mpq_class& x) {
+    mpz_class below;
+    mpz_fdiv_q(below.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+    return below;
+}
+
+/// Alpha at texture coordinates: the sum of four texels by the areas across from them.
+mpq_class alpha_at(const AlphaMask& mask, const mpq_class& s, const mpq_class& t) {
+    const auto texel = [&](const mpz_class& column, const mpz_class& row) {
+        const long x = texel_number(mask.wrap_s, mask.alpha.width, column);
+        const long y = texel_number(mask.wrap_t, mask.alpha.height, row);
+        return mpq_class(double{mask.alpha.at(static_cast<int>(x), static_cast<int>(y))});
+    };
+    mpq_class x = s * mask.alpha.width;
+    mpq_class y = t * mask.alpha.height;
+    if (mask.nearest) return texel(floor_of(x), floor_of(y));
+    x -= mpq_class(1, 2);
+    y -= mpq_class(1, 2);
+    const mpz_class left = floor_of(x);
+    const mpz_class top = floor_of(y);
+    const mpq_class right_share = x - left;
+    const mpq_class lower_share = y - top;
+    return (1 - right_share) * (1 - lower_share) * texel(left, top) +
+           right_share * (1 - lower_share) * texel(left + 1, top) +
+           (1 - right_share) * lower_share * texel(left, top + 1) +
+           right_share * lower_share * texel(left + 1, top + 1);
+}
+
+/// Whether the triangle's mask leaves it standing at a point of its plane: with the coordinates of
+/// its corners weighted by the areas across from them.
+bool stands(const Plane& t, const Point& p) {
+    if (t.mask == nullptr) return true;
+    const mpq_class area = dot(t.normal, t.normal);
+    const mpq_class of_b = dot(cross(minus(t.a, t.c), minus(p, t.c)), t.normal) / area;
+    const mpq_class of_c = dot(cross(minus(t.b, t.a), minus(p, t.a)), t.normal) / area;
+    const auto at = [&](std::size_t axis) {
+        return mpq_class((1 - of_b - of_c) * t.mask_at[0][axis] + of_b * t.mask_at[1][axis] +
+                         of_c * t.mask_at[2][axis]);
+    };
+    return alpha_at(*t.mask, at(0), at(1)) >= mpq_class(t.mask->least);
+}
+
 /// Where the line p + s d meets the plane; nothing where it runs along it.
 std::optional<mpq_class> meet(const Plane& t, const Point& p, const Point& d) {
     if (!t.has_area) return std::nullopt;
@@ -92,6 +147,13 @@ Witness::Witness(const Scene& scene)
             t.seen_from_behind = scene.materials[mesh.material].double_sided;
             t.casts = mesh.casts;
             t.receives = mesh.receives;
+            const std::uint32_t mask = scene.materials[mesh.material].mask;
+            if (mask == no_mask) continue;
+            t.mask = &scene.masks[mask];
+            for (int k = 0; k < 3; ++k) {
+                const glm::dvec2 at = scene.mask_at[scene.triangles[i][k]];
+                t.mask_at[static_cast<std::size_t>(k)] = {mpq_class(at.x), mpq_class(at.y)};
+            }
         }
         planes_.push_back(t);
     }
@@ -136,7 +198,9 @@ bool Witness::occluded(const Point& hit, std::uint32_t own) const {
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
         if (i == own || !planes_[i].casts || !may_touch(planes_[i], from, toward, last)) continue;
         const std::optional<mpq_class> s = meet(planes_[i], hit, d);
-        if (s && lies_between(*s) && inside(planes_[i], along(hit, *s, d))) return true;
+        if (s && lies_between(*s) && inside(planes_[i], along(hit, *s, d)) &&
+            stands(planes_[i], along(hit, *s, d)))
+            return true;
     }
     return false;
 }
@@ -152,7 +216,8 @@ Answer Witness::look(const glm::dvec3& direction) const {
         const std::optional<mpq_class> t = meet(planes_[i], eye_, d);
         if (!t || *t < near_ || (far_ && *t > *far_) || (nearest && *t >= *nearest)) continue;
         if (!planes_[i].seen_from_behind && side_of_eye(i) <= 0) continue;
-        if (!inside(planes_[i], along(eye_, *t, d))) continue;
+        const Point met = along(eye_, *t, d);
+        if (!inside(planes_[i], met) || !stands(planes_[i], met)) continue;
         nearest = t;
         answer.triangle = i;
     }

@@ -1,7 +1,8 @@
 // The witness: visibility and shadow depth by brute force over rationals, triangle by triangle. It
 // shares no code with the rest of reference/ but the scene's own structs, and uses other formulas:
 // hit points, not edge planes. Triangles far from a line are skipped, by bounding spheres with a
-// margin a million times the error of doubles.
+// margin a million times the error of doubles. Light-facing triangles are counted whole, whatever
+// their masks leave out.
 #pragma once
 
 #include "scenes/frame.h"
@@ -24,6 +25,8 @@ struct Plane {
     bool seen_from_behind = false;
     bool casts = true;
     bool receives = true;
+    const AlphaMask* mask = nullptr;                ///< of the scene
+    std::array<std::array<mpq_class, 2>, 3> mask_at{}; ///< coordinates in it, by corner
     glm::dvec3 center{0, 0, 0}; ///< of an approximate bounding sphere
     double radius = 0;
 };

@@ -73,6 +73,7 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"in_metres", "small things in metres: an epsilon of 1e-3 is a millimetre"},
         {"in_millimetres", "a room in millimetres: floats are further apart than 1e-3"},
         {"slivers", "slivers so thin that float rays slip through between them"},
+        {"perforated", "sheets whose alpha masks leave holes, which volumes shadow"},
     };
     return scenes;
 }

@@ -82,6 +82,19 @@ void add_lighting(Hash& hash, const Scene& scene) {
     if (scene.environment) add_environment(hash, scene);
 }
 
+void add_masks(Hash& hash, const Scene& scene) {
+    hash.add(scene.mask_at.data(), scene.mask_at.size());
+    for (const AlphaMask& mask : scene.masks) {
+        for (const int v : {mask.alpha.width, mask.alpha.height}) hash.add(v);
+        for (const Wrap wrap : {mask.wrap_s, mask.wrap_t}) hash.add(wrap);
+        hash.add(mask.nearest);
+        hash.add(mask.least);
+        hash.add(mask.alpha.pixels.data(), mask.alpha.pixels.size());
+    }
+    const std::vector<std::uint32_t> masks = masks_of_triangles(scene);
+    hash.add(masks.data(), masks.size());
+}
+
 } // namespace
 
 std::string digest_of(const Scene& scene) {
@@ -94,6 +107,7 @@ std::string digest_of(const Scene& scene) {
     add_camera(hash, scene.camera);
     add_light(hash, chosen_light(scene));
     if (is_bump_lit(scene)) add_lighting(hash, scene);
+    if (has_masks(scene)) add_masks(hash, scene);
     return fmt::format("{:016x}", hash.digest());
 }
 

@@ -299,6 +299,7 @@ std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips) {
     const double snapping = half_step * 2 * camera.tan_half_height / camera.height;
     std::vector<std::uint8_t> certain(scene.triangles.size(), 0);
     for (const Mesh& mesh : scene.meshes) {
+        if (scene.materials[mesh.material].mask != no_mask) continue;
         const bool double_sided = scene.materials[mesh.material].double_sided;
         for (const std::uint32_t triangle : triangles_of(mesh)) {
             const TriangleCorners corners = corners_of(scene, triangle);

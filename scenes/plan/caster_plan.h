@@ -26,8 +26,9 @@ struct CasterPlan {
 /// corner; a pair that is not compared counts as "may shadow".
 std::vector<CasterPlan> plan_casters(const Scene& scene);
 
-/// One flag per triangle: wherever a rasterizer draws it, it also draws it as a surface. It is
-/// certainly not culled, and not past the camera's far plane unless that clips everything
+/// One flag per triangle: wherever a rasterizer draws it, it also draws it as a surface. It has no
+/// alpha mask, is certainly not culled, and not past the camera's far plane unless that clips
+/// everything
 /// (`far_clips`). Its light cap has the same depths bit for bit, and so is never in front of the
 /// visible surface.
 std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips);

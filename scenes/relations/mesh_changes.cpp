@@ -72,6 +72,7 @@ std::optional<ChangedScene> permute(const Scene& scene) {
     std::vector<std::uint32_t> new_number(vertices.size());
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         rewriter.scene().positions[i] = scene.positions[vertices[i]];
+        if (has_masks(scene)) rewriter.scene().mask_at[i] = scene.mask_at[vertices[i]];
         new_number[vertices[i]] = i;
     }
     for (const std::uint32_t number : shuffled(scene.meshes.size(), random)) {
@@ -105,6 +106,7 @@ bool are_alike(const Scene& scene, const Mesh& a, const Mesh& b) {
     const bool same_material =
         a.material == b.material ||
         (!is_bump_lit(scene) &&
+         scene.materials[a.material].mask == scene.materials[b.material].mask &&
          scene.materials[a.material].double_sided == scene.materials[b.material].double_sided);
     return same_material && a.casts == b.casts && a.receives == b.receives;
 }
@@ -146,8 +148,9 @@ std::optional<std::array<glm::vec3, 3>> exact_middles(const Scene& scene, const 
 /// Four triangles for each whose edges have exact middles. Their neighbours may keep their edges:
 /// the surface is the same.
 std::optional<ChangedScene> subdivide(const Scene& scene) {
-    // Surfaces would have to be interpolated, which rounds.
-    if (is_bump_lit(scene) || 4 * scene.triangles.size() > most_triangles_changed)
+    // Surfaces and coordinates would have to be interpolated, which rounds.
+    if (is_bump_lit(scene) || has_masks(scene) ||
+        4 * scene.triangles.size() > most_triangles_changed)
         return std::nullopt;
     Rewriter rewriter(scene);
     for (const Mesh& mesh : scene.meshes) {

@@ -41,7 +41,7 @@ void take_scale(Scene& scene, double value) {
 
 /// Whether all that a triangle carries lies in its corners' positions.
 bool has_caster_without_bumps(const Scene& scene) {
-    return !is_bump_lit(scene) && main_caster(scene).has_value();
+    return !is_bump_lit(scene) && !has_masks(scene) && main_caster(scene).has_value();
 }
 
 /// A new vertex within the triangle, so near the middle of its longest edge that this edge is so

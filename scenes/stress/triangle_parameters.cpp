@@ -38,7 +38,7 @@ double own_triangle_size(const Scene& scene) {
 }
 
 bool has_caster_without_bumps(const Scene& scene) {
-    return !is_bump_lit(scene) && main_caster(scene).has_value();
+    return !is_bump_lit(scene) && !has_masks(scene) && main_caster(scene).has_value();
 }
 
 /// A small triangle of the same shape in the middle, and six others around it. Edges stay whole: no

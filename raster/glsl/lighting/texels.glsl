@@ -1,4 +1,4 @@
-// Bilinear sampling at level 0, texel by texel: the weights of a driver's own filter may have no
+// Sampling at level 0, texel by texel, bilinear but where it says otherwise: the weights of a driver's own filter may have no
 // more than 8 bits.
 
 const int wrap_repeat = 0; // values of Wrap
@@ -31,6 +31,15 @@ Taps taps_at(int wrap, int texels, float at) {
     if (wrap == wrap_mirrored_repeat)
         return Taps(mirrored(first, texels), mirrored(first + 1, texels), fraction);
     return Taps(first, min(first + 1, texels - 1), fraction);
+}
+
+// The texel that holds a coordinate.
+int texel_at(int wrap, int texels, float at) {
+    if (wrap == wrap_repeat) at -= floor(at);
+    if (wrap == wrap_mirrored_repeat) at -= 2 * floor(at / 2);
+    int texel = int(floor(float(texels) * at));
+    if (wrap == wrap_mirrored_repeat) texel = mirrored(texel, texels);
+    return clamp(texel, 0, texels - 1);
 }
 
 vec4 sampled(sampler2D map, Taps s, Taps t) {

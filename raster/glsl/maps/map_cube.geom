@@ -8,6 +8,8 @@ layout(location = 20) uniform mat4 clip_from_light[6]; // of points relative to 
 
 in Surface { vec3 from_light; } corner[];
 out Surface { vec3 from_light; } surface;
+in Masked { vec2 at; } corner_masked[];
+out Masked { vec2 at; } masked;
 
 void main() {
     for (int face = 0; face < 6; ++face) {
@@ -15,6 +17,7 @@ void main() {
             gl_Layer = face;
             gl_Position = clip_from_light[face] * vec4(corner[k].from_light, 1);
             surface.from_light = corner[k].from_light;
+            masked.at = corner_masked[k].at;
             EmitVertex();
         }
         EndPrimitive();

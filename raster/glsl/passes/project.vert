@@ -4,6 +4,7 @@
 // from the light to infinity: w = 0.
 
 layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 mask_at; // of the scene's vertices, where it has masks
 
 layout(location = 0) uniform mat4 clip_from_relative;
 layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: the eye, or zero
@@ -17,12 +18,15 @@ out Surface {
     vec3 from_light; // of the scene's vertices; zero minus the direction where w = 0
 } surface;
 
+out Masked { vec2 at; } masked;
+
 invariant gl_Position;
 
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
     surface.from_light = away;
+    masked.at = mask_at;
     gl_Position =
         clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, 0));
 }

@@ -1,15 +1,7 @@
 #version 450 core
-// The visible surfaces, shadowed until the light pass lights them.
-
-layout(location = 6) uniform vec2 visible_depths; // view depths; what lies outside is not drawn
-layout(location = 7) uniform uint first_triangle; // of this draw call
-
-layout(location = 0) out float claim;
-layout(location = 1) out uint triangle;
+// The visible surfaces.
+#include surface.glsl
 
 void main() {
-    float view_depth = 1 / gl_FragCoord.w;
-    if (view_depth < visible_depths.x || view_depth > visible_depths.y) discard;
-    claim = 64.0 / 255.0;
-    triangle = first_triangle + uint(gl_PrimitiveID);
+    keep_surface();
 }

@@ -9,6 +9,8 @@ layout(triangle_strip, max_vertices = 3) out;
 
 in Surface { vec3 from_light; } corner[];
 out Surface { vec3 from_light; } surface;
+in Masked { vec2 at; } corner_masked[];
+out Masked { vec2 at; } masked;
 
 invariant gl_Position;
 
@@ -17,6 +19,7 @@ void main() {
         gl_Position = gl_in[k].gl_Position;
         gl_PrimitiveID = gl_PrimitiveIDIn;
         surface.from_light = corner[k].from_light;
+        masked.at = corner_masked[k].at;
         EmitVertex();
     }
     EndPrimitive();

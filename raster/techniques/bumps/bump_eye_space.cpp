@@ -24,7 +24,7 @@ Technique bump_eye_space_technique() {
             .source = "Blinn 1978; with stencil shadows: Kilgard 2001",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
             .cost = 4.4,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps", "tangents"},

@@ -23,7 +23,7 @@ Technique bump_reflective_technique() {
             .source = "CS448 lecture 11, reflective bump mapping",
             .needs = "bump maps, an environment, and blending into an RGBA32F colour buffer",
             .cost = 4.7,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .needs_bump_maps = true,
             .needs_environment = true,
             .depth_model = reversed_depths,

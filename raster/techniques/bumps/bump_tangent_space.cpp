@@ -27,7 +27,7 @@ Technique bump_tangent_space_technique() {
             .source = "Peercy, Airey & Cabral 1997; with stencil shadows: Kilgard 2001",
             .needs = "bump maps, and blending into an RGBA32F colour buffer",
             .cost = 3.4,
-            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh},
+            .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},

@@ -43,6 +43,10 @@ Json targets_of(Buffer& buffer, const std::vector<Morph>& morphs) {
 
 void set_look(Json& material, const Look& look) {
     if (look.decal) material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *look.decal}};
+    if (look.cutoff) {
+        material["alphaMode"] = "MASK";
+        material["alphaCutoff"] = *look.cutoff;
+    }
     Json ours = Json::object();
     if (look.bump) {
         Json map{{"index", *look.bump}};

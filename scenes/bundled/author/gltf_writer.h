@@ -20,6 +20,7 @@ struct Look {
     double bump_scale = 1;
     bool height_in_space = false; ///< bump_scale is in units of the scene, else in texels
     std::optional<std::size_t> decal{};
+    std::optional<double> cutoff{}; ///< of the decal's alpha: below it the surface is left out
     bool gloss_in_alpha = false;
     std::optional<glm::dvec3> specular{};
     std::optional<glm::dvec3> reflectance{};

@@ -49,5 +49,6 @@ std::vector<Stage> stages_of_shadowed_bumps(); ///< bumps whose shadows planes o
 std::vector<Stage> stages_of_figures();        ///< bump-mapped models that move
 std::vector<Stage> stages_of_maps();           ///< what shadow maps fail at
 std::vector<Stage> stages_of_rays();           ///< what shadow rays traced in float fail at
+std::vector<Stage> stages_of_masks();          ///< surfaces with holes that are no geometry
 
 } // namespace shadowproof::author

@@ -167,4 +167,10 @@ Raster glossy_stripes(unsigned width, unsigned height, const Relief& relief,
     });
 }
 
+Raster masked_color(unsigned width, unsigned height, const Relief& relief,
+                    const glm::dvec3& color) {
+    return painted(width, height, 4, 8,
+                   [&](double u, double v) { return glm::dvec4(color, relief(u, v)); });
+}
+
 } // namespace shadowproof::author

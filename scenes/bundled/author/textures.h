@@ -35,6 +35,9 @@ Raster normal_map(unsigned width, unsigned height, const Relief& relief, double 
 Raster glossy_stripes(unsigned width, unsigned height, const Relief& relief,
                       const glm::dvec3& color, const glm::dvec3& other);
 
+/// RGBA of 8 bits: one colour (sRGB), and the relief as its alpha.
+Raster masked_color(unsigned width, unsigned height, const Relief& relief, const glm::dvec3& color);
+
 /// One of six faces (+x -x +y -y +z -z) around a photographer's stage, RGB of 8 bits: sky over a
 /// plain, and bright windows with panes, above the horizon.
 Raster surroundings(unsigned face, unsigned size);

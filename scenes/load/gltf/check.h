@@ -14,8 +14,8 @@ namespace shadowproof::gltf {
 /// of zero (3.0), which glTF allows and tinygltf drops, become integers.
 void check_json(const Place& root, nlohmann::json& document);
 
-/// The same for what lighting by bump maps reads: materials, textures, samplers and images, and the
-/// root's extras.
+/// The same for what lighting by bump maps, and alpha masks, read: materials, textures, samplers
+/// and images, and the root's extras.
 void check_lighting(const Place& root, nlohmann::json& document);
 
 /// Whether an extension is evaluated in full.

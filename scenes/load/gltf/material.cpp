@@ -1,7 +1,9 @@
 #include "scenes/load/gltf/material.h"
 
 #include "scenes/load/gltf/check.h"
+#include "scenes/load/gltf/mask.h"
 #include "scenes/load/gltf/texture.h"
+#include "scenes/load/gltf/texture_reference.h"
 
 #include <fmt/format.h>
 
@@ -17,17 +19,6 @@ namespace shadowproof::gltf {
 namespace {
 
 using nlohmann::json;
-
-/// The member at a path of objects; null where there is none.
-const json& find(const json& value, std::initializer_list<const char*> path) {
-    static const json none;
-    const json* at = &value;
-    for (const char* key : path) {
-        if (!at->is_object() || !at->contains(key)) return none;
-        at = &(*at)[key];
-    }
-    return *at;
-}
 
 const json& height_of(const json& material) {
     return find(material, {"extras", "shadowproof", "height"});
@@ -47,20 +38,6 @@ std::vector<bool> materials_in_scene(const Document& document, const NodeGraph& 
             if (primitive.material >= 0) used[as_index(primitive.material)] = true;
     }
     return used;
-}
-
-/// Whether a texture has no image but one in a format that another extension allows.
-bool is_unread(const json& look, const json& index) {
-    const json& textures = find(look, {"textures"});
-    if (!index.is_number_unsigned() || !textures.is_array() || index >= textures.size())
-        return false; // check_lighting tells of it
-    const json& texture = textures[index.get<std::size_t>()];
-    if (!texture.is_object() || texture.contains("source")) return false;
-    const auto has = [&](const char* name) {
-        return !find(texture, {"extensions", name}).is_null();
-    };
-    return has("EXT_texture_webp") || has("KHR_texture_basisu") || has("EXT_texture_avif") ||
-           has("MSFT_texture_dds");
 }
 
 /// The first texture that lighting needs and that is not read; empty where there is none.
@@ -101,22 +78,6 @@ struct MaterialSource {
     CoordinateSets& sets;
     bool has_environment = false; ///< of the file
 };
-
-/// v of a texture runs down, so a rotation that looks counter-clockwise takes u to u cos, -u sin.
-Coordinates read_coordinates(const json& texture) {
-    Coordinates coordinates{texture.value("texCoord", std::size_t{0})};
-    const json& ours = find(texture, {"extensions", "KHR_texture_transform"});
-    if (ours.is_null()) return coordinates;
-    coordinates.set = ours.value("texCoord", coordinates.set);
-    const auto offset = ours.value("offset", std::array{0.0, 0.0});
-    const auto scale = ours.value("scale", std::array{1.0, 1.0});
-    const double angle = ours.value("rotation", 0.0); // radians
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    coordinates.transform = glm::dmat3(c * scale[0], -s * scale[0], 0, s * scale[1], c * scale[1],
-                                       0, offset[0], offset[1], 1);
-    return coordinates;
-}
 
 void read_look(const MaterialSource& source) {
     const json& base = find(source.value, {"pbrMetallicRoughness", "baseColorFactor"});
@@ -240,9 +201,6 @@ void read_plain(const Document& document, Scene& scene) {
         Material& material = scene.materials.emplace_back();
         material.name = source.name.empty() ? place.pointer() : source.name;
         material.double_sided = source.doubleSided;
-        if (source.alphaMode != "OPAQUE")
-            scene.notes.push_back(fmt::format("{} \"{}\": alphaMode {} is drawn as opaque",
-                                              place.pointer(), material.name, source.alphaMode));
     }
     scene.materials.emplace_back().name = "default";
 }
@@ -254,6 +212,7 @@ Materials read_materials(const Document& document, const NodeGraph& graph, Scene
     Materials materials;
     materials.sets.resize(scene.materials.size());
     const std::vector<bool> used = materials_in_scene(document, graph);
+    read_masks(document, used, materials, scene);
     for (std::size_t i = 0; i < used.size(); ++i)
         materials.bump_lit =
             materials.bump_lit || (used[i] && has_bump_map(document.look["materials"][i]));

@@ -1,5 +1,5 @@
-// Materials: colour, bump map, and what extras.shadowproof says of them. Textures are read only
-// where some mesh of the scene is bump-mapped.
+// Materials: alpha mask, colour, bump map, and what extras.shadowproof says of them. But for masks,
+// textures are read only where some mesh of the scene is bump-mapped.
 #pragma once
 
 #include "scenes/load/gltf/nodes.h"
@@ -22,18 +22,20 @@ struct Coordinates {
 struct CoordinateSets {
     Coordinates decal;
     Coordinates bump;
+    Coordinates mask;
 };
 
 /// What else is read of the materials, by index into Scene::materials.
 struct Materials {
     bool bump_lit = false; ///< some mesh of the scene has a material with a bump map
     std::vector<CoordinateSets> sets;
+    std::vector<bool> left_out; ///< by their masks, altogether
 };
 
 /// Where a texture that lighting needs is in a format that is not read (WebP, KTX2), no surface is
 /// lit by bump maps, and scene.notes says why. Fills scene.materials (those of the file, followed
-/// by the default one, glTF 2.0, section 3.7.2.1) and, where bump_lit, scene.textures, ambient,
-/// inverse_square and environment. Throws Error.
+/// by the default one, glTF 2.0, section 3.7.2.1), scene.masks and, where bump_lit, scene.textures,
+/// ambient, inverse_square and environment. Throws Error.
 Materials read_materials(const Document& document, const NodeGraph& graph, Scene& scene);
 
 } // namespace shadowproof::gltf

@@ -87,18 +87,22 @@ std::vector<glm::vec3> world_positions(const Placement& placement, const Part& p
     return world;
 }
 
-/// Bytes per vertex of a primitive while it is baked: world positions, their order, which of them
-/// are used. And per triangle: indices, one triangle for each where it is a strip.
-constexpr std::uint64_t baking_vertex = sizeof(glm::vec3) + 2 * sizeof(std::uint32_t);
+/// Bytes per vertex of a primitive while it is baked: world positions, coordinates in a mask, their
+/// order, which of them are used. And per triangle: indices, one triangle for each where it is a
+/// strip.
+constexpr std::uint64_t baking_vertex =
+    sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(std::uint32_t);
 constexpr std::uint64_t baking_index = sizeof(std::uint32_t) + sizeof(glm::uvec3);
 /// Bytes kept in the scene per vertex or triangle, three times as much while its vector grows.
-constexpr std::uint64_t baked_vertex = 3 * sizeof(glm::vec3);
+constexpr std::uint64_t baked_vertex = 3 * (sizeof(glm::vec3) + sizeof(glm::vec2));
 /// Bytes per mesh without its name, and for a note about it.
 constexpr std::uint64_t baked_mesh = 3 * sizeof(Mesh) + 256;
 
 /// Appends `triangles` over `positions` with the vertices that are used, in order of index.
+/// `mask_at`: their coordinates in an alpha mask, empty where there is none.
 void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
-            const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles) {
+            const std::vector<glm::vec3>& positions, const std::vector<glm::vec2>& mask_at,
+            const std::vector<glm::uvec3>& triangles) {
     std::vector<std::uint32_t> baked(positions.size(), 0);
     for (const glm::uvec3& triangle : triangles)
         for (int k = 0; k < 3; ++k) baked[triangle[k]] = 1;
@@ -115,6 +119,8 @@ void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
         if (baked[i] == 0) continue;
         baked[i] = static_cast<std::uint32_t>(scene.positions.size());
         scene.positions.push_back(positions[i]);
+        if (has_masks(scene))
+            scene.mask_at.push_back(mask_at.empty() ? glm::vec2(0, 0) : mask_at[i]);
     }
     for (const glm::uvec3& triangle : triangles)
         scene.triangles.emplace_back(baked[triangle.x], baked[triangle.y], baked[triangle.z]);
@@ -169,15 +175,20 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
     if (placement.skin)
         influences =
             read_influences(reader, part.place, part.primitive, *placement.skin, local.count);
+    const auto material =
+        static_cast<std::uint32_t>(part.primitive.material >= 0 ? as_index(part.primitive.material)
+                                                                : scene.materials.size() - 1);
+    if (materials.left_out[material]) return;
+    std::vector<glm::vec2> mask_at;
+    if (scene.materials[material].mask != no_mask)
+        mask_at = texture_coordinates(reader, part, placement.weights, local.count,
+                                      materials.sets[material].mask, "an alpha mask");
     const MemoryHold baking = hold_for_baking(reader, part, local.count);
     const std::vector<glm::vec3> positions = world_positions(placement, part, local, influences);
     const std::vector<std::uint32_t> indices = vertex_order(reader, part, positions.size());
     std::vector<glm::uvec3> triangles = assemble(mode, indices);
     note_leftover(scene, part.place, indices.size(), triangles.size(), mode);
     const bool mirrored = is_mirrored(placement);
-    const auto material =
-        static_cast<std::uint32_t>(part.primitive.material >= 0 ? as_index(part.primitive.material)
-                                                                : scene.materials.size() - 1);
     if (materials.bump_lit)
         append_surfaces(reader,
                         {part, placement.weights, local, triangles, placement.world_from_mesh,
@@ -187,7 +198,7 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
         for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
-    append(scene, reader.memory(), part.place, positions, triangles);
+    append(scene, reader.memory(), part.place, positions, mask_at, triangles);
     if (count > 0)
         scene.meshes.push_back({placement.name, first, count, material,
                                 placement.node.casts.value_or(true),

@@ -86,6 +86,7 @@ inline constexpr std::array rules{
     Rule{"cameras/*/perspective/zfar", Kind::positive}, // tinygltf uses 0 for none
     Rule{"materials/*/name"},
     Rule{"materials/*/alphaMode"},
+    Rule{"materials/*/alphaCutoff", Kind::number},
     Rule{"materials/*/doubleSided", Kind::boolean},
     whole("materials/*/normalTexture/index", 0, 0x7fffffff),
     Rule{"meshes/*/name"},
@@ -143,7 +144,8 @@ inline constexpr std::array rules{
     Rule{"buffers/*/uri"},
 };
 
-/// Checked only where surfaces are lit by bump maps; otherwise textures are not read.
+/// Checked only where surfaces are lit by bump maps or have alpha masks; otherwise textures are not
+/// read.
 inline constexpr std::array rules_of_lighting{
     numbers("extras?/shadowproof/ambient", 3),
     Rule{"extras?/shadowproof/inverseSquare", Kind::boolean},

@@ -75,23 +75,11 @@ void read_normals(AccessorReader& reader, const PosedPart& posed, Local& local) 
 std::vector<glm::vec2> read_coordinates(AccessorReader& reader, const PosedPart& posed,
                                         const Local& local, const Coordinates& from,
                                         const char* what) {
-    const Attribute wanted = coordinates(from.set);
-    if (!has_attribute(posed.part, wanted))
-        (posed.part.place / "attributes")
-            .refuse(fmt::format("\"{}\" is missing", wanted.name),
-                    fmt::format("add it, for the material has a {}", what));
-    const Elements given =
-        read_morphed(reader, posed.part, wanted, posed.weights, posed.positions.count);
+    const std::vector<glm::vec2> of_vertices =
+        texture_coordinates(reader, posed.part, posed.weights, posed.positions.count, from, what);
     std::vector<glm::vec2> at;
     at.reserve(local.vertices.size());
-    for (const std::uint32_t vertex : local.vertices) {
-        at.emplace_back(from.transform *
-                        glm::dvec3(given.values[2 * vertex], given.values[2 * vertex + 1], 1));
-        if (!std::isfinite(at.back().x) || !std::isfinite(at.back().y)) // as morphed and placed
-            (posed.part.place / "attributes" / wanted.name)
-                .refuse(fmt::format("vertex {} has coordinates that are not finite", vertex),
-                        "scale its displacements or its texture's transform down");
-    }
+    for (const std::uint32_t vertex : local.vertices) at.push_back(of_vertices[vertex]);
     return at;
 }
 
@@ -180,6 +168,28 @@ void settle_hands(const PosedPart& posed, std::vector<glm::vec4>& tangents_of_co
 
 } // namespace
 
+std::vector<glm::vec2> texture_coordinates(AccessorReader& reader, const Part& part,
+                                           const std::vector<double>& weights, std::size_t vertices,
+                                           const Coordinates& from, const char* what) {
+    const Attribute wanted = coordinates(from.set);
+    if (!has_attribute(part, wanted))
+        (part.place / "attributes")
+            .refuse(fmt::format("\"{}\" is missing", wanted.name),
+                    fmt::format("add it, for the material has {}", what));
+    const Elements given = read_morphed(reader, part, wanted, weights, vertices);
+    std::vector<glm::vec2> at;
+    at.reserve(vertices);
+    for (std::size_t i = 0; i < vertices; ++i) {
+        at.emplace_back(from.transform *
+                        glm::dvec3(given.values[2 * i], given.values[2 * i + 1], 1));
+        if (!std::isfinite(at.back().x) || !std::isfinite(at.back().y)) // as morphed and placed
+            (part.place / "attributes" / wanted.name)
+                .refuse(fmt::format("vertex {} has coordinates that are not finite", i),
+                        "scale its displacements or its texture's transform down");
+    }
+    return at;
+}
+
 void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Material& material,
                      const CoordinateSets& sets, Scene& scene) {
     if (scene.surfaces.size() / 3 + posed.triangles.size() > limits.surfaces)
@@ -197,9 +207,9 @@ void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Mater
     local.vertices = vertices_of(posed.triangles);
     read_normals(reader, posed, local);
     if (material.decal != no_texture)
-        local.decal_at = read_coordinates(reader, posed, local, sets.decal, "decal");
+        local.decal_at = read_coordinates(reader, posed, local, sets.decal, "a decal");
     if (material.bump != Bump::none) {
-        local.bump_at = read_coordinates(reader, posed, local, sets.bump, "bump map");
+        local.bump_at = read_coordinates(reader, posed, local, sets.bump, "a bump map");
         const bool given =
             has_attribute(posed.part, normals) && has_attribute(posed.part, tangents);
         local.tangents = given ? read_tangents(reader, posed, local) : made_tangents(posed, local);

@@ -36,4 +36,10 @@ struct PosedPart {
 void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Material& material,
                      const CoordinateSets& sets, Scene& scene);
 
+/// The coordinates of a texture at all vertices of a primitive, morphed, transformed and rounded to
+/// float. `what`: whose texture it is, for messages. Refused: a texture without its coordinates.
+std::vector<glm::vec2> texture_coordinates(AccessorReader& reader, const Part& part,
+                                           const std::vector<double>& weights, std::size_t vertices,
+                                           const Coordinates& from, const char* what);
+
 } // namespace shadowproof::gltf

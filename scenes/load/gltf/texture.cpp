@@ -66,7 +66,8 @@ void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
     const Place place = document_.root() / "samplers" / sampler;
     texture.wrap_s = wrap_mode(place / "wrapS", source.value("wrapS", wrap_repeat));
     texture.wrap_t = wrap_mode(place / "wrapT", source.value("wrapT", wrap_repeat));
-    nearest_ = nearest_ || source.value("magFilter", 0) == filter_nearest;
+    texture.nearest = source.value("magFilter", 0) == filter_nearest;
+    nearest_ = nearest_ || texture.nearest;
 }
 
 TextureImage TextureReader::decode(const Place& reference, std::size_t texture, Encoding encoding) {

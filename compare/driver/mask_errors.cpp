@@ -1,0 +1,41 @@
+#include "compare/driver/mask_errors.h"
+
+#include "compare/driver/error_bounds.h"
+#include "compare/driver/setup_error.h"
+#include "reference/trace/faces.h"
+#include "reference/trace/state.h"
+#include "scenes/surface/alpha_mask.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace shadowproof {
+
+DriverMaskErrors::DriverMaskErrors(const Scene& scene, const DepthModel& depth_model,
+                                   const Drawing& drawing)
+    : scene_(scene), depth_model_(depth_model), drawing_(drawing) {}
+
+// What lies aside is told by the rays of the pixel's neighbourhood.
+MaskError DriverMaskErrors::at(std::uint32_t triangle, const glm::dvec3& direction) const {
+    const double depth = depth_on_triangle(scene_, triangle, direction);
+    const double reach = lateral_error(scene_, depth_model_, scene_.camera.eye + depth * direction);
+    const double share = attribute_error(scene_, triangle, {direction, reach, drawing_});
+    glm::dvec2 largest(0);
+    for (const glm::dvec2& corner : mask_coordinates(scene_, triangle))
+        largest = glm::max(largest, glm::abs(corner));
+    return {share * largest + mask_place_roundings, alpha_roundings};
+}
+
+bool may_stand(const Tracer& tracer, const Neighbourhood& around, const MaskErrors& errors,
+               std::uint32_t triangle) {
+    const Tracer::State& state = tracer.state();
+    if (!state.has_mask(triangle)) return true;
+    const MaskedTriangle masked = state.masked(triangle);
+    return std::ranges::any_of(around.rays, [&](const glm::dvec3& direction) {
+        return may_stand_on_ray({state.eye, direction, {}}, masked, errors.at(triangle, direction),
+                                MaskReading::most);
+    });
+}
+
+} // namespace shadowproof
