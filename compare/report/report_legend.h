@@ -26,6 +26,7 @@ inline constexpr std::array<Rgb, all_causes.size()> cause_colors{{
     {0xB8, 0xE0, 0xC8}, // open_mesh: pale green
     {0x00, 0x72,
      0xB2}, // light_inside: blue, as techniques whose volumes end flip casters around the light
+    {0xA4, 0xD0, 0x1E}, // alpha: lime
     {0xE6, 0x9F, 0x00}, // resolution: orange
     {0xCC, 0x79, 0xA7}, // acne: reddish purple
     {0x00, 0x9E, 0x73}, // leak: bluish green

@@ -29,7 +29,7 @@ test('the table of techniques says what list says', () => {
   // What all may show, the text below the table says.
   const uncounted = ['invert', 'zfail_float'];
   const common = ({ name, precise }) => (precise === null ? ['precision']
-    : ['precision', 'open_mesh', ...(uncounted.includes(name) ? [] : ['counter'])]);
+    : ['precision', 'open_mesh', 'alpha', ...(uncounted.includes(name) ? [] : ['counter'])]);
   for (const technique of techniques)
     for (const cause of common(technique))
       assert.ok(technique.fails_at.includes(cause), `${technique.name} ${cause}`);
