@@ -182,6 +182,16 @@ std::string ledger_text(const Scene& scene, const PixelRecord& record) {
                               counts.at_infinity);
 }
 
+/// What alpha masks take from the shadow depth at the surface; empty where that is nothing.
+std::string masks_text(const Tracer& tracer, const PixelRecord& record) {
+    if (!has_masks(tracer.scene())) return {};
+    const std::int32_t open = count_let_through(tracer, record.direction, record.seen);
+    if (open == 0) return {};
+    return fmt::format("  masks     the light falls through holes in the casters of {} of those at "
+                       "the surface\n",
+                       open);
+}
+
 /// The techniques of one family as a table: what their evidence is, their claims and causes.
 class FamilyTable {
 public:
@@ -251,13 +261,14 @@ std::string techniques_text(const std::vector<TechniqueAtPixel>& techniques) {
     return text;
 }
 
-std::string as_text(const Scene& scene, const PixelRecord& record,
+/// `masks`: masks_text.
+std::string as_text(const Scene& scene, const PixelRecord& record, const std::string& masks,
                     const std::vector<TechniqueAtPixel>& techniques) {
     std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", printable(scene.name), record.x,
                                    record.y, scene.camera.width, scene.camera.height);
     for (const std::string& note : scene.notes)
         text += fmt::format("  note      {}\n", printable(note));
-    return text + ray_text(scene, record) + ledger_text(scene, record) +
+    return text + ray_text(scene, record) + ledger_text(scene, record) + masks +
            techniques_text(techniques);
 }
 
@@ -309,7 +320,7 @@ int explain(const ExplainOptions& options, int watcher) {
     console.clear_progress();
     const Scene told = in_file_units(scene);
     const PixelRecord told_record = in_units(record, scene.unit);
-    if (!options.quiet) print(as_text(told, told_record, techniques));
+    if (!options.quiet) print(as_text(told, told_record, masks_text(tracer, record), techniques));
     for (const TechniqueAtPixel& technique : techniques)
         if (!technique.error.empty()) complain(technique.error);
     const std::string json = to_json(told, told_record, techniques)

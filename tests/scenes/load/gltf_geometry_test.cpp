@@ -180,13 +180,13 @@ TEST(glb, chunks_that_do_not_fit_are_refused) {
 
 TEST(notes, say_what_is_not_evaluated) {
     json gltf = triangle_gltf();
-    gltf["materials"] = json::array({{{"alphaMode", "MASK"}, {"doubleSided", true}}});
+    gltf["materials"] = json::array({{{"alphaMode", "BLEND"}, {"doubleSided", true}}});
     primitive_of(gltf)["material"] = 0;
     gltf["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     gltf["extensionsUsed"] = {"EXT_lights_ies"};
     const Scene scene = load(gltf);
     EXPECT_TRUE(scene.materials[scene.meshes[0].material].double_sided);
-    EXPECT_TRUE(says(scene, "alphaMode MASK is drawn as opaque"));
+    EXPECT_TRUE(says(scene, "alphaMode BLEND is drawn as opaque"));
     EXPECT_TRUE(says(scene, "/meshes/0/primitives/1: points and lines are left out"));
     EXPECT_TRUE(says(scene, "EXT_lights_ies is not evaluated"));
     EXPECT_FALSE(says(load(triangle_gltf()), "not evaluated"));
