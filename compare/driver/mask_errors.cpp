@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 namespace shadowproof {
 
@@ -36,6 +37,15 @@ bool may_stand(const Tracer& tracer, const Neighbourhood& around, const MaskErro
         return may_stand_on_ray({state.eye, direction, {}}, masked, errors.at(triangle, direction),
                                 MaskReading::most);
     });
+}
+
+bool may_stand(const Tracer& tracer, const DepthModel& depth_model, double far,
+               const Neighbourhood& around, std::uint32_t triangle) {
+    if (!tracer.state().has_mask(triangle)) return true;
+    const double cut = depth_model.clips_at_far() ? far : std::numeric_limits<double>::infinity();
+    const DriverMaskErrors errors(tracer.scene(), depth_model,
+                                  drawing_of(tracer.scene(), depth_model, cut));
+    return may_stand(tracer, around, errors, triangle);
 }
 
 } // namespace shadowproof

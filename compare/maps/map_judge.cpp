@@ -1,6 +1,7 @@
 #include "compare/driver/coarse_outlines.h"
 #include "compare/driver/cone_side.h"
 #include "compare/driver/error_bounds.h"
+#include "compare/driver/mask_errors.h"
 #include "compare/driver/setup_error.h"
 #include "compare/driver/shown_pixel.h"
 #include "compare/judge/judge.h"
@@ -212,7 +213,9 @@ private:
         }
         const Scene& scene = claim_.traced.scene();
         if (claim == Visibility::background ||
-            (!seen(drawn) && !may_cover(scene, drawn, around.rays.front(), spread(around))))
+            (!seen(drawn) && !(may_cover(scene, drawn, around.rays.front(), spread(around)) &&
+                               may_stand(claim_.traced.tracer(), claim_.frame.depth_model,
+                                         claim_.traced.far(), around, drawn))))
             return false;
         if (!sides_of(claim_.traced.tracer(), drawn).faces_light())
             return claim == Visibility::shadowed;

@@ -2,6 +2,7 @@
 
 #include "compare/driver/coarse_outlines.h"
 #include "compare/driver/error_bounds.h"
+#include "compare/driver/mask_errors.h"
 #include "reference/predict/tally.h"
 #include "reference/trace/faces.h"
 
@@ -21,7 +22,8 @@ PixelFaces::PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const 
       depths_(tracer.scene(), {volumes.casters, volumes.far_ends}, frame, far, around) {
     shown_range_ = shown == no_triangle ? depths_.background() : depths_.surface(shown);
     may_cover_ =
-        shown == no_triangle || may_cover(scene_, shown, around.rays.front(), spread(around));
+        shown == no_triangle || (may_cover(scene_, shown, around.rays.front(), spread(around)) &&
+                                 may_stand(tracer, frame.depth_model, far, around, shown));
     std::vector<std::uint32_t> in_front;
     for (const RayTruth& t : truth)
         if (t.triangle != no_triangle && t.triangle != shown && certainly_in_front(t.triangle))

@@ -35,8 +35,11 @@ async function render({ view, shadow, file }) {
     if (object.isLight) fileLights.push(object);
     if (!object.isMesh) return;
     // Flat: the file may have no normals, and smooth ones are dark where faces are not averted.
-    object.material = new THREE.MeshLambertMaterial({ side: object.material.side,
-                                                      flatShading: true });
+    // An alpha mask is kept, and read at its full size, as the truth reads it.
+    const { side, alphaTest, map } = object.material;
+    const mask = alphaTest > 0 && map ? { alphaTest, map } : {};
+    if (mask.map) Object.assign(map, { minFilter: THREE.LinearFilter, generateMipmaps: false });
+    object.material = new THREE.MeshLambertMaterial({ side, flatShading: true, ...mask });
     // Without normals, three.js's shadows are looked up nowhere.
     object.geometry = object.geometry.toNonIndexed();
     object.geometry.computeVertexNormals();

@@ -94,6 +94,16 @@ TEST_F(Masks, that_the_surface_pass_ignores_are_caught) {
         EXPECT_GT(unexplained(compared(traced, drawn_whole(traced, name))), 500U) << name;
 }
 
+TEST_F(Masks, that_leave_too_much_out_are_caught) {
+    const TracedScene& traced = traced_bundled("perforated");
+    Scene less = traced.scene;
+    for (AlphaMask& mask : less.masks) mask.least = 2;
+    for (const char* name : {"zfail_reversed", "cube_map_six_pass", "traced_skip"}) {
+        const Frame frame = render(*find_technique(name), less, traced.plan, gpu());
+        EXPECT_GT(unexplained(compared(traced, frame)), 5000U) << name;
+    }
+}
+
 TEST_F(Masks, that_a_map_ignores_are_caught) {
     const TracedScene& traced = traced_bundled("perforated");
     Frame frame = drawn(traced, "cube_map_six_pass");
