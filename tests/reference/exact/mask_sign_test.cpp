@@ -9,8 +9,10 @@ namespace {
 
 /// Two by two texels: 0 and 1 above, 1 and 0 below.
 AlphaMask checkers(double least) {
-    AlphaMask mask{
-        .alpha = Image<float>(2, 2), .wrap_s = Wrap::clamp_to_edge, .wrap_t = Wrap::clamp_to_edge};
+    AlphaMask mask{.name = "checkers",
+                   .alpha = Image<float>(2, 2),
+                   .wrap_s = Wrap::clamp_to_edge,
+                   .wrap_t = Wrap::clamp_to_edge};
     mask.alpha.at(1, 0) = mask.alpha.at(0, 1) = 1;
     mask.least = least;
     return mask;

@@ -47,7 +47,7 @@ TEST(MaskAgreement, the_bundled_sheets_have_holes_to_see_and_to_light_through) {
                            : 0;
     }
     EXPECT_GT(seen_through, 60U);
-    EXPECT_GT(lit_through, 30U);
+    EXPECT_GT(lit_through, 10U);
     EXPECT_EQ(ask_witness(scene, truth, 1'000'000, 0).disagreements, 0U);
 }
 
