@@ -77,10 +77,10 @@ TEST_F(Masks, that_volumes_know_nothing_of_are_named_where_whole_casters_would_b
                                   traced.truth.triangle.at(x, y)) > 0;
             expected += falls_on_holes ? 1 : 0;
             const auto cause = static_cast<Cause>(volumes.cause.at(x, y));
-            if (falls_on_holes)
-                EXPECT_TRUE(cause == Cause::alpha || cause == Cause::edge) << x << " " << y;
+            EXPECT_TRUE(!falls_on_holes || cause == Cause::alpha || cause == Cause::edge)
+                << x << " " << y;
         }
-    EXPECT_GT(expected, 2000U);
+    EXPECT_GT(expected, 1000U);
     EXPECT_NEAR(static_cast<double>(pixels_of(volumes, Cause::alpha)),
                 static_cast<double>(expected), 0.01 * static_cast<double>(expected));
     EXPECT_EQ(unexplained(volumes), 0U);
@@ -143,7 +143,7 @@ TEST_F(Masks, that_a_counter_seems_to_know_of_are_caught) {
             frame.counted->counter.pixels[i] = 0;
             frame.claim.pixels[i] = Visibility::lit;
         }
-    EXPECT_GT(unexplained(compared(traced, frame)), 2000U);
+    EXPECT_GT(unexplained(compared(traced, frame)), 1000U);
 }
 
 } // namespace
