@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
-import { deflateSync, inflateSync } from 'node:zlib';
+import { changeBlock, damageBlock } from './coded.mjs';
 import { cellsOf, copyOfReport, emptyPage, keepScreenshot, openReport, resultsOf, settledLink, shown,
          text, writeReport } from './browser.mjs';
 import { randomNumbers, seed } from './random.mjs';
@@ -36,14 +36,6 @@ async function opened(damage, hash = link) {
 }
 
 /** Changes a block of a cell's script: `change` gets its bytes. */
-function changeBlock(path, name, change) {
-  const old = readFileSync(path, 'utf8');
-  const block = new RegExp(`("${name}":\\s*\\{[^}]*"data":\\s*")([^"]*)`);
-  const bytes = inflateSync(Buffer.from(block.exec(old)[2], 'base64'));
-  change(bytes);
-  writeFileSync(path, old.replace(block, `$1${deflateSync(bytes).toString('base64')}`));
-}
-
 function changeResults(path, change) {
   const results = JSON.parse(readFileSync(path('results.json'), 'utf8'));
   change(results.scenes[0].techniques[0], results);
@@ -179,7 +171,7 @@ test('the difference marks nothing where colours alone differ; the cause does', 
 
 test('a colour that nothing predicts is an alarm, and its pixel does not simply agree', async () => {
   const changed = (path) => {
-    changeBlock(path('bumpy_torus/bump_tangent_space/cell.js'), 'color_verdict',
+    changeBlock(path('.'), 'bumpy_torus', 'bump_tangent_space', 'color_verdict',
                 (verdicts) => { verdicts[120 * 160 + 80] = 3; });
     changeResults(path, (first, results) => {
       const cell = results.scenes[0].techniques.find(({ name }) => name === 'bump_tangent_space');
@@ -214,10 +206,7 @@ test('results that name no picture of the colours are told so', async () => {
 });
 
 test('damaged colours are named, shown as unknown, and cost no ledger', async () => {
-  const { page } = await opened((path) => {
-    const old = readFileSync(path(cellFile), 'utf8');
-    writeFileSync(path(cellFile), old.replace(/("color":\s*\{[^}]*"data":\s*")..../, '$1AAAA'));
-  });
+  const { page } = await opened((path) => damageBlock(path(cellFile), 'color'));
   assert.match(await alerts(page), /cell\.js: block color is damaged/);
   assert.match(await alerts(page), /The colours cannot be shown\./);
   assert.equal(await page.locator('.values.colors').count(), 0);
@@ -225,7 +214,8 @@ test('damaged colours are named, shown as unknown, and cost no ledger', async ()
 });
 
 test('colours of another run are not taken for those of this', async () => {
-  const { page } = await opened((path) => changeBlock(path(cellFile), 'color_verdict',
-                                                      (verdicts) => verdicts.fill(1)));
+  const { page } = await opened((path) =>
+    changeBlock(path('.'), 'bumpy_torus', 'bump_three_pass', 'color_verdict',
+                (verdicts) => verdicts.fill(1)));
   assert.match(await alerts(page), /cell\.js does not belong to results\.js: its colours were judged otherwise/);
 });
