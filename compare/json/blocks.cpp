@@ -162,4 +162,8 @@ std::string sequence_block(const NumberList& list, int columns) {
                  coded_sequence(list.values, static_cast<std::uint32_t>(columns)));
 }
 
+std::string rows_block(const NumberList& list) {
+    return block(list, "rows", "", coded_rows(list.values));
+}
+
 } // namespace shadowproof

@@ -72,5 +72,6 @@ std::string differing_block(const NumberList& list, int width, const NumberList&
 /// Three bytes for each pixel.
 std::string shades_block(const NumberList& list, int width, const Guide& guide = {});
 std::string sequence_block(const NumberList& list, int columns = 1);
+std::string rows_block(const NumberList& list);
 
 } // namespace shadowproof

@@ -25,4 +25,8 @@ std::string coded_shades(Numbers values, std::uint32_t width, std::uint32_t chan
 /// their column.
 std::string coded_sequence(Numbers values, std::uint32_t columns);
 
+/// Rows of numbers that are not 0, with a 0 behind each. What a row has at its begin and at its end
+/// like the row before is taken from there, and only what lies between is coded, as a sequence.
+std::string coded_rows(Numbers values);
+
 } // namespace shadowproof

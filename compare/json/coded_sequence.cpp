@@ -8,7 +8,7 @@ namespace shadowproof {
 
 namespace {
 
-/// What is known of one column of the rows.
+/// What is known of the numbers of one column.
 struct Column {
     std::unordered_map<std::uint64_t, std::uint32_t> after_two; ///< by both numbers
     std::unordered_map<std::uint32_t, std::uint32_t> after_one;
@@ -21,37 +21,72 @@ struct Column {
         0; ///< a bit for each number, the last one lowest: whether by_two was right
 };
 
+/// A number behind `two` and `one`; `otherwise` is guessed where `one` is met for the first time.
+void code_next(BitCoder& coder, Column& column, std::uint32_t value, std::uint32_t two,
+               std::uint32_t one, std::uint32_t otherwise) {
+    std::uint32_t& after_one = column.after_one.try_emplace(one, otherwise).first->second;
+    std::uint32_t& after_two =
+        column.after_two.try_emplace(std::uint64_t{two} << 32U | one, after_one).first->second;
+    const std::uint32_t context = (column.hits & 15U) | (after_two == after_one ? 16U : 0U);
+    const bool by_two = after_two == value;
+    coder.code(by_two, column.by_two[context]);
+    bool found = by_two;
+    if (!found && after_one != after_two) {
+        found = after_one == value;
+        coder.code(found, column.by_one[context]);
+    }
+    if (!found) {
+        found = value == column.largest + 1;
+        coder.code(found, column.is_new[context]);
+    }
+    if (!found) column.steps.code(coder, folded(static_cast<std::int32_t>(value - after_one)));
+    column.hits = column.hits << 1U | (by_two ? 1U : 0U);
+    column.largest = std::max(column.largest, value);
+    after_two = value;
+    after_one = value;
+}
+
 } // namespace
 
 std::string coded_sequence(Numbers values, std::uint32_t columns) {
     BitCoder coder;
     std::vector<Column> all(columns);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        Column& column = all[i % columns];
-        const std::uint32_t value = values[i];
-        const std::uint32_t one = i >= 1 ? values[i - 1] : 0;
-        const std::uint32_t two = i >= 2 ? values[i - 2] : 0;
-        const std::uint32_t row_before = i >= columns ? values[i - columns] : 0;
-        std::uint32_t& after_one = column.after_one.try_emplace(one, row_before).first->second;
-        std::uint32_t& after_two =
-            column.after_two.try_emplace(std::uint64_t{two} << 32U | one, after_one).first->second;
-        const std::uint32_t context = (column.hits & 15U) | (after_two == after_one ? 16U : 0U);
-        const bool by_two = after_two == value;
-        coder.code(by_two, column.by_two[context]);
-        bool found = by_two;
-        if (!found && after_one != after_two) {
-            found = after_one == value;
-            coder.code(found, column.by_one[context]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        code_next(coder, all[i % columns], values[i], i >= 2 ? values[i - 2] : 0,
+                  i >= 1 ? values[i - 1] : 0, i >= columns ? values[i - columns] : 0);
+    return coder.finish();
+}
+
+std::string coded_rows(Numbers values) {
+    BitCoder coder;
+    Column column;
+    NumberCoder begins;
+    NumberCoder removals;
+    NumberCoder additions;
+    Numbers before;
+    std::int32_t begin_before = 0;
+    while (!values.empty()) {
+        const auto end = static_cast<std::size_t>(std::ranges::find(values, 0U) - values.begin());
+        const Numbers row = values.first(end);
+        const std::size_t both = std::min(row.size(), before.size());
+        std::size_t begin = 0;
+        while (begin < both && row[begin] == before[begin]) ++begin;
+        std::size_t tail = 0;
+        while (tail < both - begin &&
+               row[row.size() - 1 - tail] == before[before.size() - 1 - tail])
+            ++tail;
+        const auto removed = static_cast<std::int32_t>(before.size() - begin - tail);
+        const auto added = static_cast<std::int32_t>(row.size() - begin - tail);
+        begins.code(coder, folded(static_cast<std::int32_t>(begin) - begin_before));
+        removals.code(coder, static_cast<std::uint32_t>(removed));
+        additions.code(coder, folded(added - removed));
+        for (std::size_t i = begin; i < row.size() - tail; ++i) {
+            const std::uint32_t one = i >= 1 ? row[i - 1] : 0;
+            code_next(coder, column, row[i], i >= 2 ? row[i - 2] : 0, one, one);
         }
-        if (!found) {
-            found = value == column.largest + 1;
-            coder.code(found, column.is_new[context]);
-        }
-        if (!found) column.steps.code(coder, folded(static_cast<std::int32_t>(value - after_one)));
-        column.hits = column.hits << 1U | (by_two ? 1U : 0U);
-        column.largest = std::max(column.largest, value);
-        after_two = value;
-        after_one = value;
+        begin_before = static_cast<std::int32_t>(begin);
+        before = row;
+        values = values.subspan(end + 1);
     }
     return coder.finish();
 }

@@ -93,15 +93,9 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
                          {"cause", name_of(comparison.first->cause)}};
     const EvidenceSummary& evidence = comparison.summary;
     if (!evidence.results.empty()) json.update(Json::parse(evidence.results));
-    for (const char* kind : {"claim", "difference", "cause"})
+    for (const std::string& kind : picture_kinds(cell))
         json["images"][kind] = picture_path(scene, cell, kind);
-    for (const std::string& kind : evidence.pictures)
-        json["images"][kind] = picture_path(scene, cell, kind);
-    if (comparison.colors) {
-        json["color"] = color_of(*comparison.colors);
-        for (const char* kind : {"color", "color_error"})
-            json["images"][kind] = picture_path(scene, cell, kind);
-    }
+    if (comparison.colors) json["color"] = color_of(*comparison.colors);
     json["cause_map"] = cell.cause_map;
     if (cell.since) json["since"] = since_of(*cell.since);
     for (const Acceptance& one : cell.accepted)

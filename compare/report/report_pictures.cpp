@@ -42,7 +42,17 @@ std::string folder_of(const SceneResult& scene) {
 }
 
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
+    const auto same = cell.same_pictures.find(kind);
+    if (same != cell.same_pictures.end()) return same->second;
     return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+}
+
+std::vector<std::string> picture_kinds(const Cell& cell) {
+    std::vector<std::string> kinds{"claim", "difference", "cause"};
+    const std::vector<std::string>& of_evidence = cell.comparison.summary.pictures;
+    kinds.insert(kinds.end(), of_evidence.begin(), of_evidence.end());
+    if (cell.comparison.colors) kinds.insert(kinds.end(), {"color", "color_error"});
+    return kinds;
 }
 
 std::string truth_path(const SceneResult& scene) {

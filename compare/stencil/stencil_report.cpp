@@ -132,7 +132,7 @@ public:
             {"ledger_counts", rows(ledgers_.counts, 5)},
             {"ledger_exact", rows(ledgers_.adds_up)},
             {"ledger_predicted", rows(ledgers_.predicted)},
-            {"crossing", sequence_block(crossing_list(ledgers_))},
+            {"crossing", rows_block(crossing_list(ledgers_))},
             {"face", rows(ledgers_.face, 2)},
             {"triangle", rows(ledgers_.triangle, 4)},
             {"vertex", rows(ledgers_.vertex, 3)}};

@@ -171,35 +171,62 @@ const newColumn = () => ({
   isNew: newChances(32), steps: new NumberReader(), largest: 0, hits: 0,
 });
 
+/** The number behind `two` and `one`; `otherwise` is guessed where `one` is met first. */
+function readNext(reader, column, two, one, otherwise) {
+  let known = column.afterTwo.get(two);
+  if (!known) column.afterTwo.set(two, known = new Map());
+  const afterOne = column.afterOne.get(one) ?? otherwise;
+  const afterTwo = known.get(one) ?? afterOne;
+  const context = column.hits & 15 | (afterTwo === afterOne ? 16 : 0);
+  let value = afterTwo;
+  const byTwo = reader.bit(column.byTwo, context);
+  if (!byTwo) {
+    value = afterOne;
+    if (afterOne === afterTwo || !reader.bit(column.byOne, context))
+      value = reader.bit(column.isNew, context) ? column.largest + 1 >>> 0
+        : afterOne + unfolded(column.steps.number(reader)) >>> 0;
+  }
+  column.hits = column.hits << 1 | (byTwo ? 1 : 0);
+  if (value > column.largest) column.largest = value;
+  known.set(one, value);
+  column.afterOne.set(one, value);
+  return value;
+}
+
 /** Rows of `columns` numbers each into `values`. */
 function readSequence(reader, values, { columns }) {
   const all = Array.from({ length: columns }, newColumn);
-  for (let i = 0; i < values.length; ++i) {
-    const column = all[i % columns];
-    const one = i >= 1 ? values[i - 1] : 0;
-    const two = i >= 2 ? values[i - 2] : 0;
-    if (!column.afterTwo.has(two)) column.afterTwo.set(two, new Map());
-    const known = column.afterTwo.get(two);
-    const afterOne = column.afterOne.get(one) ?? (i >= columns ? values[i - columns] : 0);
-    const afterTwo = known.get(one) ?? afterOne;
-    const context = column.hits & 15 | (afterTwo === afterOne ? 16 : 0);
-    let value = afterTwo;
-    const byTwo = reader.bit(column.byTwo, context);
-    if (!byTwo) {
-      value = afterOne;
-      if (afterOne === afterTwo || !reader.bit(column.byOne, context))
-        value = reader.bit(column.isNew, context) ? column.largest + 1 >>> 0
-          : afterOne + unfolded(column.steps.number(reader)) >>> 0;
+  for (let i = 0; i < values.length; ++i)
+    values[i] = readNext(reader, all[i % columns], i >= 2 ? values[i - 2] : 0,
+                         i >= 1 ? values[i - 1] : 0, i >= columns ? values[i - columns] : 0);
+}
+
+/** Rows with a 0 behind each into `values`. */
+function readRows(reader, values) {
+  const column = newColumn();
+  const [begins, removals, additions] = [new NumberReader(), new NumberReader(), new NumberReader()];
+  let before = 0; // where the row before begins, and its length
+  let lengthBefore = 0;
+  let common = 0;
+  for (let at = 0; at < values.length;) {
+    common += unfolded(begins.number(reader));
+    const removed = removals.number(reader);
+    const added = removed + unfolded(additions.number(reader));
+    const tail = lengthBefore - common - removed;
+    if (common < 0 || added < 0 || tail < 0 || at + common + added + tail >= values.length) return;
+    values.copyWithin(at, before, before + common);
+    for (let i = common; i < common + added; ++i) {
+      const one = i >= 1 ? values[at + i - 1] : 0;
+      values[at + i] = readNext(reader, column, i >= 2 ? values[at + i - 2] : 0, one, one);
     }
-    column.hits = column.hits << 1 | (byTwo ? 1 : 0);
-    if (value > column.largest) column.largest = value;
-    values[i] = value;
-    known.set(one, value);
-    column.afterOne.set(one, value);
+    values.copyWithin(at + common + added, before + common + removed, before + lengthBefore);
+    before = at;
+    lengthBefore = common + added + tail;
+    at += lengthBefore + 1;
   }
 }
 
-const codedReaders = { areas: readAreas, shades: readShades, sequence: readSequence };
+const codedReaders = { areas: readAreas, shades: readShades, sequence: readSequence, rows: readRows };
 
 /** FNV-1a of numbers of 32 bits. */
 function sumOf(values) {

@@ -72,16 +72,30 @@ function claimWords({ claim, share }, pixel) {
 }
 
 /** The blocks of a cell's colours, if it has some. Damaged ones do not affect the evidence. */
-function openColors({ scene, cell, id, sceneFile, cellFile, blocks, problems }) {
+function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;
   const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
                                            { color: 3 * pixels }, problems);
   const claim = cellFile && decodedBlocks(
-    `${id}/cell.js`, cellFile.blocks, { color: 3 * pixels, color_verdict: pixels }, problems,
+    `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels }, problems,
     { guides: { true_color: truth?.color, claim: blocks?.claim } });
   return { trueColor: truth?.color ?? null, claimedColor: claim?.color ?? null,
            colorVerdict: claim?.color_verdict ?? null };
+}
+
+/** The blocks of a cell's file; those that stand in another cell's are taken from there. */
+async function ownBlocks(scene, cellFile, problems) {
+  const blocks = { ...cellFile?.blocks };
+  const others = new Map();
+  for (const [name, { from }] of Object.entries(blocks)) {
+    if (!from) continue;
+    const [technique, other] = from.split('/');
+    const path = `${scene.folder}/${technique}/cell.js`;
+    if (!others.has(path)) others.set(path, orProblem(handedOver(path), problems));
+    blocks[name] = (await others.get(path))?.blocks?.[other];
+  }
+  return blocks;
 }
 
 async function openCell(scene, cell) {
@@ -93,10 +107,11 @@ async function openCell(scene, cell) {
     orProblem(handedOver(`${id}/cell.js`), problems)]);
   const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
                                            { visibility: pixels }, problems);
+  const own = await ownBlocks(scene, cellFile, problems);
   const causes = cellFile &&
-    decodedBlocks(`${id}/cell.js`, cellFile.blocks, { cause: pixels }, problems).cause;
+    decodedBlocks(`${id}/cell.js`, own, { cause: pixels }, problems).cause;
   const blocks = cellFile && decodedBlocks(
-    `${id}/cell.js`, cellFile.blocks, lengthsOfCell(cell, pixels), problems,
+    `${id}/cell.js`, own, lengthsOfCell(cell, pixels), problems,
     { guides: { visibility: truth?.visibility },
       differing: causes?.map((cause) => (cause === noDifference ? 0 : 1)) });
   const opened = {
@@ -107,7 +122,7 @@ async function openCell(scene, cell) {
     claim: blocks?.claim ?? null,
     share: blocks?.share ?? null,
     blocks,
-    ...openColors({ scene, cell, id, sceneFile, cellFile, blocks, problems }),
+    ...openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }),
   };
   if (opened.visibility) checkTruth(opened);
   if (causes) checkCell(opened);
