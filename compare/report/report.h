@@ -67,7 +67,6 @@ std::vector<std::string> picture_kinds(const Cell& cell);
 
 /// The same for the picture that all cells of a scene share.
 std::string truth_path(const SceneResult& scene);
-std::string color_path(const SceneResult& scene);
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.

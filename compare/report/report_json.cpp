@@ -130,7 +130,6 @@ Json scene_of(const Report& report, const SceneResult& scene) {
                          {"background", traced.background},
                          {"degenerate", traced.degenerate}};
     json["images"] = {{"truth", truth_path(scene)}};
-    if (scene.bump_lit) json["images"]["color"] = color_path(scene);
     json["techniques"] = Json::array();
     for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(report, scene, cell));
     return json;

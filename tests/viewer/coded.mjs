@@ -26,9 +26,16 @@ export const damageBlock = (path, name) => rewriteBytes(path, (old) =>
   old.replace(blockNamed(name), (_, before, data) =>
     `${before}${data[0] === '\\' ? '~~~~' : 'AAAA'}${data.slice(4).replace(/^\\*/, '')}"`));
 
-/** The numbers of a block of a file's text; `guides`: those that it may be guessed from. */
-function numbersIn(text, name, guides) {
-  const [whole, before, data] = blockNamed(name).exec(text);
+const scriptOf = (report, scene, technique) =>
+  readFileSync(join(report, scene, technique, 'cell.js'), 'latin1');
+
+/** The numbers of a block of a cell, or of its scene's file; `guides`: those that it may be guessed from. */
+function numbersIn(report, scene, technique, name, guides) {
+  const script = technique ? scriptOf(report, scene, technique)
+    : readFileSync(join(report, scene, 'scene.js'), 'latin1');
+  const elsewhere = new RegExp(`"${name}":\\{"from":"(\\w+)/(\\w+)"`).exec(script);
+  if (elsewhere) return numbersIn(report, scene, elsewhere[1], elsewhere[2], guides);
+  const [, before, data] = blockNamed(name).exec(script);
   const block = JSON.parse(`{${before}"}}`)[name];
   block.data = unquoted(data);
   return codedNumbers(block, block.length, { guide: block.guide ? guides[block.guide] : null });
@@ -105,15 +112,13 @@ function sequenceOf(values) {
 
 /** Changes the bytes of a block of a cell that is guessed from its claim. */
 export function changeBlock(report, scene, technique, name, change) {
-  const path = join(report, scene, technique, 'cell.js');
-  const truth = readFileSync(join(report, scene, 'scene.js'), 'latin1');
-  rewriteBytes(path, (old) => {
-    const claim = numbersIn(old, 'claim', { visibility: numbersIn(truth, 'visibility', {}) });
-    const values = numbersIn(old, name, { claim });
-    change(values);
-    const block = `{"type":"u8","length":${values.length},"as":"sequence","columns":1,` +
-      `"sum":${sumOf(values)},"data":"`;
-    return old.replace(blockNamed(name), () =>
-      `"${name}":${block}${quoted(sequenceOf([...values]))}"`);
-  });
+  const visibility = numbersIn(report, scene, null, 'visibility', {});
+  const claim = numbersIn(report, scene, technique, 'claim', { visibility });
+  const values = numbersIn(report, scene, technique, name, { claim });
+  change(values);
+  const block = `{"type":"u8","length":${values.length},"as":"sequence","columns":1,` +
+    `"sum":${sumOf(values)},"data":"${quoted(sequenceOf([...values]))}"`;
+  const elsewhere = new RegExp(`"${name}":\\{"from":"[^"]*"`);
+  rewriteBytes(join(report, scene, technique, 'cell.js'), (old) =>
+    old.replace(elsewhere.test(old) ? elsewhere : blockNamed(name), () => `"${name}":${block}`));
 }
