@@ -15,7 +15,7 @@ namespace shadowproof {
 /// How likely a bit is 1, learned from those that were coded with it.
 struct Chance {
     static constexpr std::int32_t one = 1 << 22;
-    static constexpr std::int32_t most_met = 255; ///< from then on the oldest bits are forgotten
+    static constexpr std::int32_t most_met = 60; ///< from then on the oldest bits are forgotten
 
     std::int32_t of_one = one / 2; ///< of `one`, and never 0 nor all of it
     std::int32_t met = 0;          ///< bits

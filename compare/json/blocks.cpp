@@ -17,9 +17,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "blocks are written as they lie");
 
-/// For pictures of few values and repetitive lists, level 6 was measured to be 5 % smaller and to
-/// take twice as long.
-constexpr int compression_level = 1;
+/// Cause maps are a third smaller by it than by level 1.
+constexpr int compression_level = 9;
 
 struct FreeCompressor {
     void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }

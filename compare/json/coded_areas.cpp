@@ -66,7 +66,10 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
         if (!found) {
             const bool is_new = value == largest + 1;
             coder.code(is_new, chances[5U << 11U]);
-            if (!is_new) steps.code(coder, folded(static_cast<std::int32_t>(value - west)));
+            // Where all are different, values change little by little, as distances do.
+            const bool is_slope = west != north && west != north_west && north != north_west;
+            const std::uint32_t base = is_slope ? west + north - north_west : west;
+            if (!is_new) steps.code(coder, folded(static_cast<std::int32_t>(value - base)));
         }
         largest = std::max(largest, value);
         coded.values[i] = value;

@@ -2,16 +2,18 @@
 #include "compare/json/coded_lists.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <bit>
 
 namespace shadowproof {
 
 namespace {
 
-/// What is known of the numbers of one column.
+/// What is known of the numbers of one column. What followed others is in tables by their hash:
+/// numbers of one hash spoil each other's guess, which costs little; 0 is nothing.
 struct Column {
-    std::unordered_map<std::uint64_t, std::uint32_t> after_two; ///< by both numbers
-    std::unordered_map<std::uint32_t, std::uint32_t> after_one;
+    int bits; ///< of the hash, as many as fit the list
+    std::vector<std::uint32_t> after_two;
+    std::vector<std::uint32_t> after_one;
     std::vector<Chance> by_two = std::vector<Chance>(32);
     std::vector<Chance> by_one = std::vector<Chance>(32);
     std::vector<Chance> is_new = std::vector<Chance>(32);
@@ -19,14 +21,22 @@ struct Column {
     std::uint32_t largest = 0;
     std::uint32_t hits =
         0; ///< a bit for each number, the last one lowest: whether by_two was right
+
+    /// `numbers`: how many the list has.
+    explicit Column(std::size_t numbers)
+        : bits(std::clamp(static_cast<int>(std::bit_width(numbers)), 8, 18)),
+          after_two(std::size_t{1} << bits), after_one(std::size_t{1} << bits) {}
 };
 
 /// A number behind `two` and `one`; `otherwise` is guessed where `one` is met for the first time.
 void code_next(BitCoder& coder, Column& column, std::uint32_t value, std::uint32_t two,
                std::uint32_t one, std::uint32_t otherwise) {
-    std::uint32_t& after_one = column.after_one.try_emplace(one, otherwise).first->second;
-    std::uint32_t& after_two =
-        column.after_two.try_emplace(std::uint64_t{two} << 32U | one, after_one).first->second;
+    constexpr std::uint32_t mix = 0x9e3779b1U; // 2^32 over the golden ratio, as Knuth hashes
+    const int shift = 32 - column.bits;
+    std::uint32_t& after_one = column.after_one[one * mix >> shift];
+    std::uint32_t& after_two = column.after_two[(two * mix + one) * mix >> shift];
+    if (after_one == 0) after_one = otherwise;
+    if (after_two == 0) after_two = after_one;
     const std::uint32_t context = (column.hits & 15U) | (after_two == after_one ? 16U : 0U);
     const bool by_two = after_two == value;
     coder.code(by_two, column.by_two[context]);
@@ -50,7 +60,7 @@ void code_next(BitCoder& coder, Column& column, std::uint32_t value, std::uint32
 
 std::string coded_sequence(Numbers values, std::uint32_t columns) {
     BitCoder coder;
-    std::vector<Column> all(columns);
+    std::vector<Column> all(columns, Column(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
         code_next(coder, all[i % columns], values[i], i >= 2 ? values[i - 2] : 0,
                   i >= 1 ? values[i - 1] : 0, i >= columns ? values[i - columns] : 0);
@@ -59,7 +69,7 @@ std::string coded_sequence(Numbers values, std::uint32_t columns) {
 
 std::string coded_rows(Numbers values) {
     BitCoder coder;
-    Column column;
+    Column column(values.size());
     NumberCoder begins;
     NumberCoder removals;
     NumberCoder additions;

@@ -28,7 +28,7 @@ class BitReader {
     if (bit) this.high = middle;
     else this.low = middle + 1;
     ofOne[k] += 2 * ((bit ? (1 << 22) - 1 : 1) - ofOne[k]) / (2 * met[k] + 3) | 0;
-    if (met[k] < 255) ++met[k];
+    if (met[k] < 60) ++met[k];
     while (((this.low ^ this.high) & 0xff000000) === 0) {
       this.low = this.low << 8 >>> 0;
       this.high = (this.high << 8 | 0xff) >>> 0;
@@ -66,7 +66,7 @@ const unfolded = (value) => value >>> 1 ^ -(value & 1);
 function readAreas(reader, values, { width }, { guide, mask }) {
   const pixels = mask ? mask.length : values.length;
   const coded = mask ? new Uint32Array(pixels) : values;
-  const isCoded = new Uint8Array(pixels);
+  const has = mask ?? new Uint8Array(pixels).fill(1);
   const chances = newChances(6 << 11);
   const steps = new NumberReader();
   const guesses = [0, 0, 0, 0, 0];
@@ -74,14 +74,14 @@ function readAreas(reader, values, { width }, { guide, mask }) {
   let largest = 0;
   let next = 0;
   for (let i = 0, x = 0; i < pixels; ++i, x = x + 1 < width ? x + 1 : 0) {
-    if (mask && mask[i] === 0) continue;
+    if (has[i] === 0) continue;
     const above = i - width;
-    const west = x > 0 && isCoded[i - 1] ? coded[i - 1] : last;
-    const north = above >= 0 && isCoded[above] ? coded[above] : last;
-    const northWest = x > 0 && above >= 0 && isCoded[above - 1] ? coded[above - 1] : last;
-    const northEast = x + 1 < width && above >= 0 && isCoded[above + 1] ? coded[above + 1] : last;
-    const farWest = x > 1 && isCoded[i - 2] ? coded[i - 2] : last;
-    const farNorth = above >= width && isCoded[above - width] ? coded[above - width] : last;
+    const west = x > 0 && has[i - 1] ? coded[i - 1] : last;
+    const north = above >= 0 && has[above] ? coded[above] : last;
+    const northWest = x > 0 && above >= 0 && has[above - 1] ? coded[above - 1] : last;
+    const northEast = x + 1 < width && above >= 0 && has[above + 1] ? coded[above + 1] : last;
+    const farWest = x > 1 && has[i - 2] ? coded[i - 2] : last;
+    const farNorth = above >= width && has[above - width] ? coded[above - width] : last;
     let context = (north === west ? 1 : 0) | (northWest === west ? 2 : 0) |
       (northWest === north ? 4 : 0) | (northEast === north ? 8 : 0) |
       (farWest === west ? 16 : 0) | (farNorth === north ? 32 : 0);
@@ -98,19 +98,20 @@ function readAreas(reader, values, { width }, { guide, mask }) {
     guesses[k++] = north;
     guesses[k++] = northEast;
     guesses[k++] = northWest;
-    let value;
-    let found = false;
-    for (let tried = 0; tried < k && !found; ++tried) {
+    let value = guesses[0]; // not taken apart, which takes long
+    let found = reader.bit(chances, context);
+    for (let tried = 1; tried < k && !found; ++tried) {
       if (guesses.indexOf(guesses[tried]) < tried) continue;
       found = reader.bit(chances, tried << 11 | context);
       value = guesses[tried];
     }
-    if (!found)
+    if (!found) {
+      const isSlope = west !== north && west !== northWest && north !== northWest;
       value = reader.bit(chances, 5 << 11) ? largest + 1 >>> 0
-        : west + unfolded(steps.number(reader)) >>> 0;
+        : (isSlope ? west + north - northWest : west) + unfolded(steps.number(reader)) >>> 0;
+    }
     if (value > largest) largest = value;
     coded[i] = value;
-    isCoded[i] = 1;
     last = value;
     if (mask) values[next++] = value;
   }
@@ -166,17 +167,20 @@ function readShades(reader, values, { width }, { guide }) {
   }
 }
 
-const newColumn = () => ({
-  afterTwo: new Map(), afterOne: new Map(), byTwo: newChances(32), byOne: newChances(32),
-  isNew: newChances(32), steps: new NumberReader(), largest: 0, hits: 0,
-});
+/** What is known of the numbers of one column of a list: what followed others, by their hash. */
+function newColumn(numbers) {
+  const bits = Math.min(18, Math.max(8, 32 - Math.clz32(numbers)));
+  return { afterTwo: new Uint32Array(1 << bits), afterOne: new Uint32Array(1 << bits),
+           shift: 32 - bits, byTwo: newChances(32), byOne: newChances(32), isNew: newChances(32),
+           steps: new NumberReader(), largest: 0, hits: 0 };
+}
 
 /** The number behind `two` and `one`; `otherwise` is guessed where `one` is met first. */
 function readNext(reader, column, two, one, otherwise) {
-  let known = column.afterTwo.get(two);
-  if (!known) column.afterTwo.set(two, known = new Map());
-  const afterOne = column.afterOne.get(one) ?? otherwise;
-  const afterTwo = known.get(one) ?? afterOne;
+  const byOneAt = Math.imul(one, 0x9e3779b1) >>> column.shift;
+  const byTwoAt = Math.imul(Math.imul(two, 0x9e3779b1) + one, 0x9e3779b1) >>> column.shift;
+  const afterOne = column.afterOne[byOneAt] || otherwise;
+  const afterTwo = column.afterTwo[byTwoAt] || afterOne;
   const context = column.hits & 15 | (afterTwo === afterOne ? 16 : 0);
   let value = afterTwo;
   const byTwo = reader.bit(column.byTwo, context);
@@ -188,14 +192,14 @@ function readNext(reader, column, two, one, otherwise) {
   }
   column.hits = column.hits << 1 | (byTwo ? 1 : 0);
   if (value > column.largest) column.largest = value;
-  known.set(one, value);
-  column.afterOne.set(one, value);
+  column.afterTwo[byTwoAt] = value;
+  column.afterOne[byOneAt] = value;
   return value;
 }
 
 /** Rows of `columns` numbers each into `values`. */
 function readSequence(reader, values, { columns }) {
-  const all = Array.from({ length: columns }, newColumn);
+  const all = Array.from({ length: columns }, () => newColumn(values.length));
   for (let i = 0; i < values.length; ++i)
     values[i] = readNext(reader, all[i % columns], i >= 2 ? values[i - 2] : 0,
                          i >= 1 ? values[i - 1] : 0, i >= columns ? values[i - columns] : 0);
@@ -203,7 +207,7 @@ function readSequence(reader, values, { columns }) {
 
 /** Rows with a 0 behind each into `values`. */
 function readRows(reader, values) {
-  const column = newColumn();
+  const column = newColumn(values.length);
   const [begins, removals, additions] = [new NumberReader(), new NumberReader(), new NumberReader()];
   let before = 0; // where the row before begins, and its length
   let lengthBefore = 0;

@@ -54,7 +54,7 @@ class BitWriter {
     if (bit) this.high = middle;
     else this.low = middle + 1n;
     ofOne[k] += Math.trunc(2 * ((bit ? (1 << 22) - 1 : 1) - ofOne[k]) / (2 * met[k] + 3));
-    if (met[k] < 255) ++met[k];
+    if (met[k] < 60) ++met[k];
     while ((this.low ^ this.high) >> 24n === 0n) {
       this.bytes.push(Number(this.high >> 24n));
       this.low = this.low << 8n & 0xffffffffn;
@@ -85,13 +85,15 @@ function sequenceOf(values) {
   const writer = new BitWriter();
   const chances = { byTwo: newChances(32), byOne: newChances(32), isNew: newChances(32) };
   const steps = { widths: newChances(33), first: newChances(4 * 33), others: newChances(33) };
-  const [afterTwo, afterOne] = [new Map(), new Map()];
+  const bits = Math.min(18, Math.max(8, 32 - Math.clz32(values.length)));
+  const hash = (number) => Math.imul(number, 0x9e3779b1) >>> 32 - bits;
+  const [afterTwo, afterOne] = [new Uint32Array(1 << bits), new Uint32Array(1 << bits)];
   let [largest, hits] = [0, 0];
   values.forEach((value, i) => {
     const one = i >= 1 ? values[i - 1] : 0;
-    const key = `${i >= 2 ? values[i - 2] : 0} ${one}`;
-    const byOne = afterOne.get(one) ?? one;
-    const byTwo = afterTwo.get(key) ?? byOne;
+    const key = hash(Math.imul(i >= 2 ? values[i - 2] : 0, 0x9e3779b1) + one);
+    const byOne = afterOne[hash(one)] || one;
+    const byTwo = afterTwo[key] || byOne;
     const context = hits & 15 | (byTwo === byOne ? 16 : 0);
     writer.bit(value === byTwo, chances.byTwo, context);
     if (value !== byTwo) {
@@ -104,8 +106,8 @@ function sequenceOf(values) {
     }
     hits = hits << 1 | (value === byTwo ? 1 : 0);
     largest = Math.max(largest, value);
-    afterTwo.set(key, value);
-    afterOne.set(one, value);
+    afterTwo[key] = value;
+    afterOne[hash(one)] = value;
   });
   return writer.end();
 }
