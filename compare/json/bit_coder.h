@@ -13,7 +13,7 @@
 namespace shadowproof {
 
 /// How likely a bit is 1, learned from those that were coded with it.
-struct Chance {
+struct BitChance {
     static constexpr std::int32_t one = 1 << 22;
     static constexpr std::int32_t most_met = 60; ///< from then on the oldest bits are forgotten
 
@@ -29,7 +29,7 @@ struct Chance {
 
 class BitCoder {
 public:
-    void code(bool bit, Chance& chance) {
+    void code(bool bit, BitChance& chance) {
         const std::uint32_t share = static_cast<std::uint32_t>(chance.of_one) >> 6U; // of 2^16
         const std::uint32_t range = high_ - low_;
         const std::uint32_t middle =
@@ -73,9 +73,9 @@ public:
     }
 
 private:
-    std::vector<Chance> widths_ = std::vector<Chance>(33);
-    std::vector<Chance> first_ = std::vector<Chance>(4 * 33);
-    std::vector<Chance> others_ = std::vector<Chance>(33);
+    std::vector<BitChance> widths_ = std::vector<BitChance>(33);
+    std::vector<BitChance> first_ = std::vector<BitChance>(4 * 33);
+    std::vector<BitChance> others_ = std::vector<BitChance>(33);
 };
 
 /// Small for numbers near 0, of either sign: 0, -1, 1, -2, ...

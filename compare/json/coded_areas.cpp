@@ -28,7 +28,7 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
     const std::size_t pixels = mask.empty() ? values.size() : mask.size();
     Coded coded{width, std::vector<std::uint32_t>(pixels), std::vector<std::uint8_t>(pixels), 0};
     BitCoder coder;
-    std::vector<Chance> chances(6U << 11U);
+    std::vector<BitChance> chances(6U << 11U);
     NumberCoder steps;
     std::uint32_t largest = 0;
     std::size_t next = 0;

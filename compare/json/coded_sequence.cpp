@@ -14,9 +14,9 @@ struct Column {
     int bits; ///< of the hash, as many as fit the list
     std::vector<std::uint32_t> after_two;
     std::vector<std::uint32_t> after_one;
-    std::vector<Chance> by_two = std::vector<Chance>(32);
-    std::vector<Chance> by_one = std::vector<Chance>(32);
-    std::vector<Chance> is_new = std::vector<Chance>(32);
+    std::vector<BitChance> by_two = std::vector<BitChance>(32);
+    std::vector<BitChance> by_one = std::vector<BitChance>(32);
+    std::vector<BitChance> is_new = std::vector<BitChance>(32);
     NumberCoder steps;
     std::uint32_t largest = 0;
     std::uint32_t hits =

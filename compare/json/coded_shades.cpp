@@ -25,9 +25,9 @@ std::string coded_shades(Numbers values, std::uint32_t width, std::uint32_t chan
     std::vector<std::int32_t> misses(values.size());
     BitCoder coder;
     constexpr std::uint32_t levels = 12; // of how far neighbours were missed
-    std::vector<Chance> is_zero(levels * levels * 4 * channels);
-    std::vector<Chance> is_more(levels * 4 * channels * 8);
-    std::vector<Chance> sign(9 * channels);
+    std::vector<BitChance> is_zero(levels * levels * 4 * channels);
+    std::vector<BitChance> is_more(levels * 4 * channels * 8);
+    std::vector<BitChance> sign(9 * channels);
     std::vector<NumberCoder> others(channels);
     const auto level = [](std::int32_t sum) {
         const auto bits = static_cast<std::uint32_t>(std::bit_width(static_cast<unsigned>(sum)));
@@ -62,7 +62,7 @@ std::string coded_shades(Numbers values, std::uint32_t width, std::uint32_t chan
         coder.code(missed < 0,
                    sign[(3 * sign_of(before) + sign_of(miss_west)) * channels + channel]);
         const auto size = static_cast<std::uint32_t>(std::abs(missed));
-        Chance* const more = &is_more[((around * 4 + beside) * channels + channel) * 8];
+        BitChance* const more = &is_more[((around * 4 + beside) * channels + channel) * 8];
         for (std::uint32_t k = 1; k <= std::min(size, 8U); ++k) coder.code(size > k, more[k - 1]);
         if (size > 8) others[channel].code(coder, size - 9);
     }
