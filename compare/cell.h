@@ -10,6 +10,7 @@
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,8 @@ struct Cell {
     std::string cause_map; ///< the comparison's causes, packed as in results.json
     Frame frame;
     std::shared_ptr<const EvidenceReport> evidence; ///< for the report; null: nothing is shown
+    /// By kind, where pictures stand in the report once those that are the same are kept once.
+    std::map<std::string, std::string> same_pictures{};
 };
 
 struct SceneResult {

@@ -16,6 +16,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <set>
 
 namespace shadowproof {
 
@@ -38,10 +39,11 @@ void take_over_all(const std::vector<ReportFile>& files, const ReportFolder& fol
                    const MemoryAccount& memory, Console& console) {
     constexpr std::size_t most_lines = 12; // a whole missing folder is reported once
     std::size_t damaged = 0;
+    std::set<fs::path> taken; // several cells may have the same picture
     for (const ReportFile& file : files) {
         console.progress("copying " + file.to);
         const std::optional<std::string> damage = take_over(file, folder, memory);
-        if (damage && ++damaged <= most_lines)
+        if (taken.insert(file.from).second && damage && ++damaged <= most_lines)
             console.always(fmt::format("damaged: {} {}", file.from.string(), *damage));
     }
     if (damaged > most_lines)
@@ -49,7 +51,7 @@ void take_over_all(const std::vector<ReportFile>& files, const ReportFolder& fol
     if (damaged > 0)
         console.always(fmt::format("{} of {} pictures and data files are missing or damaged, and "
                                    "the report shows them so",
-                                   grouped(damaged), grouped(files.size())));
+                                   grouped(damaged), grouped(taken.size())));
 }
 
 struct Outcome {
@@ -135,8 +137,9 @@ int rebuild_here(const RebuildOptions& options, int watcher) {
     check_output(options.json, options.out, Output::results);
     ReportFolder folder(options.out);
     console.progress("joining the results");
-    const Merged merged = merge(runs, whole_matrix());
+    Merged merged = merge(runs, whole_matrix());
     take_over_all(merged.files, folder, memory, console);
+    folder.share(merged.results);
     const std::string text = results_text(merged.results);
     const std::optional<std::string> inside = name_in_report(options.json, options.out);
     if (inside && *inside != results_name) folder.add_requested(*inside, text);

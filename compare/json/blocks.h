@@ -1,6 +1,10 @@
-// Pictures and lists of numbers as text that JSON and JavaScript hold: base64 of a zlib stream.
+// Pictures and lists of numbers as text: packed in JSON, and as blocks of the report's data files,
+// which are scripts whose characters are bytes.
 #pragma once
 
+#include "scenes/image.h"
+
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,24 +22,56 @@ std::string packed(std::span<const std::byte> bytes);
 /// The inverse of packed(). None if the text is damaged or does not hold `size` bytes.
 std::optional<std::vector<std::uint8_t>> unpacked(std::string_view text, std::size_t size);
 
-/// "u8", "i32", "f32": a number's type as the viewer names it.
-template <class T>
-constexpr std::string_view type_name() {
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
-    if constexpr (std::is_same_v<T, std::int8_t>) return "i8";
-    if constexpr (std::is_same_v<T, std::uint32_t>) return "u32";
-    if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
-    if constexpr (std::is_same_v<T, float>) return "f32";
-    return {};
-}
+/// A list of numbers of one type, each as 32 bits: those of a float, and of a negative number its
+/// two's complement.
+struct NumberList {
+    std::string_view type; ///< "u8", "i8", "u32", "i32", "f32": as the viewer names it
+    std::vector<std::uint32_t> values;
 
-/// A block of the report's data files: {"type":"u32","length":7,"data":"..."}; little endian.
-std::string block(std::string_view type, std::size_t length, std::span<const std::byte> bytes);
+    NumberList() = default;
+    template <class T>
+    explicit NumberList(std::span<const T> list) : type(type_name<T>()) {
+        static_assert(!type_name<T>().empty());
+        values.reserve(list.size());
+        for (const T value : list)
+            if constexpr (std::is_same_v<T, float>)
+                values.push_back(std::bit_cast<std::uint32_t>(value));
+            else
+                values.push_back(static_cast<std::uint32_t>(value));
+    }
+    template <class T>
+    explicit NumberList(const std::vector<T>& list) : NumberList(std::span<const T>(list)) {}
 
-template <class T>
-std::string block(const std::vector<T>& values) {
-    static_assert(!type_name<T>().empty());
-    return block(type_name<T>(), values.size(), std::as_bytes(std::span(values)));
-}
+private:
+    template <class T>
+    static constexpr std::string_view type_name() {
+        if constexpr (std::is_same_v<T, std::uint8_t> || std::is_enum_v<T>) return "u8";
+        if constexpr (std::is_same_v<T, std::int8_t>) return "i8";
+        if constexpr (std::is_same_v<T, std::uint32_t>) return "u32";
+        if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
+        if constexpr (std::is_same_v<T, float>) return "f32";
+        return {};
+    }
+};
+
+/// 1 for each pixel that differs, else 0, by its cause.
+NumberList differing_list(const Image<std::uint8_t>& cause);
+
+/// A list that another one is guessed from: a block of the same file, or of the scene's.
+struct Guide {
+    std::string_view name; ///< none: empty
+    const NumberList* list = nullptr;
+};
+
+/// Blocks of the report's data files, one for each way in which compare/json/coded_lists.h codes a
+/// list: {"type":"u32","length":7,"as":"areas","sum":1234567,"data":"..."}. "sum" is the FNV-1a
+/// hash (Fowler, Noll, Vo) of the list's numbers, 32 bits at a time, by which damage is found.
+std::string areas_block(const NumberList& list, int width, const Guide& guide = {});
+/// Of the pixels that differ; `differing` has a number for each pixel, not 0 where it does.
+std::string differing_block(const NumberList& list, int width, const NumberList& differing);
+/// Three bytes for each pixel.
+std::string shades_block(const NumberList& list, int width, const Guide& guide = {});
+std::string sequence_block(const NumberList& list, int columns = 1);
+std::string rows_block(const NumberList& list);
 
 } // namespace shadowproof

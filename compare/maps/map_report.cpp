@@ -83,7 +83,7 @@ public:
     MapReport(const MapEvidence& map, std::vector<std::optional<PixelLookup>> at,
               const Image<std::uint8_t>& cause, double unit)
         : header_(Json{{"map", header_of(map.model, unit)}}.dump()), at_(std::move(at)),
-          faces_(pictured_faces(map)) {
+          faces_(pictured_faces(map)), differing_(differing_list(cause)) {
         for (std::size_t i = 0; i < at_.size(); ++i) {
             if (cause.pixels[i] == no_difference) continue;
             const PixelLookup pixel = at_[i].value_or(PixelLookup{});
@@ -106,19 +106,29 @@ public:
             {"texels", [this](const Frame& frame) { return to_png(texel_picture(frame, at_)); }}};
     }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& /*frame*/) const override {
-        return {{"map_asked", block(asked_)},   {"map_face", block(face_)},
-                {"map_x", block(x_)},           {"map_y", block(y_)},
-                {"map_stored", block(stored_)}, {"map_own", block(own_)},
-                {"map_shown", block(shown_)},   {"map_lit", block(lit_)},
-                {"map_width", block(width_)},   {"map_foot", block(foot_)},
-                {"map_faces", block(faces_)}};
+    Blocks blocks(const Frame& frame) const override {
+        const auto of_differing = [&](const auto& list) {
+            return differing_block(NumberList(list), frame.claim.width, differing_);
+        };
+        const int side = pictured_size(frame.mapped->model);
+        return {{"map_asked", of_differing(asked_)},
+                {"map_face", of_differing(face_)},
+                {"map_x", of_differing(x_)},
+                {"map_y", of_differing(y_)},
+                {"map_stored", of_differing(stored_)},
+                {"map_own", of_differing(own_)},
+                {"map_shown", of_differing(shown_)},
+                {"map_lit", of_differing(lit_)},
+                {"map_width", of_differing(width_)},
+                {"map_foot", sequence_block(NumberList(foot_), 2)},
+                {"map_faces", areas_block(NumberList(faces_), side)}};
     }
 
 private:
     std::string header_;
     std::vector<std::optional<PixelLookup>> at_;
     std::vector<std::uint8_t> faces_;
+    NumberList differing_;
     // One per pixel that differs.
     std::vector<std::uint8_t> asked_;
     std::vector<std::uint8_t> face_;

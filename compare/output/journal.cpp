@@ -18,7 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The kinds of lines, one letter each.
-enum Kind : char { of_folder = 'f', of_begun = 'b', of_complete = 'c', of_kept = 'k' };
+enum Kind : char {
+    of_folder = 'f',
+    of_begun = 'b',
+    of_complete = 'c',
+    of_kept = 'k',
+    of_dropped = 'd'
+};
 
 void append(const Descriptor& file, Kind kind, const std::string& rest) {
     write_all(file, fmt::format("\n{} {}\n", static_cast<char>(kind), rest));
@@ -63,6 +69,10 @@ void take(JournalRecord& record, std::string_view line) {
         if (const auto begun = record.begun.find(name); begun != record.begun.end())
             record.written.insert(*begun);
         break;
+    case of_dropped:
+        record.begun.erase(name);
+        record.written.erase(name);
+        break;
     case of_kept:
         record.kept.insert(name);
         break;
@@ -90,6 +100,10 @@ void Journal::begin(const std::string& name, const Fingerprint& fingerprint) con
 
 void Journal::complete(const std::string& name) const {
     append(file_, of_complete, name);
+}
+
+void Journal::drop(const std::string& name) const {
+    append(file_, of_dropped, name);
 }
 
 void Journal::keep(const std::string& name) const {

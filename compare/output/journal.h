@@ -39,6 +39,8 @@ public:
 
     void begin(const std::string& name, const Fingerprint& fingerprint) const;
     void complete(const std::string& name) const;
+    /// It is not there any more.
+    void drop(const std::string& name) const;
     void keep(const std::string& name) const;
 
 private:

@@ -182,6 +182,33 @@ void ReplacedFolder::add(const std::string& name, std::string_view bytes) const 
     }
 }
 
+Manifest ReplacedFolder::added() const {
+    try {
+        return read_journal(work_ / "journal").written;
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_, error.code().value());
+    }
+}
+
+std::string ReplacedFolder::bytes_of(const std::string& name) const {
+    try {
+        std::string bytes;
+        read_pieces(content_ / name, [&](std::string_view piece) { bytes += piece; });
+        return bytes;
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_ / name, error.code().value());
+    }
+}
+
+void ReplacedFolder::remove(const std::string& name) const {
+    try {
+        if (::unlink((content_ / name).c_str()) != 0) throw_errno();
+        journal_.drop(name);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_ / name, error.code().value());
+    }
+}
+
 void ReplacedFolder::add_requested(const std::string& name, std::string_view bytes) {
     requested_.insert(name);
     add(name, bytes);

@@ -40,6 +40,13 @@ public:
     /// The same for a file that the user asked for by its name: it replaces what has that name.
     void add_requested(const std::string& name, std::string_view bytes);
 
+    /// What has been added so far.
+    Manifest added() const;
+    /// The bytes of a file that was added. Both throw Error where it cannot be read, or removed.
+    std::string bytes_of(const std::string& name) const;
+    /// Removes a file that was added; its name is free again.
+    void remove(const std::string& name) const;
+
     /// Puts the new content in its place, with manifest.json, and removes the old one. Only by the
     /// process that made this. If it throws Error, the old content is untouched.
     void finish();

@@ -1,99 +1,101 @@
 #include "compare/report/png.h"
 
-#include "scenes/error.h"
-
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cassert>
-#include <cstdio>
+#include <memory>
 #include <new>
-#include <utility>
 
 namespace shadowproof {
 
 namespace {
 
-/// A growing buffer that libpng writes to, as a stream of the C library.
-class GrowingBytes {
-public:
-    GrowingBytes()
-        : stream_(::fopencookie(
-              this, "wb", {.read = nullptr, .write = &append, .seek = nullptr, .close = nullptr})) {
-        if (stream_ == nullptr) throw std::bad_alloc();
-    }
-    ~GrowingBytes() {
-        if (stream_ != nullptr) static_cast<void>(std::fclose(stream_));
-    }
-    GrowingBytes(const GrowingBytes&) = delete;
-    GrowingBytes& operator=(const GrowingBytes&) = delete;
+/// A hundredth larger than by the highest level, in a quarter of the time.
+constexpr int compression_level = 9;
 
-    std::FILE* stream() const { return stream_; }
-    bool full() const { return full_; }
-    /// All that was written; the stream is closed.
-    std::string take() {
-        const bool closed = std::fclose(std::exchange(stream_, nullptr)) == 0;
-        if (full_ || !closed) throw std::bad_alloc();
-        return std::move(bytes_);
-    }
-
-private:
-    /// The C library calls this, which must not throw. 0: nothing was taken.
-    static ssize_t append(void* cookie, const char* bytes, std::size_t count) noexcept {
-        auto* const self = static_cast<GrowingBytes*>(cookie);
-        try {
-            self->bytes_.append(bytes, count);
-            return static_cast<ssize_t>(count);
-        } catch (const std::bad_alloc&) {
-            self->full_ = true;
-            return 0;
-        }
-    }
-
-    std::string bytes_;
-    bool full_ = false;
-    std::FILE* stream_;
+struct FreeCompressor {
+    void operator()(libdeflate_compressor* c) const { libdeflate_free_compressor(c); }
 };
 
-/// By libpng's simplified interface (libpng manual, section V): `colormap` null for gray.
-std::string encoded(int width, int height, const void* pixels, png_uint_32 format,
-                    const void* colormap, std::size_t colors) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = format;
-    // These pictures have long runs: quick compression is small enough.
-    image.flags = PNG_IMAGE_FLAG_FAST;
-    image.colormap_entries = static_cast<png_uint_32>(colors);
-    GrowingBytes bytes;
-    if (png_image_write_to_stdio(&image, bytes.stream(), 0, pixels, 0, colormap) != 0)
-        return bytes.take();
-    const std::string reason = image.message;
-    png_image_free(&image);
-    if (bytes.full()) throw std::bad_alloc();
-    throw Error(fmt::format("a picture of {}x{}", width, height),
-                "cannot be made a PNG (" + reason + ")", "try a smaller --size");
+void append_number(std::string& bytes, std::size_t number) {
+    for (unsigned shift = 32; shift > 0;)
+        bytes += static_cast<char>(number >> (shift -= 8) & 0xffU);
+}
+
+/// Length, type, content and checksum (PNG specification, section 5.3).
+void append_chunk(std::string& bytes, std::string_view type, std::string_view content) {
+    append_number(bytes, content.size());
+    const std::size_t begin = bytes.size();
+    bytes += type;
+    bytes += content;
+    append_number(bytes, libdeflate_crc32(0, bytes.data() + begin, bytes.size() - begin));
+}
+
+std::string zlib_stream(std::string_view bytes) {
+    const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+        libdeflate_alloc_compressor(compression_level));
+    if (!compressor) throw std::bad_alloc();
+    std::string stream(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), 0);
+    stream.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                           stream.data(), stream.size()));
+    return stream;
+}
+
+enum class ColorType : char { gray = 0, rgb = 2, palette = 3 }; ///< as the specification has them
+
+/// libpng has another compressor, whose files of these pictures are larger and take longer. Rows
+/// are not filtered but those of colours, which are stored as differences to the pixel before.
+std::string encoded(int width, int height, std::string_view pixels, ColorType type,
+                    std::string_view palette) {
+    const std::size_t row = pixels.size() / static_cast<std::size_t>(std::max(height, 1));
+    const bool differences = type == ColorType::rgb;
+    std::string rows;
+    rows.reserve(pixels.size() + static_cast<std::size_t>(height));
+    for (std::size_t begin = 0; begin < pixels.size(); begin += row) {
+        rows += static_cast<char>(differences ? 1 : 0);
+        const std::size_t written = rows.size();
+        rows += pixels.substr(begin, row);
+        if (!differences) continue;
+        for (std::size_t i = row - 1; i >= 3; --i)
+            rows[written + i] = static_cast<char>(rows[written + i] - rows[written + i - 3]);
+    }
+    std::string header;
+    append_number(header, static_cast<std::size_t>(width));
+    append_number(header, static_cast<std::size_t>(height));
+    header += {8, static_cast<char>(type), 0, 0, 0};
+    std::string bytes = "\x89PNG\r\n\x1a\n";
+    append_chunk(bytes, "IHDR", header);
+    if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
+    append_chunk(bytes, "IDAT", zlib_stream(rows));
+    append_chunk(bytes, "IEND", {});
+    return bytes;
+}
+
+/// The bytes of a list, one after the other.
+template <class T>
+std::string_view bytes_of(const std::vector<T>& list) {
+    return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
 }
 
 } // namespace
 
 std::string to_png(const Image<Visibility>& classes) {
-    return encoded(classes.width, classes.height, classes.pixels.data(), PNG_FORMAT_GRAY, nullptr,
-                   0);
+    return encoded(classes.width, classes.height, bytes_of(classes.pixels), ColorType::gray, {});
 }
 
 std::string to_png(const Image<Rgb>& picture) {
     static_assert(sizeof(Rgb) == 3);
-    return encoded(picture.width, picture.height, picture.pixels.data(), PNG_FORMAT_RGB, nullptr,
-                   0);
+    return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, {});
 }
 
 std::string to_png(const PalettePicture& picture) {
     static_assert(sizeof(Rgb) == 3);
     assert(picture.palette.size() <= 256);
-    return encoded(picture.indices.width, picture.indices.height, picture.indices.pixels.data(),
-                   PNG_FORMAT_RGB_COLORMAP, picture.palette.data(), picture.palette.size());
+    return encoded(picture.indices.width, picture.indices.height, bytes_of(picture.indices.pixels),
+                   ColorType::palette, bytes_of(picture.palette));
 }
 
 std::optional<std::string> png_damage(std::string_view bytes, std::uint64_t width,

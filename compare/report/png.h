@@ -23,7 +23,7 @@ struct PalettePicture {
     const Rgb& at(int x, int y) const { return palette[indices.at(x, y)]; }
 };
 
-/// The bytes of a PNG file, 8-bit gray. The same for the same picture. Throws Error.
+/// The bytes of a PNG file, 8-bit gray. The same for the same picture.
 std::string to_png(const Image<Visibility>& classes);
 /// The same, 8 bits a colour.
 std::string to_png(const Image<Rgb>& picture);

@@ -7,6 +7,7 @@
 #include "compare/words.h"
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,12 +59,14 @@ inline constexpr const char* results_name = "results.json";
 inline constexpr const char* results_script_name = "results.js";
 
 /// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause,
-/// volumes.
+/// volumes. That of an earlier cell where that is the same.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
+
+/// The kinds of the pictures of a cell that ran.
+std::vector<std::string> picture_kinds(const Cell& cell);
 
 /// The same for the picture that all cells of a scene share.
 std::string truth_path(const SceneResult& scene);
-std::string color_path(const SceneResult& scene);
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.
@@ -100,6 +103,11 @@ public:
     void add_file(const std::string& name, std::string_view bytes) const;
     /// Writes a file that the user requested by its name in this folder.
     void add_requested(const std::string& name, std::string_view bytes);
+    /// Keeps only one of pictures and data that are the same in several cells of a scene, and
+    /// changes the pictures' paths in the report, or in results; to be called before these are
+    /// written.
+    void share(Report& report) const;
+    void share(nlohmann::ordered_json& results) const;
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
     void finish(const std::string& results_json);

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 std::string script(std::string_view function, const std::string& name, const Json& header,
                    const Blocks& blocks) {
     std::string text = fmt::format("shadowproof.{}(\"{}\", ", function, name);
-    text += header.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text += header.dump(-1, ' ', true, Json::error_handler_t::replace); // ASCII alone
     text.back() = ',';
     text += "\n\"blocks\":{";
     for (const auto& [block_name, values] : blocks)
@@ -31,19 +31,11 @@ std::string script(std::string_view function, const std::string& name, const Jso
     return text + "}});\n";
 }
 
-/// Visibility's values are bytes already.
-std::string picture_block(const Image<Visibility>& picture) {
-    return block("u8", picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
-}
-
-/// Shares of light: a float each.
-std::string picture_block(const Image<double>& shares) {
-    return block(std::vector<float>(shares.pixels.begin(), shares.pixels.end()));
-}
-
-/// Three bytes per pixel: those of the .png, whose pixels a page opened from disk may not read.
-std::string picture_block(const Image<Rgb>& picture) {
-    return block("u8", 3 * picture.pixels.size(), std::as_bytes(std::span(picture.pixels)));
+/// Three bytes for each pixel: those of the .png, whose pixels a page opened from disk may not
+/// read.
+NumberList color_list(const Image<Rgb>& picture) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(picture.pixels.data());
+    return NumberList(std::span(bytes, 3 * picture.pixels.size()));
 }
 
 } // namespace
@@ -65,17 +57,29 @@ std::string scene_script(const SceneResult& scene) {
     for (const Mesh& mesh : scene.meshes)
         header["meshes"].push_back(
             {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
-    Blocks blocks{{"visibility", picture_block(scene.truth.visibility)}};
+    Blocks blocks{
+        {"visibility", areas_block(NumberList(scene.truth.visibility.pixels), scene.width)}};
     if (!scene.color.pixels.empty())
-        blocks.emplace_back("color", picture_block(color_picture(scene.color)));
+        blocks.emplace_back("color",
+                            shades_block(color_list(color_picture(scene.color)), scene.width));
     return script("scene", folder_of(scene), header, blocks);
 }
 
 std::string cell_script(const SceneResult& scene, const Cell& cell) {
     Json header = Json::object();
-    Blocks blocks{{"claim", picture_block(cell.frame.claim)}};
+    const NumberList truth(scene.truth.visibility.pixels);
+    const NumberList claim(cell.frame.claim.pixels);
+    const NumberList causes(cell.comparison.cause.pixels);
+    const auto guided = [&](const NumberList& list, std::string_view name, const NumberList& by) {
+        return areas_block(list, scene.width, {name, &by});
+    };
+    Blocks blocks{{"claim", guided(claim, "visibility", truth)},
+                  {"cause", areas_block(causes, scene.width)}};
     if (!cell.frame.share.pixels.empty())
-        blocks.emplace_back("share", picture_block(cell.frame.share));
+        blocks.emplace_back("share",
+                            guided(NumberList(std::vector<float>(cell.frame.share.pixels.begin(),
+                                                                 cell.frame.share.pixels.end())),
+                                   "claim", claim));
     if (cell.evidence) {
         header = Json::parse(cell.evidence->header());
         for (auto& named : cell.evidence->blocks(cell.frame)) blocks.push_back(std::move(named));
@@ -83,15 +87,21 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
     header["family"] = cell.family;
     if (cell.comparison.colors) {
         const Image<ColorVerdict>& verdicts = cell.comparison.colors->verdict;
-        blocks.emplace_back("color", picture_block(color_picture(cell.frame.color)));
-        blocks.emplace_back("color_verdict", block("u8", verdicts.pixels.size(),
-                                                   std::as_bytes(std::span(verdicts.pixels))));
+        const NumberList right = color_list(color_picture(scene.color));
+        blocks.emplace_back("color", shades_block(color_list(color_picture(cell.frame.color)),
+                                                  scene.width, {"true_color", &right}));
+        blocks.emplace_back("color_verdict", guided(NumberList(verdicts.pixels), "claim", claim));
     }
     return script("cell", folder_of(scene) + "/" + cell.technique, header, blocks);
 }
 
 std::string results_script(const std::string& results_json) {
-    return "shadowproof.results(" + results_json + ");\n";
+    Json results = Json::parse(results_json);
+    for (Json& scene : results["scenes"]) {
+        if (!scene.contains("techniques")) continue;
+        for (Json& cell : scene["techniques"]) cell.erase("cause_map");
+    }
+    return "shadowproof.results(" + results.dump() + ");\n";
 }
 
 std::string packed_cause_map(const Comparison& comparison) {

@@ -17,7 +17,8 @@ std::string scene_script(const SceneResult& scene);
 /// too, with their verdicts.
 std::string cell_script(const SceneResult& scene, const Cell& cell);
 
-/// results.js: the results as a script. Besides results.json the only file with times.
+/// results.js: the results as a script, without the cause maps, which the cells' data hold. Besides
+/// results.json the only file with times.
 std::string results_script(const std::string& results_json);
 
 /// The cause map as it stands in results.json: packed, one byte per pixel.

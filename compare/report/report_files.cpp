@@ -3,6 +3,7 @@
 #include "compare/output/descriptor.h"
 #include "compare/report/png.h"
 #include "compare/report/report.h"
+#include "compare/report/shared_files.h"
 
 #include <string_view>
 #include <system_error>
@@ -50,8 +51,20 @@ std::optional<std::string> take_over(const ReportFile& file, const ReportFolder&
         report.add_file(file.to, bytes);
         return png_damage(bytes, file.width, file.height);
     }
-    const std::optional<std::string> damage = script_damage(file, bytes);
-    if (!damage) bytes.replace(0, file.opening.size(), file.new_opening);
+    std::optional<std::string> damage = script_damage(file, bytes);
+    if (!damage) {
+        bytes.replace(0, file.opening.size(), file.new_opening);
+        bytes = with_own_blocks(bytes, [&](const std::string& technique) {
+            const fs::path other = file.from.parent_path().parent_path() / technique / "cell.js";
+            try {
+                return bytes_of(other);
+            } catch (const std::system_error&) {
+                return std::string();
+            }
+        });
+        if (std::string lacking = lacking_blocks(bytes); !lacking.empty())
+            damage = std::move(lacking);
+    }
     report.add_file(file.to, bytes);
     return damage;
 }

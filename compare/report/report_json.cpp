@@ -93,15 +93,9 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
                          {"cause", name_of(comparison.first->cause)}};
     const EvidenceSummary& evidence = comparison.summary;
     if (!evidence.results.empty()) json.update(Json::parse(evidence.results));
-    for (const char* kind : {"claim", "difference", "cause"})
+    for (const std::string& kind : picture_kinds(cell))
         json["images"][kind] = picture_path(scene, cell, kind);
-    for (const std::string& kind : evidence.pictures)
-        json["images"][kind] = picture_path(scene, cell, kind);
-    if (comparison.colors) {
-        json["color"] = color_of(*comparison.colors);
-        for (const char* kind : {"color", "color_error"})
-            json["images"][kind] = picture_path(scene, cell, kind);
-    }
+    if (comparison.colors) json["color"] = color_of(*comparison.colors);
     json["cause_map"] = cell.cause_map;
     if (cell.since) json["since"] = since_of(*cell.since);
     for (const Acceptance& one : cell.accepted)
@@ -136,7 +130,6 @@ Json scene_of(const Report& report, const SceneResult& scene) {
                          {"background", traced.background},
                          {"degenerate", traced.degenerate}};
     json["images"] = {{"truth", truth_path(scene)}};
-    if (scene.bump_lit) json["images"]["color"] = color_path(scene);
     json["techniques"] = Json::array();
     for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(report, scene, cell));
     return json;

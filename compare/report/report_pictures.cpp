@@ -1,6 +1,5 @@
 #include "compare/report/report_pictures.h"
 
-#include "compare/report/color_picture.h"
 #include "compare/report/report_data.h"
 #include "reference/parallel.h"
 
@@ -42,15 +41,21 @@ std::string folder_of(const SceneResult& scene) {
 }
 
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
+    const auto same = cell.same_pictures.find(kind);
+    if (same != cell.same_pictures.end()) return same->second;
     return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+}
+
+std::vector<std::string> picture_kinds(const Cell& cell) {
+    std::vector<std::string> kinds{"claim", "difference", "cause"};
+    const std::vector<std::string>& of_evidence = cell.comparison.summary.pictures;
+    kinds.insert(kinds.end(), of_evidence.begin(), of_evidence.end());
+    if (cell.comparison.colors) kinds.emplace_back("color_error");
+    return kinds;
 }
 
 std::string truth_path(const SceneResult& scene) {
     return folder_of(scene) + "/truth.png";
-}
-
-std::string color_path(const SceneResult& scene) {
-    return folder_of(scene) + "/color.png";
 }
 
 PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell) {
@@ -119,8 +124,6 @@ PalettePicture color_error_picture(const ColorCheck& colors) {
 
 void write_scene(const SceneResult& scene, const FolderPart& report) {
     report.add(truth_path(scene), to_png(scene.truth.visibility));
-    if (!scene.color.pixels.empty())
-        report.add(color_path(scene), to_png(color_picture(scene.color)));
     report.add(folder_of(scene) + "/scene.js", scene_script(scene));
 }
 
@@ -141,11 +144,9 @@ void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, 
             jobs.emplace_back([&, picture] {
                 report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame));
             });
-    if (cell.comparison.colors) {
-        jobs.emplace_back([&] { add("color", color_picture(cell.frame.color)); });
+    if (cell.comparison.colors)
         jobs.emplace_back(
             [&] { add("color_error", color_error_picture(*cell.comparison.colors)); });
-    }
     parallel_for(static_cast<int>(jobs.size()), thread_count(threads),
                  [&](int job, int) { jobs[static_cast<std::size_t>(job)](); });
 }

@@ -18,7 +18,7 @@ PalettePicture cause_picture(const Cell& cell);
 /// of a step of 1/255 on. What is beyond its bound, or unpredicted, has its cause's colour.
 PalettePicture color_error_picture(const ColorCheck& colors);
 
-/// Writes the truth, at truth_path and color_path, and the data that the cells share into `report`.
+/// Writes the truth, at truth_path, and the data that the cells share into `report`.
 void write_scene(const SceneResult& scene, const FolderPart& report);
 /// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
 /// threads 0: one per core.

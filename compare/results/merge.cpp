@@ -110,11 +110,13 @@ struct Move {
     std::string to;   ///< and in the joined report
 };
 
-/// Pictures of a scene or a cell: their paths, and the files to take over.
-void move_pictures(Joining& joining, Json& images, const Json& scene, const Move& move) {
+/// Pictures of a scene or a cell: their paths, and the files to take over. Each has a file of its
+/// own again, also where it was another cell's. `below`: "/zpass" of a cell, nothing of a scene.
+void move_pictures(Joining& joining, Json& images, const std::string& below, const Json& scene,
+                   const Move& move) {
     for (auto& [name, path] : images.items()) {
         const auto was = path.get<std::string>();
-        path = move.to + was.substr(move.from.size());
+        path = fmt::format("{}{}/{}.png", move.to, below, name);
         joining.merged.files.push_back({.from = move.run.path.parent_path() / was,
                                         .to = path.get<std::string>(),
                                         .width = scene.at("width").get<std::uint64_t>(),
@@ -163,7 +165,7 @@ void add_cell(Joining& joining, std::size_t index, Json cell, std::size_t run, c
                                 shown(scene.at("name")), joining.runs[tried->second].path.string()),
                     "join runs of different scenes or techniques");
     if (!could_not_run(cell)) {
-        move_pictures(joining, cell.at("images"), scene, move);
+        move_pictures(joining, cell.at("images"), "/" + technique, scene, move);
         move_script(joining, "cell", "/" + technique, move);
     }
     keep_gate(cell, move.run.json, joining.merged.results);
@@ -236,7 +238,7 @@ void add_scene(Joining& joining, Json scene, std::size_t run, const std::string&
     } else {
         move.to = free_folder(joining, move.from);
         scene["folder"] = move.to;
-        move_pictures(joining, scene.at("images"), scene, move);
+        move_pictures(joining, scene.at("images"), "", scene, move);
         move_script(joining, "scene", "", move);
         joining.scenes_json().push_back(std::move(scene));
         joining.scenes.push_back({.run = run});

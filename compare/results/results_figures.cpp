@@ -17,17 +17,26 @@ namespace {
 
 using Json = ResultsJson;
 
-/// What a picture's path must begin with; the rest is "NAME.png".
-void pictures_in(const JsonPlace& images, const std::string& folder) {
+/// What a picture's path must begin with; the rest is "NAME.png", or where it may be another cell's
+/// "TECHNIQUE/NAME.png".
+void pictures_in(const JsonPlace& images, const std::string& folder, bool of_cells) {
     for (const auto& [name, path] : images.value.items()) {
         const JsonPlace place = images.at(name);
         require(path.is_string(), place, "a string");
         const auto& whole = path.get_ref<const std::string&>();
-        const bool beneath = whole.starts_with(folder + "/") && whole.ends_with(".png") &&
-                             whole.size() > folder.size() + 5 &&
-                             is_plain_name(std::string_view(whole).substr(
-                                 folder.size() + 1, whole.size() - folder.size() - 5));
-        require(beneath, place, fmt::format("the path of a picture, \"{}/NAME.png\"", folder));
+        const bool begins = whole.starts_with(folder + "/") && whole.ends_with(".png") &&
+                            whole.size() > folder.size() + 5;
+        std::string_view rest =
+            begins ? std::string_view(whole).substr(folder.size() + 1) : std::string_view();
+        rest = rest.substr(0, rest.size() - std::min<std::size_t>(rest.size(), 4));
+        const std::size_t slash = rest.find('/');
+        const bool beneath = slash == std::string_view::npos
+                                 ? is_plain_name(rest)
+                                 : of_cells && is_plain_name(rest.substr(0, slash)) &&
+                                       is_plain_name(rest.substr(slash + 1));
+        require(beneath, place,
+                fmt::format("the path of a picture, \"{}/{}NAME.png\"", folder,
+                            of_cells ? "TECHNIQUE/" : ""));
     }
 }
 
@@ -76,7 +85,7 @@ void check_rays(const JsonPlace& reference, std::uint64_t pixels) {
 void check_cell_figures(const JsonPlace& cell, const Json& scene) {
     if (could_not_run(cell.value)) return;
     const std::string folder = scene.at("folder").get<std::string>();
-    pictures_in(cell.at("images"), folder + "/" + cell.value.at("name").get<std::string>());
+    pictures_in(cell.at("images"), folder, true);
     const auto width = scene.at("width").get<std::uint64_t>();
     const auto height = scene.at("height").get<std::uint64_t>();
     const auto pixels = cell.value.at("pixels").get<std::uint64_t>();
@@ -104,7 +113,7 @@ void check_cell_figures(const JsonPlace& cell, const Json& scene) {
 }
 
 void check_scene_figures(const JsonPlace& scene) {
-    pictures_in(scene.at("images"), scene.value.at("folder").get<std::string>());
+    pictures_in(scene.at("images"), scene.value.at("folder").get<std::string>(), false);
     const auto pixels = scene.value.at("width").get<std::uint64_t>() *
                         scene.value.at("height").get<std::uint64_t>();
     check_rays(scene.at("reference"), pixels);

@@ -19,11 +19,27 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Stored in bytes if a counter fits into one.
-std::string counter_block(const Image<std::uint32_t>& counter, const Counting& counting) {
-    if (counting.bits > 8) return block(counter.pixels);
-    return block(converted<std::uint8_t>(counter, [](std::uint32_t count) {
-                     return static_cast<std::uint8_t>(count);
-                 }).pixels);
+NumberList counter_list(const Image<std::uint32_t>& counter, const Counting& counting) {
+    if (counting.bits > 8) return NumberList(counter.pixels);
+    return NumberList(converted<std::uint8_t>(counter, [](std::uint32_t count) {
+                          return static_cast<std::uint8_t>(count);
+                      }).pixels);
+}
+
+/// The crossings of one ledger after the other, and a 0 behind each: one more than its face, change
+/// and tally as one number, as those of the same face mostly are the same.
+NumberList crossing_list(const LedgerTable& ledgers) {
+    std::vector<std::uint32_t> list;
+    list.reserve(ledgers.crossing_face.size() + ledgers.start.size());
+    for (std::size_t ledger = 0; ledger + 1 < ledgers.start.size(); ++ledger) {
+        for (std::uint32_t i = ledgers.start[ledger]; i < ledgers.start[ledger + 1]; ++i)
+            list.push_back((ledgers.crossing_face[i] << 4U |
+                            (ledgers.crossing_change[i] < 0 ? 8U : 0U) |
+                            ledgers.crossing_tally[i]) +
+                           1U);
+        list.push_back(0);
+    }
+    return NumberList(list);
 }
 
 std::string_view name_of(DepthModel::Projection projection) {
@@ -83,8 +99,10 @@ Json header_of(const Frame& frame, const Scene& scene) {
 
 class CounterReport final : public EvidenceReport {
 public:
-    CounterReport(const Json& header, LedgerTable ledgers, Image<std::uint32_t> predicted)
-        : header_(header.dump()), ledgers_(std::move(ledgers)), predicted_(std::move(predicted)) {}
+    CounterReport(const Json& header, LedgerTable ledgers, Image<std::uint32_t> predicted,
+                  NumberList differing)
+        : header_(header.dump()), ledgers_(std::move(ledgers)), predicted_(std::move(predicted)),
+          differing_(std::move(differing)) {}
 
     std::vector<Picture> pictures() const override {
         return {{"volumes", [](const Frame& frame) { return to_png(volume_picture(frame)); }}};
@@ -92,29 +110,39 @@ public:
     std::string header() const override { return header_; }
     Blocks blocks(const Frame& frame) const override {
         const Counting& counting = frame.counted->counting;
-        return {{"predicted", counter_block(predicted_, counting)},
-                {"read_back", counter_block(frame.counted->counter, counting)},
-                {"faces", block(frame.counted->volumes.pixels)},
-                {"seen", block(ledgers_.seen)},
-                {"shown", block(ledgers_.shown)},
-                {"exactness", block(ledgers_.exactness)},
-                {"ledger", block(ledgers_.ledger)},
-                {"ledger_start", block(ledgers_.start)},
-                {"ledger_counts", block(ledgers_.counts)},
-                {"ledger_exact", block(ledgers_.adds_up)},
-                {"ledger_predicted", block(ledgers_.predicted)},
-                {"crossing_face", block(ledgers_.crossing_face)},
-                {"crossing_change", block(ledgers_.crossing_change)},
-                {"crossing_status", block(ledgers_.crossing_tally)},
-                {"face", block(ledgers_.face)},
-                {"triangle", block(ledgers_.triangle)},
-                {"vertex", block(ledgers_.vertex)}};
+        const int width = frame.claim.width;
+        const NumberList claim(frame.claim.pixels);
+        const NumberList predicted = counter_list(predicted_, counting);
+        const Guide by_predicted{"predicted", &predicted};
+        const auto of_differing = [&](const auto& list) {
+            return differing_block(NumberList(list), width, differing_);
+        };
+        const auto rows = [](const auto& list, int columns = 1) {
+            return sequence_block(NumberList(list), columns);
+        };
+        return {
+            {"predicted", areas_block(predicted, width, {"claim", &claim})},
+            {"read_back",
+             areas_block(counter_list(frame.counted->counter, counting), width, by_predicted)},
+            {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width, by_predicted)},
+            {"seen", of_differing(ledgers_.seen)},
+            {"shown", of_differing(ledgers_.shown)},
+            {"exactness", of_differing(ledgers_.exactness)},
+            {"ledger", of_differing(ledgers_.ledger)},
+            {"ledger_counts", rows(ledgers_.counts, 5)},
+            {"ledger_exact", rows(ledgers_.adds_up)},
+            {"ledger_predicted", rows(ledgers_.predicted)},
+            {"crossing", rows_block(crossing_list(ledgers_))},
+            {"face", rows(ledgers_.face, 2)},
+            {"triangle", rows(ledgers_.triangle, 4)},
+            {"vertex", rows(ledgers_.vertex, 3)}};
     }
 
 private:
     std::string header_;
     LedgerTable ledgers_;
     Image<std::uint32_t> predicted_; ///< the counter at each pixel's centre, as stored
+    NumberList differing_;
 };
 
 } // namespace
@@ -151,7 +179,8 @@ std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced,
         header_of(frame, traced.scene()),
         list_ledgers(traced.tracer(), traced.truth(), frame, prediction, cause, left),
         converted<std::uint32_t>(prediction.counts(),
-                                 [&](std::int32_t count) { return stored(count, counting); }));
+                                 [&](std::int32_t count) { return stored(count, counting); }),
+        differing_list(cause));
 }
 
 PalettePicture volume_picture(const Frame& frame) {

@@ -45,7 +45,9 @@ public:
     std::vector<Picture> pictures() const override { return {}; }
     std::string header() const override { return header_; }
     Blocks blocks(const Frame& /*frame*/) const override {
-        return {{"ray", block(rows_.ray)}, {"met", block(rows_.met)}, {"at", block(rows_.at)}};
+        return {{"ray", sequence_block(NumberList(rows_.ray), 9)},
+                {"met", sequence_block(NumberList(rows_.met), 4)},
+                {"at", sequence_block(NumberList(rows_.at), 3)}};
     }
 
 private:

@@ -17,7 +17,8 @@ function handedOver(path) {
       resolve(received.files.get(path));
       return;
     }
-    const script = element('script', { src: path });
+    // Read so, every byte of its blocks is one character.
+    const script = element('script', { src: path, charset: 'x-user-defined' });
     script.onerror = () => {
       script.remove();
       reject(new Error(`${path} is missing`));
@@ -35,47 +36,39 @@ const blockTypes = {
   u8: Uint8Array, i8: Int8Array, i32: Int32Array, u32: Uint32Array, f32: Float32Array,
 };
 
-/** The bytes of a base64 text that holds a zlib stream. */
-async function inflated(text) {
-  if (typeof DecompressionStream === 'undefined')
-    throw new Error('this browser cannot inflate; Chrome 80, Firefox 113 or Safari 16.4 can');
-  const packed = atob(text);
-  const bytes = new Uint8Array(packed.length);
-  for (let i = 0; i < packed.length; ++i) bytes[i] = packed.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
-  return new Response(stream).arrayBuffer();
-}
-
-/** A block as a typed array of `length` elements (its own length where not given). */
-async function decodedBlock(block, length = block?.length) {
+/**
+ * A block as a typed array of `length` elements (its own length where not given). `guides`:
+ * lists by name that it may be coded with; `differing`: 1 for each pixel that differs.
+ */
+function decodedBlock(block, { length = block?.length, guides, differing }) {
   const Type = block && blockTypes[block.type];
-  if (!Type || typeof block.data !== 'string') throw new Error('is missing');
+  if (!Type || typeof block.data !== 'string' || !(block.as in codedReaders))
+    throw new Error('is missing');
   if (block.length !== length)
     throw new Error(`is damaged: ${block.length} elements where ${length} belong`);
-  let bytes;
-  try {
-    bytes = await inflated(block.data);
-  } catch (error) {
-    throw new Error(/inflate;/.test(error.message) ? error.message
-                                                   : 'is damaged: it does not decode');
-  }
-  if (bytes.byteLength !== length * Type.BYTES_PER_ELEMENT)
-    throw new Error(`is damaged: ${bytes.byteLength} bytes where ` +
-                    `${length * Type.BYTES_PER_ELEMENT} belong`);
-  return new Type(bytes); // little endian, like every machine with a browser
+  const guide = block.guide ? guides[block.guide] : null;
+  if (block.guide && !guide) throw new Error(`cannot be decoded without ${block.guide}`);
+  if (block.of && !differing) throw new Error('cannot be decoded without the cause map');
+  const values = codedNumbers(block, length, { guide, mask: block.of ? differing : null });
+  if (Type === Uint32Array) return values;
+  if (Type === Float32Array) return new Float32Array(values.buffer);
+  return Type.from(values);
 }
 
-/** Decodes named blocks; those that cannot be decoded are null, and named in `problems`. */
-async function decodedBlocks(file, blocks, lengths, problems) {
+/**
+ * Decodes named blocks, in this order; those that cannot be decoded are null, and named in
+ * `problems`. `how`: as decodedBlock takes it; what is decoded is a guide to the later ones.
+ */
+function decodedBlocks(file, blocks, lengths, problems, how = {}) {
   const arrays = {};
-  await Promise.all(Object.entries(lengths).map(async ([name, length]) => {
+  for (const [name, length] of Object.entries(lengths))
     try {
-      arrays[name] = await decodedBlock(blocks?.[name], length ?? undefined);
+      arrays[name] = decodedBlock(blocks?.[name], {
+        ...how, length: length ?? undefined, guides: { ...how.guides, ...arrays } });
     } catch (error) {
       arrays[name] = null;
       problems.push(`${file}: block ${name} ${error.message}`);
     }
-  }));
   return arrays;
 }
 

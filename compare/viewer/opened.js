@@ -6,15 +6,6 @@ const noTriangle = 0xffffffff;
 const partlyLit = 160;
 const visibilityNames = { 0: 'background', 64: 'shadowed', [partlyLit]: 'partly lit', 255: 'lit' };
 
-/** The cause of each pixel; decoded when its cell is opened. */
-function causeMap(scene, cell, problems) {
-  const pixels = scene.width * scene.height;
-  const block = { type: 'u8', length: pixels, data: cell.cause_map };
-  return orProblem(decodedBlock(block).catch((error) => {
-    throw new Error(`results.js: cause_map of ${scene.folder}/${cell.name} ${error.message}`);
-  }), problems);
-}
-
 /** Indices of the pixels that differ, in rows from the top. */
 function differingPixels(causes) {
   const found = [];
@@ -62,7 +53,7 @@ function checkCell(opened) {
   const { cell, id, causes, claim, visibility, problems } = opened;
   const counts = tallied(causes);
   if (received.legend.causes.some(({ name }, i) => counts[i] !== (cell.causes[name] ?? 0)))
-    problems.push(`results.js: cause_map of ${id} does not hold the pixels that are counted`);
+    problems.push(`${id}/cell.js: block cause does not hold the pixels that results.js counts`);
   if (claim && visibility &&
       causes.some((cause, i) => cause === noDifference && claim[i] !== visibility[i]))
     problems.push(`${id}/cell.js does not belong to results.js: ` +
@@ -81,30 +72,48 @@ function claimWords({ claim, share }, pixel) {
 }
 
 /** The blocks of a cell's colours, if it has some. Damaged ones do not affect the evidence. */
-async function openColors({ scene, cell, id, sceneFile, cellFile, problems }) {
+function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;
-  const [truth, claim] = await Promise.all([
-    sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
-                               { color: 3 * pixels }, problems),
-    cellFile && decodedBlocks(`${id}/cell.js`, cellFile.blocks,
-                              { color: 3 * pixels, color_verdict: pixels }, problems)]);
+  const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
+                                           { color: 3 * pixels }, problems);
+  const claim = cellFile && decodedBlocks(
+    `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels }, problems,
+    { guides: { true_color: truth?.color, claim: blocks?.claim } });
   return { trueColor: truth?.color ?? null, claimedColor: claim?.color ?? null,
            colorVerdict: claim?.color_verdict ?? null };
+}
+
+/** The blocks of a cell's file; those that stand in another cell's are taken from there. */
+async function ownBlocks(scene, cellFile, problems) {
+  const blocks = { ...cellFile?.blocks };
+  const others = new Map();
+  for (const [name, { from }] of Object.entries(blocks)) {
+    if (!from) continue;
+    const [technique, other] = from.split('/');
+    const path = `${scene.folder}/${technique}/cell.js`;
+    if (!others.has(path)) others.set(path, orProblem(handedOver(path), problems));
+    blocks[name] = (await others.get(path))?.blocks?.[other];
+  }
+  return blocks;
 }
 
 async function openCell(scene, cell) {
   const problems = [];
   const id = `${scene.folder}/${cell.name}`;
   const pixels = scene.width * scene.height;
-  const [sceneFile, cellFile, causes] = await Promise.all([
+  const [sceneFile, cellFile] = await Promise.all([
     orProblem(handedOver(`${scene.folder}/scene.js`), problems),
-    orProblem(handedOver(`${id}/cell.js`), problems),
-    causeMap(scene, cell, problems)]);
-  const truth = sceneFile && await decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
-                                                 { visibility: pixels }, problems);
-  const blocks = cellFile && await decodedBlocks(`${id}/cell.js`, cellFile.blocks,
-                                                 lengthsOfCell(cell, pixels), problems);
+    orProblem(handedOver(`${id}/cell.js`), problems)]);
+  const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
+                                           { visibility: pixels }, problems);
+  const own = await ownBlocks(scene, cellFile, problems);
+  const causes = cellFile &&
+    decodedBlocks(`${id}/cell.js`, own, { cause: pixels }, problems).cause;
+  const blocks = cellFile && decodedBlocks(
+    `${id}/cell.js`, own, lengthsOfCell(cell, pixels), problems,
+    { guides: { visibility: truth?.visibility },
+      differing: causes?.map((cause) => (cause === noDifference ? 0 : 1)) });
   const opened = {
     scene, cell, id, problems, sceneFile, cellFile, causes,
     width: scene.width, height: scene.height,
@@ -113,7 +122,7 @@ async function openCell(scene, cell) {
     claim: blocks?.claim ?? null,
     share: blocks?.share ?? null,
     blocks,
-    ...await openColors({ scene, cell, id, sceneFile, cellFile, problems }),
+    ...openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }),
   };
   if (opened.visibility) checkTruth(opened);
   if (causes) checkCell(opened);

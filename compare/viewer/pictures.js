@@ -79,21 +79,43 @@ function pixelInk(opened, name, pixel) {
   return isDark(color) ? '#ffffff' : '#000000';
 }
 
+/** Colours, three bytes for each pixel, as a canvas. */
+function colorPicture(colors, width, height) {
+  const canvas = element('canvas', { width, height });
+  const context = canvas.getContext('2d');
+  const image = context.createImageData(width, height);
+  for (let i = 0, from = 0; i < image.data.length; i += 4, from += 3) {
+    image.data[i] = colors[from];
+    image.data[i + 1] = colors[from + 1];
+    image.data[i + 2] = colors[from + 2];
+    image.data[i + 3] = 255;
+  }
+  context.putImageData(image, 0, 0);
+  return canvas;
+}
+
+/** The colours of a cell that has some, drawn: [name, canvas or null]. */
+const drawnColors = ({ cell, trueColor, claimedColor, width, height }) =>
+  (cell.color ? [['true_color', trueColor], ['claimed_color', claimedColor]].map(([name, colors]) =>
+    [name, colors && colorPicture(colors, width, height)]) : []);
+
 async function loadedPictures(opened) {
   const { scene, cell, width, height } = opened;
-  const paths = { ...cell.images, truth: scene.images?.truth, true_color: scene.images?.color,
-                  claimed_color: cell.images?.color };
+  const paths = { ...cell.images, truth: scene.images?.truth };
   const pictures = {};
-  const drawn = familyOf(cell).drawn(opened);
+  const drawn = [...drawnColors(opened), ...familyOf(cell).drawn(opened)];
   const fromFiles = picturesOf(cell).filter((name) => !drawn.some(([other]) => other === name));
   await Promise.all(fromFiles.map(async (name) => {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
       : { problem: `the results name no picture of the ${titleOf(cell, name).toLowerCase()}` };
   }));
-  for (const [name, image] of drawn)
+  for (const [name, image] of drawn) {
+    const file = name === 'true_color' ? `${scene.folder}/scene.js` : `${opened.id}/cell.js`;
+    const block = name in pictureTitles ? 'color' : name;
     pictures[name] = image ? { image }
-      : { problem: opened.problems.find((text) => text.includes(`block ${name} `)) ??
-                   `${opened.id}/cell.js is missing or damaged` };
+      : { problem: opened.problems.find((text) => text.startsWith(`${file}: block ${block} `)) ??
+                   `${file} is missing or damaged` };
+  }
   return pictures;
 }
 

@@ -3,9 +3,10 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
-import { deflateSync, inflateSync } from 'node:zlib';
+import { changeBlock, damageBlock } from './coded.mjs';
 import { cellsOf, copyOfReport, emptyPage, keepScreenshot, openReport, resultsOf, settledLink, shown,
          text, writeReport } from './browser.mjs';
+import { scratch, shadowproof } from '../command/shadowproof.mjs';
 import { randomNumbers, seed } from './random.mjs';
 
 const techniques = ['bump_three_pass', 'bump_tangent_space', 'zfail_reversed'];
@@ -36,14 +37,6 @@ async function opened(damage, hash = link) {
 }
 
 /** Changes a block of a cell's script: `change` gets its bytes. */
-function changeBlock(path, name, change) {
-  const old = readFileSync(path, 'utf8');
-  const block = new RegExp(`("${name}":\\s*\\{[^}]*"data":\\s*")([^"]*)`);
-  const bytes = inflateSync(Buffer.from(block.exec(old)[2], 'base64'));
-  change(bytes);
-  writeFileSync(path, old.replace(block, `$1${deflateSync(bytes).toString('base64')}`));
-}
-
 function changeResults(path, change) {
   const results = JSON.parse(readFileSync(path('results.json'), 'utf8'));
   change(results.scenes[0].techniques[0], results);
@@ -64,6 +57,31 @@ async function pixelsOf(page, path) {
   }, `data:image/png;base64,${readFileSync(join(folder, path)).toString('base64')}`);
   return Array.from({ length: bytes.length / 4 }, (_, i) => bytes.slice(4 * i, 4 * i + 3));
 }
+
+/** Linear to sRGB (IEC 61966-2-1) in 8 bits. */
+const bytesOf = (linear) => linear.map((value) => {
+  const kept = Math.min(1, Math.max(0, value));
+  return Math.round(255 * (kept <= 0.0031308 ? 12.92 * kept : 1.055 * kept ** (1 / 2.4) - 0.055));
+});
+
+/** The true and the claimed colour of a pixel, as the command explains it. */
+function explainedColors({ scene, cell }, pixel) {
+  const file = join(scratch, 'pixel.json');
+  const run = shadowproof(['explain', scene.name, '--technique', cell.name, '--size', '160x160', '--pixel',
+    `${pixel % scene.width},${Math.floor(pixel / scene.width)}`, '--json', file, '-q']);
+  assert.equal(run.code, 0, run.out + run.err);
+  const [{ color }] = JSON.parse(readFileSync(file, 'utf8')).techniques;
+  return color && { right: bytesOf(color.true), claimed: bytesOf(color.claimed) };
+}
+
+/** Whether a pane can have the pixel in its middle, as no pane shows what lies beside a picture. */
+const isInside = (x, y, { width, height }) =>
+  x >= 8 && y >= 8 && x < width - 8 && y < height - 8;
+
+/** The bytes that a pane paints for the pixel in its middle, 96 pixels large, beside its word. */
+const paintedIn = (page, name) => page.locator(`canvas[data-picture="${name}"]`).evaluate((canvas) =>
+  [...canvas.getContext('2d').getImageData(Math.round(canvas.width / 2) - 38,
+                                           Math.round(canvas.height / 2) - 38, 1, 1).data].slice(0, 3));
 
 test('a cell with colours shows them before its other pictures', async () => {
   const { page, open, said, asked } = await openReport(folder, { hash: link });
@@ -88,25 +106,34 @@ test('a cell without colours shows nothing new, though its scene has some', asyn
   assert.deepEqual(said, []);
 });
 
-test(`the inspector has the bytes of both pictures (seed ${seed})`, async () => {
+test(`the inspector and the pictures have the bytes of the colours that are explained (seed ${seed})`, async () => {
   const random = randomNumbers(seed);
-  const decoder = await emptyPage();
   const { page, open, said } = await openReport(folder);
-  for (const { id, scene, cell } of cells.filter((each) => each.cell.color)) {
-    const right = await pixelsOf(decoder, scene.images.color);
-    const claimed = await pixelsOf(decoder, cell.images.color);
+  for (const each of cells.filter(({ cell }) => cell.color)) {
+    const { id, scene, cell } = each;
     const { x, y } = cell.color.largest_at;
     const pixels = [y * scene.width + x, ...Array.from({ length: 8 },
-                                                       () => Math.floor(random() * right.length))];
+                                                       () => Math.floor(random() * scene.width * scene.height))];
+    let checked = 0;
     for (const pixel of pixels) {
-      await open(`#${id}?pixel=${pixel % scene.width},${Math.floor(pixel / scene.width)}`);
-      const off = claimed[pixel].map((byte, i) => byte - right[pixel][i])
+      const colors = explainedColors(each, pixel);
+      if (!colors) continue; // nothing is seen there
+      const { right, claimed } = colors;
+      const [column, row] = [pixel % scene.width, Math.floor(pixel / scene.width)];
+      await open(`#${id}?pixel=${column},${row}&zoom=96&centre=${column + 0.5},${row + 0.5}`);
+      const off = claimed.map((byte, i) => byte - right[i])
         .map((by) => (by > 0 ? `+${by}` : String(by)));
       assert.equal(plain(await text(page, '.values.colors')),
-                   `true colour ${right[pixel].join(' ')} claimed ${claimed[pixel].join(' ')} ` +
+                   `true colour ${right.join(' ')} claimed ${claimed.join(' ')} ` +
                    `off by ${off.join(' ')}`);
       assert.match(await text(page, '.inspector'), /8-bit sRGB, as the pictures have them\. In linear light: /);
+      if (isInside(column, row, scene)) {
+        assert.deepEqual(await paintedIn(page, 'true_color'), right);
+        assert.deepEqual(await paintedIn(page, 'claimed_color'), claimed);
+        ++checked;
+      }
     }
+    assert.ok(checked > 1, `${id}: ${checked}`);
   }
   assert.deepEqual(said, []);
 });
@@ -179,7 +206,7 @@ test('the difference marks nothing where colours alone differ; the cause does', 
 
 test('a colour that nothing predicts is an alarm, and its pixel does not simply agree', async () => {
   const changed = (path) => {
-    changeBlock(path('bumpy_torus/bump_tangent_space/cell.js'), 'color_verdict',
+    changeBlock(path('.'), 'bumpy_torus', 'bump_tangent_space', 'color_verdict',
                 (verdicts) => { verdicts[120 * 160 + 80] = 3; });
     changeResults(path, (first, results) => {
       const cell = results.scenes[0].techniques.find(({ name }) => name === 'bump_tangent_space');
@@ -199,8 +226,7 @@ test('a colour that nothing predicts is an alarm, and its pixel does not simply 
   assert.match(await text(page, '.legends'), /unpredicted\s+1\s/);
 });
 
-for (const path of ['bumpy_torus/color.png', 'bumpy_torus/bump_three_pass/color.png',
-                    'bumpy_torus/bump_three_pass/color_error.png'])
+for (const path of ['bumpy_torus/bump_three_pass/color_error.png'])
   test(`a picture that is missing is named: ${path}`, async () => {
     const { page } = await opened((file) => rmSync(file(path)));
     assert.match(await text(page, '.stage .broken'), new RegExp(`^${path} is missing or damaged$`));
@@ -214,18 +240,18 @@ test('results that name no picture of the colours are told so', async () => {
 });
 
 test('damaged colours are named, shown as unknown, and cost no ledger', async () => {
-  const { page } = await opened((path) => {
-    const old = readFileSync(path(cellFile), 'utf8');
-    writeFileSync(path(cellFile), old.replace(/("color":\s*\{[^}]*"data":\s*")..../, '$1AAAA'));
-  });
+  const { page } = await opened((path) => damageBlock(path(cellFile), 'color'));
   assert.match(await alerts(page), /cell\.js: block color is damaged/);
+  assert.match(await text(page, '.stage .broken'), /bump_three_pass\/cell\.js: block color is damaged/);
+  assert.equal((await panes(page)).length, 9);
   assert.match(await alerts(page), /The colours cannot be shown\./);
   assert.equal(await page.locator('.values.colors').count(), 0);
   assert.equal(await page.locator('.ledger').count(), 1);
 });
 
 test('colours of another run are not taken for those of this', async () => {
-  const { page } = await opened((path) => changeBlock(path(cellFile), 'color_verdict',
-                                                      (verdicts) => verdicts.fill(1)));
+  const { page } = await opened((path) =>
+    changeBlock(path('.'), 'bumpy_torus', 'bump_three_pass', 'color_verdict',
+                (verdicts) => verdicts.fill(1)));
   assert.match(await alerts(page), /cell\.js does not belong to results\.js: its colours were judged otherwise/);
 });

@@ -70,7 +70,8 @@ SHADOWPROOF_SEND_ALL(Acceptance, cause, reason)
 template <class Archive>
 void serialize(Archive& archive, Cell& cell) {
     auto& [technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
-           since, accepted, first_failing, comparison, cause_map, FRAME, EVIDENCE] = cell;
+           since, accepted, first_failing, comparison, cause_map, FRAME, EVIDENCE, SAME_PICTURES] =
+        cell;
     archive(technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
             since, accepted, first_failing, comparison, cause_map);
 }

@@ -43,10 +43,25 @@ TEST(Blocks, no_single_changed_character_is_taken_for_the_same_bytes) {
     EXPECT_FALSE(unpacked("@" + text.substr(1), bytes.size()));
 }
 
-TEST(Blocks, a_block_names_its_type_and_length) {
-    EXPECT_EQ(block(std::vector<std::uint32_t>{1, 2, 3}).rfind(R"({"type":"u32","length":3,)", 0),
+TEST(Blocks, a_block_names_its_type_and_length_and_how_it_is_coded) {
+    EXPECT_EQ(sequence_block(NumberList(std::vector<std::uint32_t>{1, 2, 3}), 3)
+                  .rfind(R"({"type":"u32","length":3,"as":"sequence","columns":3,"sum":)", 0),
               0U);
-    EXPECT_EQ(block(std::vector<std::int8_t>{}).rfind(R"({"type":"i8","length":0,)", 0), 0U);
+    EXPECT_EQ(areas_block(NumberList(std::vector<std::int8_t>{}), 7)
+                  .rfind(R"({"type":"i8","length":0,"as":"areas","width":7,"sum":)", 0),
+              0U);
+}
+
+TEST(Blocks, no_byte_of_a_block_ends_its_string_or_its_line) {
+    std::vector<std::uint32_t> values;
+    std::mt19937 random(20261127);
+    for (int i = 0; i < 20000; ++i) values.push_back(static_cast<std::uint32_t>(random()));
+    const std::string text = sequence_block(NumberList(values));
+    const std::size_t begin = text.find(R"("data":")") + 8;
+    EXPECT_EQ(text.find_first_of("\r\n"), std::string::npos);
+    std::size_t end = begin;
+    while (text[end] != '"') end += text[end] == '\\' ? 2 : 1;
+    EXPECT_EQ(text.substr(end), "\"}");
 }
 
 } // namespace

@@ -69,27 +69,43 @@ function meshOf({ sceneFile }, triangle) {
 const named = (opened, triangle) =>
   (triangle === noTriangle ? null : { triangle, mesh: meshOf(opened, triangle) });
 
-function crossingsOf(opened, ledger, eye, direction, light) {
-  const { ledger_start: start, crossing_face: faces, crossing_change: changes, face } =
-    opened.blocks;
-  const crossings = [];
-  for (let i = start[ledger]; i < start[ledger + 1]; ++i) {
-    const triangle = face[2 * faces[i]];
-    const part = face[2 * faces[i] + 1];
+/** Where each ledger begins in the block of crossings. */
+function ledgerStarts(opened) {
+  if (!opened.ledgerStarts) {
+    opened.ledgerStarts = [0];
+    opened.blocks.crossing.forEach((crossing, i) => {
+      if (crossing === 0) opened.ledgerStarts.push(i + 1);
+    });
+  }
+  return opened.ledgerStarts;
+}
+
+/** The crossings of a ledger, in the order in which they lie on the ray. */
+function listedCrossings(opened, ledger) {
+  const { crossing, face } = opened.blocks;
+  const start = ledgerStarts(opened);
+  return Array.from(crossing.subarray(start[ledger], start[ledger + 1] - 1), (each) => {
+    const number = each - 1;
+    return { triangle: face[2 * (number >>> 4)], part: face[2 * (number >>> 4) + 1],
+             change: number & 8 ? -1 : 1, status: statusNames[number & 7] };
+  });
+}
+
+function crossingsOf(opened, listed, eye, direction, light) {
+  return listed.map(({ triangle, part, change }) => {
     // Far ends of volumes are numbered after all triangles.
     const corners = cornersOf(opened, part === 4 ? triangle + opened.scene.triangles : triangle);
     const isCap = part >= 3;
     const from = isCap ? corners : [corners[part], corners[(part + 1) % 3]];
-    crossings.push({
+    return {
       depth: isCap ? depthOnTriangle(eye, direction, from)
                    : depthOnSide(eye, direction, light, from),
-      change: changes[i],
+      change,
       kind: ['side', 'side', 'side', 'light cap', 'dark cap'][part],
       caster: named(opened, triangle),
       from,
-    });
-  }
-  return crossings;
+    };
+  });
 }
 
 /** What became of the dark caps, which lie at infinity. */
@@ -100,15 +116,11 @@ function darkCapStatus({ counting, depth }) {
 }
 
 /** How each crossing is counted, where casters are not counted alike. */
-function testsOf({ cellFile, sceneFile, blocks }, ledger) {
+function testsOf({ cellFile, sceneFile }, listed) {
   const { tests } = cellFile.counting;
   if (!tests) return undefined;
-  const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
-  return Array.from(blocks.crossing_face.subarray(begin, end), (face) => {
-    const triangle = blocks.face[2 * face];
-    return tests[sceneFile.meshes.findIndex(({ first, count }) =>
-      triangle >= first && triangle < first + count)];
-  });
+  return listed.map(({ triangle }) => tests[sceneFile.meshes.findIndex(({ first, count }) =>
+    triangle >= first && triangle < first + count)]);
 }
 
 /** Dark caps at infinity: of the casters that are counted behind the surface. */
@@ -173,11 +185,10 @@ function pixelRecord(opened, x, y) {
   const direction = rayDirection(sceneFile, x, y);
   const ledger = blocks.ledger[rank];
   const seen = seenRecord(opened, blocks.seen[rank], camera.eye, direction);
-  const crossings = crossingsOf(opened, ledger, camera.eye, direction,
-                                homogeneous(light));
+  const listed = listedCrossings(opened, ledger);
+  const crossings = crossingsOf(opened, listed, camera.eye, direction, homogeneous(light));
   const inside = insideOf(opened, ledger, seen);
-  const [begin, end] = blocks.ledger_start.subarray(ledger, ledger + 2);
-  const tests = testsOf(opened, ledger);
+  const tests = testsOf(opened, listed);
   return {
     schema: 'shadowproof/pixel/1', scene: scene.name, x, y, width, height: opened.height,
     eye: camera.eye, direction, near: camera.near, far: sceneFile.far, light,
@@ -195,7 +206,7 @@ function pixelRecord(opened, x, y) {
       claim: visibilityNames[blocks.claim[pixel]],
       shown: named(opened, blocks.shown[rank]),
       cause: received.legend.causes[opened.causes[pixel]].name,
-      statuses: Array.from(blocks.crossing_status.subarray(begin, end), (i) => statusNames[i]),
+      statuses: listed.map(({ status }) => status),
       dark_cap: darkCapStatus(cellFile),
       dark_caps: darkCapCount(inside, crossings, tests),
     }],

@@ -26,8 +26,7 @@ addFamily('stencil', {
   blocks: (pixels, differing) => ({
     predicted: pixels, read_back: pixels, faces: pixels,
     seen: differing, shown: differing, exactness: differing, ledger: differing,
-    ledger_start: null, ledger_counts: null, ledger_exact: null, ledger_predicted: null,
-    crossing_face: null, crossing_change: null, crossing_status: null,
+    ledger_counts: null, ledger_exact: null, ledger_predicted: null, crossing: null,
     face: null, triangle: null, vertex: null,
   }),
   pictures: { predicted: 'Counter predicted', read_back: 'Counter read back', volumes: 'Volumes' },
