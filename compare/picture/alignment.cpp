@@ -2,6 +2,7 @@
 
 #include "compare/picture/surface_colors.h"
 #include "scenes/camera.h"
+#include "scenes/surface/alpha_mask.h"
 
 #include <fmt/format.h>
 
@@ -150,6 +151,8 @@ private:
     }
 
     /// Pixels beside which another mesh, or the background, begins: spread evenly, some thousands.
+    /// Outlines of holes in alpha masks are none: a picture that ignores masks has others there,
+    /// and is not another view.
     std::vector<Spot> outline_spots() const {
         constexpr std::size_t most = 8192;
         const Image<std::uint32_t>& triangles = traced_.truth().triangle;
@@ -157,12 +160,26 @@ private:
             const std::uint32_t triangle = triangles.at(x, y);
             return triangle == no_triangle ? no_triangle : mesh_of(scene_, triangle);
         };
+        Image<std::uint32_t> whole; // what is seen without masks
+        if (has_masks(scene_)) {
+            const Scene without = without_masks(scene_);
+            whole = trace(Tracer(without, traced_.tracer().threads())).triangle;
+        }
+        const auto near_hole = [&](int x, int y) {
+            constexpr int reach = 2; // views move outlines by a pixel, and by more in the end
+            if (whole.pixels.empty()) return false;
+            for (int v = std::max(y - reach, 0); v <= std::min(y + reach, whole.height - 1); ++v)
+                for (int u = std::max(x - reach, 0); u <= std::min(x + reach, whole.width - 1); ++u)
+                    if (whole.at(u, v) != triangles.at(u, v)) return true;
+            return false;
+        };
         std::vector<Spot> all;
         for (int y = 1; y + 1 < triangles.height; ++y)
             for (int x = 1; x + 1 < triangles.width; ++x) {
                 const std::uint32_t own = mesh(x, y);
-                if (mesh(x - 1, y) != own || mesh(x + 1, y) != own || mesh(x, y - 1) != own ||
-                    mesh(x, y + 1) != own)
+                if ((mesh(x - 1, y) != own || mesh(x + 1, y) != own || mesh(x, y - 1) != own ||
+                     mesh(x, y + 1) != own) &&
+                    !near_hole(x, y))
                     all.push_back({x, y});
             }
         const std::size_t step = std::max<std::size_t>(1, all.size() / most);

@@ -142,6 +142,39 @@ void try_meshes(Trial& trial) {
     }
 }
 
+namespace {
+
+/// Pixels whose meshes, of which one is seen with masks and one without, are not the same.
+std::shared_ptr<const Image<std::uint8_t>> behind_holes(const Trial& trial, const Scene& whole) {
+    const Image<std::uint32_t> seen =
+        trace(Tracer(whole, trial.traced().tracer().threads())).triangle;
+    const Image<std::uint32_t>& own = trial.truth().triangle;
+    const auto mesh = [&](std::uint32_t triangle) {
+        return triangle == no_triangle ? no_triangle : mesh_of(whole, triangle);
+    };
+    Image<std::uint8_t> behind(own.width, own.height);
+    for (std::size_t i = 0; i < behind.pixels.size(); ++i)
+        behind.pixels[i] = mesh(seen.pixels[i]) != mesh(own.pixels[i]) ? 1 : 0;
+    return std::make_shared<const Image<std::uint8_t>>(std::move(behind));
+}
+
+/// The truth of the scene without masks. Behind a hole something else is seen, in other colours: no
+/// pixel there can be right.
+Predict without_holes(const Trial& trial) {
+    const Scene whole = without_masks(trial.scene());
+    const auto behind = behind_holes(trial, whole);
+    const Predict truth = truth_without(trial, [whole] { return whole; });
+    return [truth, behind](std::span<const Patch> patches, Image<Visibility>& picture) {
+        truth(patches, picture);
+        for (const Patch& patch : patches)
+            for_each_pixel(patch, [&](int x, int y) {
+                if (behind->at(x, y) != 0) picture.at(x, y) = Visibility::background;
+            });
+    };
+}
+
+} // namespace
+
 void try_masks(Trial& trial) {
     if (!has_masks(trial.scene())) return;
     const auto whole =
@@ -152,7 +185,7 @@ void try_masks(Trial& trial) {
         changed(trial.traced(), [whole](std::size_t i, Visibility) { return whole->pixels[i]; }));
     trial.consider("alpha_ignored", {{"surfaces", 1}},
                    "alpha masks leave nothing out, of surfaces and of casters",
-                   truth_without(trial, [&scene = trial.scene()] { return without_masks(scene); }));
+                   without_holes(trial));
 }
 
 void try_one_sided(Trial& trial) {

@@ -142,6 +142,8 @@ Decision decide(Filters filters, const MaskedTriangle& triangle, const WeightsOf
     if (filters == Filters::on) {
         const Rectangle at = coordinates(weights(BoundedArithmetic{}), triangle);
         const AlphaRange alpha = alpha_range(mask, at.low, at.high);
+        // All around it is one value.
+        if (alpha.low == alpha.high) return {alpha.low < mask.least ? -1 : 1, Exactness::filtered};
         if (alpha.low > mask.least) return {1, Exactness::filtered};
         if (alpha.high < mask.least) return {-1, Exactness::filtered};
     }
@@ -176,6 +178,7 @@ bool may_stand_on_ray(const EyeRay& ray, const MaskedTriangle& triangle, const M
     const Rectangle at =
         coordinates(weights_on_ray(BoundedArithmetic{}, ray, triangle.corners), triangle);
     const AlphaRange alpha = alpha_range(*triangle.mask, at.low - error.at, at.high + error.at);
+    if (alpha.low == alpha.high) return alpha.low >= triangle.mask->least; // nothing is rounded
     return reading == MaskReading::most ? alpha.high + error.alpha >= triangle.mask->least
                                         : alpha.low - error.alpha >= triangle.mask->least;
 }

@@ -26,7 +26,8 @@ Decision mask_before_light(Filters filters, const EyeRay& ray, const RayPoint& q
                            const MaskedTriangle& triangle);
 
 /// Whether the surface stands at least, or at most, for another program that reads the mask on the
-/// eye ray with these errors. `reading`: not exact.
+/// eye ray with these errors, and interpolates between equal texels without any. `reading`: not
+/// exact.
 bool may_stand_on_ray(const EyeRay& ray, const MaskedTriangle& triangle, const MaskError& error,
                       MaskReading reading);
 

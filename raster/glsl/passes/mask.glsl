@@ -10,6 +10,16 @@ layout(location = 34) uniform bool reads_nearest; // texel
 
 in Masked { vec2 at; } masked;
 
+// a + f (b - a), which equal texels leave unchanged; mix() may be another formula.
+float between(float a, float b, float f) {
+    return a + f * (b - a);
+}
+
+float row_of_alpha(Taps s, int row) {
+    return between(texelFetch(mask_alpha, ivec2(s.first, row), 0).r,
+                   texelFetch(mask_alpha, ivec2(s.second, row), 0).r, s.fraction);
+}
+
 bool is_left_out() {
     ivec2 size = textureSize(mask_alpha, 0);
     if (reads_nearest) {
@@ -17,6 +27,7 @@ bool is_left_out() {
                             texel_at(mask_wrap_t, size.y, masked.at.y));
         return texelFetch(mask_alpha, texel, 0).r < least_alpha;
     }
-    return sampled(mask_alpha, taps_at(mask_wrap_s, size.x, masked.at.x),
-                   taps_at(mask_wrap_t, size.y, masked.at.y)).r < least_alpha;
+    Taps s = taps_at(mask_wrap_s, size.x, masked.at.x);
+    Taps t = taps_at(mask_wrap_t, size.y, masked.at.y);
+    return between(row_of_alpha(s, t.first), row_of_alpha(s, t.second), t.fraction) < least_alpha;
 }

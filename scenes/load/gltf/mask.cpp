@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
+#include <map>
 
 namespace shadowproof::gltf {
 
@@ -47,15 +47,36 @@ struct MaskSource {
     Place texture_place() const { return place / "pbrMetallicRoughness" / "baseColorTexture"; }
 };
 
-AlphaMask read_alpha(const MaskSource& source, TextureReader& textures) {
-    const TextureImage read = textures.decode(source.texture_place() / "index",
-                                              source.texture()["index"], Encoding::srgb);
-    return {.name = read.name,
-            .alpha = converted<float>(read.texels, [](const glm::vec4& texel) { return texel.a; }),
-            .wrap_s = read.wrap_s,
-            .wrap_t = read.wrap_t,
-            .nearest = read.nearest};
-}
+/// Decodes each texture once, and keeps one mask for all materials that read it alike.
+class MaskReader {
+public:
+    MaskReader(const Document& document, const json& look, std::vector<AlphaMask>& masks)
+        : textures_(document, look, none_), masks_(masks) {}
+
+    AlphaMask& decoded(const MaskSource& source) {
+        const std::size_t texture = source.texture()["index"];
+        const auto known = decoded_.find(texture);
+        if (known != decoded_.end()) return known->second;
+        return decoded_
+            .emplace(texture, textures_.decode_alpha(source.texture_place() / "index", texture))
+            .first->second;
+    }
+    /// Index of the mask; `alpha`: as decoded, with its `least`.
+    std::uint32_t kept(const AlphaMask& alpha) {
+        const auto found = std::ranges::find_if(masks_, [&](const AlphaMask& mask) {
+            return mask.name == alpha.name && mask.least == alpha.least;
+        });
+        if (found != masks_.end()) return static_cast<std::uint32_t>(found - masks_.begin());
+        masks_.push_back(alpha);
+        return static_cast<std::uint32_t>(masks_.size() - 1);
+    }
+
+private:
+    std::vector<TextureImage> none_;
+    TextureReader textures_;
+    std::vector<AlphaMask>& masks_;
+    std::map<std::size_t, AlphaMask> decoded_; ///< by texture
+};
 
 /// What is left of a material's surface.
 enum class Left : std::uint8_t { all, some, nothing };
@@ -67,7 +88,8 @@ Left what_is_left(const AlphaMask& mask) {
     return double{most} < mask.least ? Left::nothing : Left::some;
 }
 
-Left read_mask(const MaskSource& source, TextureReader& textures, Scene& scene, AlphaMask& mask) {
+/// `mask`: set where something is left, and something is left out.
+Left read_mask(const MaskSource& source, MaskReader& reader, Scene& scene, std::uint32_t& mask) {
     const double cutoff = source.cutoff();
     const double own = source.own_alpha();
     if (cutoff <= 0) return Left::all;
@@ -80,9 +102,11 @@ Left read_mask(const MaskSource& source, TextureReader& textures, Scene& scene, 
                                           source.texture_place().pointer()));
         return Left::all;
     }
-    mask = read_alpha(source, textures);
-    mask.least = cutoff / own;
-    return what_is_left(mask);
+    AlphaMask& alpha = reader.decoded(source);
+    alpha.least = cutoff / own;
+    const Left left = what_is_left(alpha);
+    if (left == Left::some) mask = reader.kept(alpha);
+    return left;
 }
 
 void note_blending(const Document& document, const std::vector<bool>& used, Scene& scene) {
@@ -107,20 +131,16 @@ void read_masks(const Document& document, const std::vector<bool>& used, Materia
     if (!some) return;
     json look = document.look;
     check_lighting(document.root(), look);
-    std::vector<TextureImage> none;
-    TextureReader textures(document, look, none);
+    MaskReader reader(document, look, scene.masks);
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i] || !is_masked(document, i)) continue;
         const Place place = document.root() / "materials" / i;
         const MaskSource source{document, look, look["materials"][i], place,
                                 scene.materials[i].name};
-        AlphaMask mask;
-        switch (read_mask(source, textures, scene, mask)) {
+        switch (read_mask(source, reader, scene, scene.materials[i].mask)) {
         case Left::all:
             break;
         case Left::some:
-            scene.materials[i].mask = static_cast<std::uint32_t>(scene.masks.size());
-            scene.masks.push_back(std::move(mask));
             materials.sets[i].mask = read_coordinates(source.texture());
             break;
         case Left::nothing:

@@ -223,6 +223,11 @@ void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
                                materials, scene);
         }
     }
+    const bool some_left_out =
+        std::ranges::find(materials.left_out, true) != materials.left_out.end();
+    if (scene.triangles.empty() && some_left_out)
+        reader.document().root().refuse("has alpha masks that leave none of its triangles",
+                                        "lower alphaCutoff, or choose the alphaMode OPAQUE");
     if (scene.triangles.empty())
         reader.document().root().refuse("holds no triangle in its scene",
                                         "export meshes, or set \"scene\" to one that has some");

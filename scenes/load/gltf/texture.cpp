@@ -70,29 +70,47 @@ void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
     nearest_ = nearest_ || texture.nearest;
 }
 
-TextureImage TextureReader::decode(const Place& reference, std::size_t texture, Encoding encoding) {
+/// Sets all of `read` but its texels, each of which takes so many bytes and is kept.
+Picture TextureReader::picture_of(const Place& reference, std::size_t texture, TextureImage& read,
+                                  std::uint64_t bytes_of_texel) {
     const json& source = look_["textures"][texture];
     const Place place = document_.root() / "textures" / texture;
     if (!source.contains("source"))
         reference.refuse(fmt::format("names texture {}, which has no PNG or JPEG image", texture),
                          "give it a source");
     const std::size_t image = source["source"];
-    TextureImage read{.name = place.pointer()};
+    read.name = place.pointer();
     if (source.contains("sampler")) set_sampler(source["sampler"], read);
     const std::string where = (document_.root() / "images" / image).where();
     MemoryAccount& memory = *document_.memory;
     const FileBytes bytes = image_bytes(document_, look_["images"][image], image);
     const MemoryHold held = memory.hold({bytes.size(), where, "its bytes", "scale it down"});
-    const Picture picture = decode_picture(bytes, where,
-                                           {.memory = memory,
-                                            .most_pixels = limits.texels - texels_,
-                                            .bytes_made_of_pixel = sizeof(glm::vec4)});
+    Picture picture = decode_picture(bytes, where,
+                                     {.memory = memory,
+                                      .most_pixels = limits.texels - texels_,
+                                      .bytes_made_of_pixel = bytes_of_texel});
     read.bits = picture.bits;
-    read.texels = texels_of(picture, encoding);
-    texels_ += read.texels.pixels.size();
-    memory.keep(
-        {read.texels.pixels.size() * sizeof(glm::vec4), where, "its texels", "scale it down"});
+    const std::uint64_t texels = std::uint64_t{static_cast<std::uint32_t>(picture.width)} *
+                                 static_cast<std::uint32_t>(picture.height);
+    texels_ += texels;
+    memory.keep({texels * bytes_of_texel, where, "its texels", "scale it down"});
+    return picture;
+}
+
+TextureImage TextureReader::decode(const Place& reference, std::size_t texture, Encoding encoding) {
+    TextureImage read;
+    read.texels = texels_of(picture_of(reference, texture, read, sizeof(glm::vec4)), encoding);
     return read;
+}
+
+AlphaMask TextureReader::decode_alpha(const Place& reference, std::size_t texture) {
+    TextureImage read;
+    const Picture picture = picture_of(reference, texture, read, sizeof(float));
+    return {.name = read.name,
+            .alpha = alpha_of(picture),
+            .wrap_s = read.wrap_s,
+            .wrap_t = read.wrap_t,
+            .nearest = read.nearest};
 }
 
 std::uint32_t TextureReader::read(const Place& reference, std::size_t texture, Encoding encoding) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenes/load/gltf/file.h"
+#include "scenes/load/picture/picture.h"
 #include "scenes/load/picture/texels.h"
 
 #include <cstdint>
@@ -27,6 +28,9 @@ public:
     /// The same, but decoded again and not added to the scene's textures.
     TextureImage decode(const Place& reference, std::size_t texture, Encoding encoding);
 
+    /// Its alpha alone, and how it is sampled; `least` is not set.
+    AlphaMask decode_alpha(const Place& reference, std::size_t texture);
+
     bool asks_for_nearest() const { return nearest_; } ///< some sampler's magFilter does
 
 private:
@@ -38,6 +42,8 @@ private:
     bool nearest_ = false;
 
     void set_sampler(std::size_t sampler, TextureImage& texture);
+    Picture picture_of(const Place& reference, std::size_t texture, TextureImage& read,
+                       std::uint64_t bytes_of_texel);
 };
 
 } // namespace shadowproof::gltf

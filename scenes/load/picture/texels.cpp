@@ -14,6 +14,15 @@ double linear_from_srgb(double value) {
 
 } // namespace
 
+Image<float> alpha_of(const Picture& picture) {
+    Image<float> alpha(picture.width, picture.height, 1.0F);
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    if (channels == 1 || channels == 3) return alpha;
+    for (std::size_t i = 0; i < alpha.pixels.size(); ++i)
+        alpha.pixels[i] = picture.values[i * channels + (channels == 2 ? 1 : 3)];
+    return alpha;
+}
+
 Image<glm::vec4> texels_of(const Picture& picture, Encoding encoding) {
     Image<glm::vec4> texels(picture.width, picture.height);
     const auto channels = static_cast<std::size_t>(picture.channels);

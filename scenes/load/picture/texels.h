@@ -14,6 +14,9 @@ enum class Encoding : std::uint8_t {
     plain, ///< numbers: normals, heights
 };
 
+/// Alpha alone; 1 where it is missing.
+Image<float> alpha_of(const Picture& picture);
+
 /// The pixels as vectors: gray fills all three colours, a missing alpha is 1.
 Image<glm::vec4> texels_of(const Picture& picture, Encoding encoding);
 

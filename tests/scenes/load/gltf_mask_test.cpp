@@ -66,9 +66,26 @@ TEST(AlphaMasks, that_leave_nothing_out_are_none) {
     EXPECT_TRUE(says(scene, "alphaMode BLEND is drawn as opaque"));
 }
 
+TEST(AlphaMasks, of_one_texture_are_one_where_their_cutoff_is) {
+    json gltf = masked_gltf({0, 51, 102, 255});
+    gltf["materials"].push_back(gltf["materials"][0]);
+    gltf["materials"].push_back(gltf["materials"][0]);
+    gltf["materials"][2]["alphaCutoff"] = 0.25;
+    for (int i = 1; i < 3; ++i) {
+        gltf["meshes"][0]["primitives"].push_back(gltf["meshes"][0]["primitives"][0]);
+        gltf["meshes"][0]["primitives"].back()["material"] = i;
+    }
+    const Scene scene = load(gltf);
+    ASSERT_EQ(scene.masks.size(), 2U);
+    EXPECT_EQ(scene.materials[0].mask, scene.materials[1].mask);
+    EXPECT_EQ(scene.masks[scene.materials[2].mask].least, 0.25);
+    EXPECT_EQ(scene.masks[0].alpha.pixels, scene.masks[1].alpha.pixels);
+}
+
 TEST(AlphaMasks, that_leave_nothing_standing_take_the_mesh_away) {
     json gltf = masked_gltf({0, 60, 127, 127});
-    EXPECT_NE(refusal(gltf).find("holds no triangle"), std::string::npos);
+    EXPECT_NE(refusal(gltf).find("has alpha masks that leave none of its triangles"),
+              std::string::npos);
     gltf["meshes"][0]["primitives"].push_back(gltf["meshes"][0]["primitives"][0]);
     gltf["meshes"][0]["primitives"][1].erase("material");
     const Scene scene = load(gltf);
