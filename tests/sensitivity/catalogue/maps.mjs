@@ -37,7 +37,7 @@ export const faults = [
   { name: 'map_turned_1e-3', ...camera('c.forward = glm::normalize(c.forward + 1e-3 * c.up); c.up = glm::cross(c.right, c.forward)') },
   { name: 'map_casters_all_but_one', file: pass, right: 'if (!mesh.casts) continue;', wrong: 'if (!mesh.casts || &mesh == &scene.meshes.back()) continue;' },
   { name: 'map_of_all_meshes', file: pass, right: 'if (!mesh.casts) continue;', wrong: '', why: 'Every bundled mesh casts.' },
-  { name: 'map_a_triangle_lost', file: pass, right: 'runs.push_back({mesh.first_triangle, mesh.triangle_count, true});', wrong: 'runs.push_back({mesh.first_triangle, mesh.triangle_count - 1, true});' },
+  { name: 'map_a_triangle_lost', file: pass, right: 'runs.push_back({mesh.first_triangle, mesh.triangle_count, true, mask});', wrong: 'runs.push_back({mesh.first_triangle, mesh.triangle_count - 1, true, mask});' },
   { name: 'map_of_32_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT32F;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'cube_map_six_pass' },
   { name: 'map_of_24_bits_stored_in_16', file: pass, right: 'return GL_DEPTH_COMPONENT24;', wrong: 'return GL_DEPTH_COMPONENT16;', techniques: 'spot_map' },
   { name: 'map_linear_filter', file: pass, right: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);', wrong: 'gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR); gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);' },

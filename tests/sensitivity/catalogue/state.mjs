@@ -58,7 +58,7 @@ export const faults = [
   { name: 'clears_to_triangle_0', file: passes, right: 'gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 1, nothing.data());', wrong: 'const GLuint zero[4] = {0, 0, 0, 0}; gl.ClearNamedFramebufferuiv(framebuffer, GL_COLOR, 1, zero);' },
   { name: 'clears_depth_short_of_far', file: passes, right: clearDepth, wrong: 'gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.01F : 0.99F, stencil);' },
   { name: 'clears_stencil_to_1', file: passes, right: clearDepth, wrong: 'gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil + 1);' },
-  { name: 'runs_from_triangle_0', file: passes, right: 'gl.ProgramUniform1ui(surface.name(), 7, run.first_triangle);', wrong: 'gl.ProgramUniform1ui(surface.name(), 7, 0);' },
+  { name: 'runs_from_triangle_0', file: passes, right: 'gl.ProgramUniform1ui(surface.of(run).name(), 7, run.first_triangle);', wrong: 'gl.ProgramUniform1ui(surface.of(run).name(), 7, 0);' },
   { name: 'light_depth_or_nearer', file: passes, right: lightDepth, wrong: 'gl.DepthFunc(GL_LEQUAL);', why: 'As light_depth_always.' },
   { name: 'light_depth_always', file: passes, right: lightDepth, wrong: 'gl.DepthFunc(GL_ALWAYS);', why: 'Only the triangle that is seen speaks, whatever the depth test lets through.' },
   { name: 'light_ignores_stencil', file: passes, right: tested, wrong: 'gl.StencilFunc(GL_ALWAYS, 0, ~0U);' },
