@@ -152,10 +152,10 @@ std::shared_ptr<const Image<std::uint8_t>> behind_holes(const Trial& trial, cons
     const auto mesh = [&](std::uint32_t triangle) {
         return triangle == no_triangle ? no_triangle : mesh_of(whole, triangle);
     };
-    Image<std::uint8_t> behind(own.width, own.height);
-    for (std::size_t i = 0; i < behind.pixels.size(); ++i)
-        behind.pixels[i] = mesh(seen.pixels[i]) != mesh(own.pixels[i]) ? 1 : 0;
-    return std::make_shared<const Image<std::uint8_t>>(std::move(behind));
+    auto behind = std::make_shared<Image<std::uint8_t>>(own.width, own.height);
+    for (std::size_t i = 0; i < behind->pixels.size(); ++i)
+        behind->pixels[i] = mesh(seen.pixels[i]) != mesh(own.pixels[i]) ? 1 : 0;
+    return behind;
 }
 
 /// The truth of the scene without masks. Behind a hole something else is seen, in other colours: no
