@@ -46,7 +46,10 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     for (const TextureImage& texture : scene.textures) texels += texture.texels.pixels.size();
     if (scene.environment)
         for (const auto& face : *scene.environment) texels += face.pixels.size();
-    std::uint64_t of_masks = 0; // once in the program, once in OpenGL
+    // Beside the scene: in OpenGL, with the casters before each face of a cube, and in volumes of
+    // flipped, filled, extruded and left-out casters.
+    constexpr std::uint64_t copies_of_masks = 12;
+    std::uint64_t of_masks = 0;
     for (const AlphaMask& mask : scene.masks) of_masks += mask.alpha.pixels.size();
     const std::uint64_t pixels = pixels_of(scene.camera.width, scene.camera.height);
     const std::uint64_t triangles = scene.triangles.size();
@@ -57,7 +60,8 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
                      scene.positions.size() * vertex_bytes(work) +
                      scene.surfaces.size() * sizeof(Surface) * 2,
                  fmt::format("{} triangles", triangles), "give the scene fewer triangles"},
-            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)) + of_masks * 2 * sizeof(float),
+            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)) +
+                     of_masks * copies_of_masks * sizeof(float),
                  fmt::format("{} texels", texels + of_masks), "make its textures smaller"}};
 }
 

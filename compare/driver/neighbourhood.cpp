@@ -79,8 +79,6 @@ std::vector<double> stops_along(const Line& line, const std::vector<Line>& lines
 
 } // namespace
 
-// Each part that lies next to a line has a piece of it as a side, from one crossing to the next.
-// From the piece's middle, half the way to the nearest of all other lines leads into that part.
 void read_masks_in_all_ways(Neighbourhood& around) {
     const std::vector<glm::dvec3> rays = around.rays;
     around.readings.assign(rays.size(), MaskReading::exact);
@@ -90,6 +88,8 @@ void read_masks_in_all_ways(Neighbourhood& around) {
     }
 }
 
+// Each part that lies next to a line has a piece of it as a side, from one crossing to the next.
+// From the piece's middle, half the way to the nearest of all other lines leads into that part.
 std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<glm::dvec3> planes) {
     constexpr std::size_t most_lines = 12;
     const glm::dvec3& centre = around.rays.front();

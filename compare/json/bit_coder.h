@@ -1,6 +1,6 @@
 // Codes bits, each by how likely it was where it was met before, so that what is expected costs
 // next to nothing: a carryless binary range coder (Mahoney, "Adaptive weighing of context models
-// for lossless data compression", 2005, section 2). compare/viewer/decoders reads what it writes,
+// for lossless data compression", 2005, section 2). compare/viewer/coded.js reads what it writes,
 // and has the same arithmetic, in integers.
 #pragma once
 

@@ -1,5 +1,5 @@
 // Pictures and lists of whole numbers in few bytes: each value is guessed from those before it and
-// beside it, and what is coded is whether the guess is right. compare/viewer/decoders reads them.
+// beside it, and what is coded is whether the guess is right. compare/viewer/coded.js reads them.
 #pragma once
 
 #include <cstdint>

@@ -179,7 +179,8 @@ bool ParallelView::may_draw(const Texel& texel, std::uint32_t caster) const {
 // which is 1. Of a caster that the near or far plane cuts nothing is known.
 MaskError ParallelView::mask_error(const Texel& texel, std::uint32_t caster) const {
     const std::vector<PicturePoint> polygon = pictured_in_parallel(casters_, camera(0), caster);
-    if (polygon.size() != 3) return {.at = glm::dvec2(infinity)};
+    if (polygon.size() != 3 || std::ranges::any_of(polygon, &PicturePoint::made_by_clipping))
+        return {.at = glm::dvec2(infinity)};
     const std::array<glm::dvec2, 3> at = mask_coordinates(casters_, caster);
     MaskError error{.alpha = alpha_roundings};
     for (int axis = 0; axis < 2; ++axis) {

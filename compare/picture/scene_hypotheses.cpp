@@ -158,17 +158,18 @@ std::shared_ptr<const Image<std::uint8_t>> behind_holes(const Trial& trial, cons
     return behind;
 }
 
-/// The truth of the scene without masks. Behind a hole something else is seen, in other colours: no
-/// pixel there can be right.
+/// The truth of the scene without masks. In a hole something else is drawn than what its light and
+/// shadow are read by: there the picture may show either.
 Predict without_holes(const Trial& trial) {
     const Scene whole = without_masks(trial.scene());
     const auto behind = behind_holes(trial, whole);
     const Predict truth = truth_without(trial, [whole] { return whole; });
-    return [truth, behind](std::span<const Patch> patches, Image<Visibility>& picture) {
+    return [truth, behind, &claim = trial.frame().claim](std::span<const Patch> patches,
+                                                         Image<Visibility>& picture) {
         truth(patches, picture);
         for (const Patch& patch : patches)
             for_each_pixel(patch, [&](int x, int y) {
-                if (behind->at(x, y) != 0) picture.at(x, y) = Visibility::background;
+                if (behind->at(x, y) != 0) picture.at(x, y) = claim.at(x, y);
             });
     };
 }

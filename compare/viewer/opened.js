@@ -88,9 +88,9 @@ function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problem
 async function ownBlocks(scene, cellFile, problems) {
   const blocks = { ...cellFile?.blocks };
   const others = new Map();
-  for (const [name, { from }] of Object.entries(blocks)) {
-    if (!from) continue;
-    const [technique, other] = from.split('/');
+  for (const [name, block] of Object.entries(blocks)) {
+    if (!block?.from) continue;
+    const [technique, other] = block.from.split('/');
     const path = `${scene.folder}/${technique}/cell.js`;
     if (!others.has(path)) others.set(path, orProblem(handedOver(path), problems));
     blocks[name] = (await others.get(path))?.blocks?.[other];

@@ -118,13 +118,19 @@ std::vector<SurfaceRun> surface_runs(const Scene& scene) {
 
 namespace {
 
-MaskTexture upload_mask(const GlFunctions& gl, const AlphaMask& mask) {
+MaskTexture upload_mask(const GlFunctions& gl, const Scene& scene, const AlphaMask& mask) {
     MaskTexture made{.alpha = make_texture(gl, GL_TEXTURE_2D),
                      .wrap_s = static_cast<GLint>(mask.wrap_s),
                      .wrap_t = static_cast<GLint>(mask.wrap_t),
                      .nearest = mask.nearest,
                      .least = float_not_below(mask.least)};
     const GLuint name = made.alpha.name();
+    GLint most = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (std::max(mask.alpha.width, mask.alpha.height) > most)
+        throw Error(scene.file.string() + ": " + mask.name,
+                    "the driver takes at most " + std::to_string(most) + " texels a side",
+                    "make the image smaller");
     gl.TextureStorage2D(name, 1, GL_R32F, mask.alpha.width, mask.alpha.height);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
     gl.TextureSubImage2D(name, 0, 0, 0, mask.alpha.width, mask.alpha.height, GL_RED, GL_FLOAT,
@@ -145,7 +151,8 @@ void upload_masks(const GlFunctions& gl, const Scene& scene, std::size_t vertice
     gl.VertexArrayAttribFormat(name, 1, 2, GL_FLOAT, GL_FALSE, 0);
     gl.VertexArrayAttribBinding(name, 1, 1);
     gl.EnableVertexArrayAttrib(name, 1);
-    for (const AlphaMask& mask : scene.masks) geometry.masks.push_back(upload_mask(gl, mask));
+    for (const AlphaMask& mask : scene.masks)
+        geometry.masks.push_back(upload_mask(gl, scene, mask));
 }
 
 } // namespace

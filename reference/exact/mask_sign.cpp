@@ -122,17 +122,27 @@ ExactTaps exact_taps(const AlphaMask& mask, Wrap wrap, int texels, const mpq_cla
     return {wrapped(wrap, texels, first), wrapped(wrap, texels, first + 1), place - floor};
 }
 
-mpq_class exact_alpha(const AlphaMask& mask, const mpq_class& s, const mpq_class& t) {
+/// Alpha, and whether the texels around are alike, so that it is the same all around.
+struct ExactAlpha {
+    mpq_class value;
+    bool is_flat = false;
+};
+
+ExactAlpha exact_alpha(const AlphaMask& mask, const mpq_class& s, const mpq_class& t) {
     const ExactTaps along = exact_taps(mask, mask.wrap_s, mask.alpha.width, s);
     const ExactTaps down = exact_taps(mask, mask.wrap_t, mask.alpha.height, t);
-    const auto texel = [&](int x, int y) { return mpq_class(double{mask.alpha.at(x, y)}); };
-    if (mask.nearest) return texel(along.first, down.first);
-    const auto row = [&](int y) {
-        const mpq_class a = texel(along.first, y);
-        return mpq_class(a + along.fraction * (texel(along.second, y) - a));
+    const auto texel = [&](int x, int y) { return double{mask.alpha.at(x, y)}; };
+    const double a = texel(along.first, down.first);
+    if (mask.nearest) return {mpq_class(a), true};
+    const double b = texel(along.second, down.first);
+    const double c = texel(along.first, down.second);
+    const double d = texel(along.second, down.second);
+    const auto between = [](const mpq_class& p, const mpq_class& q, const mpq_class& share) {
+        return mpq_class(p + share * (q - p));
     };
-    const mpq_class upper = row(down.first);
-    return upper + down.fraction * (row(down.second) - upper);
+    const mpq_class upper = between(mpq_class(a), mpq_class(b), along.fraction);
+    const mpq_class lower = between(mpq_class(c), mpq_class(d), along.fraction);
+    return {between(upper, lower, down.fraction), a == b && a == c && a == d};
 }
 
 /// `weights(arithmetic)`: of the point.
@@ -153,9 +163,10 @@ Decision decide(Filters filters, const MaskedTriangle& triangle, const WeightsOf
     if (sum.sign() == 0) return {0, Exactness::degenerate};
     const mpq_class s = quotient(weighted(arithmetic, exact, triangle, 0), sum);
     const mpq_class t = quotient(weighted(arithmetic, exact, triangle, 1), sum);
-    const int order = cmp(exact_alpha(mask, s, t), mpq_class(mask.least));
-    const int sign = order < 0 ? -1 : (order > 0 ? 1 : 0);
-    return {sign, sign == 0 ? Exactness::degenerate : Exactness::exact};
+    const ExactAlpha alpha = exact_alpha(mask, s, t);
+    const int order = cmp(alpha.value, mpq_class(mask.least));
+    if (order == 0 && !alpha.is_flat) return {0, Exactness::degenerate};
+    return {order < 0 ? -1 : 1, Exactness::exact};
 }
 
 } // namespace

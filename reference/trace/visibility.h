@@ -26,6 +26,8 @@ struct LitLanes {
     Lanes<std::uint8_t> in_cone{}; ///< of the spot light, if it is one
 };
 
+struct PacketRays;
+
 /// How the rays of a packet read masks.
 struct PacketMasks {
     Lanes<MaskReading> readings{};
@@ -33,8 +35,6 @@ struct PacketMasks {
 };
 
 /// Runs the queries of one thread. Lanes whose bit in `lanes` is not set are left unchanged.
-struct PacketRays;
-
 class Prober {
 public:
     explicit Prober(const Tracer::State& state, Filters filters = Filters::on);

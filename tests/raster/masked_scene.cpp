@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace shadowproof::tests {
 
@@ -86,6 +87,10 @@ Scene masked_scene(std::uint64_t seed) {
             {0, 0.7, 0});
     Light& light = scene.lights.front();
     light.position = {dice.between(-3, 3), dice.between(4, 7), dice.between(-3, 3)};
+    constexpr std::array kinds{Light::Kind::point, Light::Kind::spot, Light::Kind::directional};
+    light.kind = kinds[seed % kinds.size()];
+    light.direction = glm::normalize(glm::dvec3(0, 0.5, 0) - light.position);
+    light.outer_cone = dice.between(0.4, 1);
     return scene;
 }
 

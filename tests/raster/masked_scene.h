@@ -8,7 +8,8 @@
 
 namespace shadowproof::tests {
 
-/// 96x96 pixels. The same for the same seed.
+/// 96x96 pixels, under a point light, a spot or a directional light by turns. The same for the same
+/// seed.
 Scene masked_scene(std::uint64_t seed);
 
 /// A mask of so many texels a side, alpha 0 or 1 by halves, or anything between.

@@ -1,5 +1,5 @@
-// Sampling at level 0, texel by texel, bilinear but where it says otherwise: the weights of a driver's own filter may have no
-// more than 8 bits.
+// Sampling at level 0, texel by texel, bilinear but where it says otherwise: the weights of a driver's
+// own filter may have no more than 8 bits.
 
 const int wrap_repeat = 0; // values of Wrap
 const int wrap_mirrored_repeat = 1;
@@ -37,7 +37,9 @@ Taps taps_at(int wrap, int texels, float at) {
 int texel_at(int wrap, int texels, float at) {
     if (wrap == wrap_repeat) at -= floor(at);
     if (wrap == wrap_mirrored_repeat) at -= 2 * floor(at / 2);
-    int texel = int(floor(float(texels) * at));
+    float place = float(texels) * at;
+    if (wrap == wrap_clamp_to_edge) place = clamp(place, 0, float(texels - 1));
+    int texel = int(floor(place));
     if (wrap == wrap_mirrored_repeat) texel = mirrored(texel, texels);
     return clamp(texel, 0, texels - 1);
 }

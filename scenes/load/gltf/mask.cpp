@@ -51,7 +51,7 @@ struct MaskSource {
 class MaskReader {
 public:
     MaskReader(const Document& document, const json& look, std::vector<AlphaMask>& masks)
-        : textures_(document, look, none_), masks_(masks) {}
+        : document_(document), textures_(document, look, none_), masks_(masks) {}
 
     AlphaMask& decoded(const MaskSource& source) {
         const std::size_t texture = source.texture()["index"];
@@ -67,11 +67,15 @@ public:
             return mask.name == alpha.name && mask.least == alpha.least;
         });
         if (found != masks_.end()) return static_cast<std::uint32_t>(found - masks_.begin());
+        document_.memory->keep({alpha.alpha.pixels.size() * sizeof(float),
+                                document_.root().where() + alpha.name, "its alpha",
+                                "give its materials one alphaCutoff"});
         masks_.push_back(alpha);
         return static_cast<std::uint32_t>(masks_.size() - 1);
     }
 
 private:
+    const Document& document_;
     std::vector<TextureImage> none_;
     TextureReader textures_;
     std::vector<AlphaMask>& masks_;

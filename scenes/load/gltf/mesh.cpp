@@ -155,6 +155,15 @@ MemoryHold hold_for_baking(AccessorReader& reader, const Part& part, std::size_t
                                  part.place.where(), "its vertices", "split the primitive"});
 }
 
+void note_vertex_alpha(const Document& document, const Part& part, std::uint32_t material,
+                       Scene& scene) {
+    const auto& all = document.model.materials;
+    if (material < all.size() && all[material].alphaMode == "MASK" &&
+        part.primitive.attributes.count("COLOR_0") != 0)
+        scene.notes.push_back(part.place.pointer() +
+                              "/attributes/COLOR_0: its alpha is not evaluated");
+}
+
 void bake_primitive(AccessorReader& reader, const Placement& placement, const Part& part,
                     const Materials& materials, Scene& scene) {
     // Each mesh costs time however small it is: it may be placed in the scene many times.
@@ -178,6 +187,7 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
     const auto material =
         static_cast<std::uint32_t>(part.primitive.material >= 0 ? as_index(part.primitive.material)
                                                                 : scene.materials.size() - 1);
+    note_vertex_alpha(reader.document(), part, material, scene);
     if (materials.left_out[material]) return;
     std::vector<glm::vec2> mask_at;
     if (scene.materials[material].mask != no_mask)

@@ -96,7 +96,7 @@ TEST(AlphaMasks, that_leave_nothing_standing_take_the_mesh_away) {
 TEST(AlphaMasks, without_what_they_need_are_refused_by_name) {
     json gltf = masked_gltf({0, 51, 102, 255});
     gltf["materials"][0]["alphaCutoff"] = -0.5;
-    EXPECT_NE(refusal(gltf).find("/materials/0/alphaCutoff is negative"), std::string::npos)
+    EXPECT_NE(refusal(gltf).find("/materials/0/alphaCutoff: is negative"), std::string::npos)
         << refusal(gltf);
     gltf["materials"][0]["alphaCutoff"] = "half";
     EXPECT_NE(refusal(gltf).find("/materials/0/alphaCutoff"), std::string::npos);
