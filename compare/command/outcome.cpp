@@ -103,8 +103,8 @@ void check_outputs(const OutputOptions& options, std::span<const std::string> re
     check_apart(std::array{options.json, options.junit, options.out}, read);
 }
 
-void finish(ReportFolder& folder, Console& console, Report& report,
-            const OutputOptions& options, const std::string& started) {
+void finish(ReportFolder& folder, Console& console, Report& report, const OutputOptions& options,
+            const std::string& started) {
     folder.share(report);
     const std::optional<std::string> json = name_in_report(options.json, options.out);
     if (json && *json != results_name) folder.add_requested(*json, to_json(report));

@@ -29,8 +29,8 @@ bool passes(const Report& report);
 
 /// Finishes the report, including --json and --junit if they lie in its folder, and prints which
 /// files were kept there.
-void finish(ReportFolder& folder, Console& console, Report& report,
-            const OutputOptions& options, const std::string& started);
+void finish(ReportFolder& folder, Console& console, Report& report, const OutputOptions& options,
+            const std::string& started);
 
 /// Writes --json and --junit if they lie elsewhere and, under GitHub Actions, error annotations and
 /// the step summary. Prints how to reproduce what failed, and where the report is. Returns the exit

@@ -31,8 +31,8 @@ private:
     Drawing drawing_;
 };
 
-/// Whether a triangle's mask, if it has one, may leave it standing on some ray of the neighbourhood.
-/// The tracer's scene may have the triangle turned over.
+/// Whether a triangle's mask, if it has one, may leave it standing on some ray of the
+/// neighbourhood. The tracer's scene may have the triangle turned over.
 bool may_stand(const Tracer& tracer, const Neighbourhood& around, const MaskErrors& errors,
                std::uint32_t triangle);
 /// The same of what a depth model draws, up to the far plane where that clips.

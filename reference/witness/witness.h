@@ -25,9 +25,9 @@ struct Plane {
     bool seen_from_behind = false;
     bool casts = true;
     bool receives = true;
-    const AlphaMask* mask = nullptr;                ///< of the scene
+    const AlphaMask* mask = nullptr;                   ///< of the scene
     std::array<std::array<mpq_class, 2>, 3> mask_at{}; ///< coordinates in it, by corner
-    glm::dvec3 center{0, 0, 0}; ///< of an approximate bounding sphere
+    glm::dvec3 center{0, 0, 0};                        ///< of an approximate bounding sphere
     double radius = 0;
 };
 
