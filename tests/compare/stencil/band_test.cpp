@@ -41,7 +41,8 @@ std::optional<std::int64_t> unmoved_count(const Tracer& tracer, const Prediction
                             .ideal = nullptr,
                             .flat = volumes.flat(),
                             .counted_at_eye = prediction.depths().at_eye,
-                            .ideal_at_eye = prediction.depths().at_eye};
+                            .ideal_at_eye = prediction.depths().at_eye,
+                            .masked = has_masks(tracer.scene()) ? &volumes : nullptr};
     const std::vector<RayTruth> truth = trace_rays(tracer, around.rays);
     const PixelBand band = find_band(tracer, here, frame, depths.far, seen, around, truth,
                                      [](const Reading&) { return false; });
