@@ -12,7 +12,7 @@ test('list names every scene, technique and cause, alike as text and as JSON', (
     assert.ok(json.scenes.some((scene) => scene.name === name), name);
   for (const name of ['zpass', 'zfail', 'zfail_clamp', 'zfail_infinite', 'zfail_reversed'])
     assert.ok(json.techniques.some((technique) => technique.name === name), name);
-  assert.equal(json.causes.length, 20);
+  assert.equal(json.causes.length, 21);
   for (const { name } of [...json.scenes, ...json.techniques, ...json.causes])
     assert.ok(text.includes(`  ${name} `), name);
   for (const { name, cost } of json.techniques)
