@@ -50,7 +50,7 @@ std::vector<std::string> fixed_pictures() {
 }
 
 PointPictures::PointPictures(const ReplacedFolder& folder)
-    : part_{folder, std::string(pictures_folder) + "/"} {}
+    : part_{folder, std::string(pictures_folder) + "/"}, memo_(std::make_unique<Memo>()) {}
 
 void PointPictures::begin(SceneResult& scene, std::string point) {
     scene_ = &scene;
@@ -101,6 +101,7 @@ std::size_t PointPictures::group_for(const BenchSettings& settings) {
                                 .settings = settings,
                                 .written = false,
                                 .result = without_pictures(*scene_)}});
+    memo_->forget();
     write_scene(*scene_, part_);
     tell({.group = number});
     return number;
@@ -120,7 +121,7 @@ std::string PointPictures::add(const BenchSettings& settings, Cell cell, int thr
 std::string PointPictures::write(const BenchSettings& settings, Cell cell, int threads) {
     const std::size_t number = group_for(settings);
     scene_->name = groups_[number].result.name;
-    write_cell(*scene_, cell, part_, threads);
+    write_cell(*scene_, cell, part_, *memo_, threads);
     cell.frame = {};
     cell.evidence.reset();
     cell.comparison.cause = {};

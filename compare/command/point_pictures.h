@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,6 +63,7 @@ public:
 
 private:
     FolderPart part_;
+    std::unique_ptr<Memo> memo_; ///< of the group that was begun last
     SceneResult* scene_ = nullptr;
     std::string begun_; ///< its name
     std::string point_;

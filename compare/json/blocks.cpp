@@ -98,12 +98,23 @@ std::string words_of(int width, const Guide& guide) {
            (guide.list == nullptr ? "" : fmt::format(R"("guide":"{}",)", guide.name));
 }
 
-/// `how`: further members, each with a comma behind it.
-std::string block(const NumberList& list, std::string_view as, std::string_view how,
-                  std::string_view coded) {
-    return fmt::format(R"({{"type":"{}","length":{},"as":"{}",{}"sum":{},"data":)", list.type,
-                       list.values.size(), as, how, sum_of(list.values)) +
-           quoted(coded) + "}";
+/// `how`: further members, each with a comma behind it. `beside`: what the list is coded by, too.
+template <class Code>
+std::string block(const NumberList& list, std::string_view as, const std::string& how,
+                  Numbers beside, Memo* memo, const Code& code) {
+    const auto make = [&] {
+        return fmt::format(R"({{"type":"{}","length":{},"as":"{}",{}"sum":{},"data":)", list.type,
+                           list.values.size(), as, how, sum_of(list.values)) +
+               quoted(code()) + "}";
+    };
+    return remembered(memo,
+                      {bytes_for_memo(list.type), bytes_for_memo(as), bytes_for_memo(how),
+                       bytes_for_memo(list.values), bytes_for_memo(beside)},
+                      make);
+}
+
+Numbers values_of(const Guide& guide) {
+    return guide.list != nullptr ? Numbers(guide.list->values) : Numbers();
 }
 
 } // namespace
@@ -139,30 +150,35 @@ NumberList differing_list(const Image<std::uint8_t>& cause) {
                       }).pixels);
 }
 
-std::string areas_block(const NumberList& list, int width, const Guide& guide) {
-    const Numbers beside = guide.list != nullptr ? Numbers(guide.list->values) : Numbers();
-    return block(list, "areas", words_of(width, guide),
-                 coded_areas(list.values, static_cast<std::uint32_t>(width), beside, {}));
+std::string areas_block(const NumberList& list, int width, const Guide& guide, Memo* memo) {
+    const Numbers beside = values_of(guide);
+    return block(list, "areas", words_of(width, guide), beside, memo, [&] {
+        return coded_areas(list.values, static_cast<std::uint32_t>(width), beside, {});
+    });
 }
 
-std::string differing_block(const NumberList& list, int width, const NumberList& differing) {
-    return block(list, "areas", words_of(width, {}) + R"("of":"differing",)",
-                 coded_areas(list.values, static_cast<std::uint32_t>(width), {}, differing.values));
+std::string differing_block(const NumberList& list, int width, const NumberList& differing,
+                            Memo* memo) {
+    const Numbers mask = differing.values;
+    return block(list, "areas", words_of(width, {}) + R"("of":"differing",)", mask, memo, [&] {
+        return coded_areas(list.values, static_cast<std::uint32_t>(width), {}, mask);
+    });
 }
 
-std::string shades_block(const NumberList& list, int width, const Guide& guide) {
-    const Numbers beside = guide.list != nullptr ? Numbers(guide.list->values) : Numbers();
-    return block(list, "shades", words_of(width, guide),
-                 coded_shades(list.values, static_cast<std::uint32_t>(width), 3, beside));
+std::string shades_block(const NumberList& list, int width, const Guide& guide, Memo* memo) {
+    const Numbers beside = values_of(guide);
+    return block(list, "shades", words_of(width, guide), beside, memo, [&] {
+        return coded_shades(list.values, static_cast<std::uint32_t>(width), 3, beside);
+    });
 }
 
 std::string sequence_block(const NumberList& list, int columns) {
-    return block(list, "sequence", fmt::format(R"("columns":{},)", columns),
-                 coded_sequence(list.values, static_cast<std::uint32_t>(columns)));
+    return block(list, "sequence", fmt::format(R"("columns":{},)", columns), {}, nullptr,
+                 [&] { return coded_sequence(list.values, static_cast<std::uint32_t>(columns)); });
 }
 
 std::string rows_block(const NumberList& list) {
-    return block(list, "rows", "", coded_rows(list.values));
+    return block(list, "rows", "", {}, nullptr, [&] { return coded_rows(list.values); });
 }
 
 } // namespace shadowproof

@@ -2,6 +2,7 @@
 // which are scripts whose characters are bytes.
 #pragma once
 
+#include "compare/json/memo.h"
 #include "scenes/image.h"
 
 #include <bit>
@@ -65,12 +66,16 @@ struct Guide {
 
 /// Blocks of the report's data files, one for each way in which compare/json/coded_lists.h codes a
 /// list: {"type":"u32","length":7,"as":"areas","sum":1234567,"data":"..."}. "sum" is the FNV-1a
-/// hash (Fowler, Noll, Vo) of the list's numbers, 32 bits at a time, by which damage is found.
-std::string areas_block(const NumberList& list, int width, const Guide& guide = {});
+/// hash (Fowler, Noll, Vo) of the list's numbers, 32 bits at a time, by which damage is found. With
+/// a memo what was coded before is not coded again.
+std::string areas_block(const NumberList& list, int width, const Guide& guide = {},
+                        Memo* memo = nullptr);
 /// Of the pixels that differ; `differing` has a number for each pixel, not 0 where it does.
-std::string differing_block(const NumberList& list, int width, const NumberList& differing);
+std::string differing_block(const NumberList& list, int width, const NumberList& differing,
+                            Memo* memo = nullptr);
 /// Three bytes for each pixel.
-std::string shades_block(const NumberList& list, int width, const Guide& guide = {});
+std::string shades_block(const NumberList& list, int width, const Guide& guide = {},
+                         Memo* memo = nullptr);
 std::string sequence_block(const NumberList& list, int columns = 1);
 std::string rows_block(const NumberList& list);
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
 
 namespace shadowproof {
 
@@ -20,7 +22,44 @@ struct Coded {
         const auto i = static_cast<std::size_t>(y * width + x);
         return is_coded[i] != 0 ? values[i] : last;
     }
+    void set(std::size_t first, std::size_t count, std::uint32_t value) {
+        const auto offset = static_cast<std::ptrdiff_t>(first);
+        std::fill_n(values.begin() + offset, count, value);
+        std::fill_n(is_coded.begin() + offset, count, std::uint8_t{1});
+        last = value;
+    }
 };
+
+/// Pixels of a row that are coded by one bit where all around them is of one value.
+constexpr std::size_t span_length = 16;
+constexpr std::uint32_t chances_of_spans = (5U << 11U) + 1; ///< where they begin among all chances
+constexpr std::uint32_t chance_count = 6U << 11U;
+
+bool all_are(std::span<const std::uint32_t> values, std::uint32_t value) {
+    return std::ranges::all_of(values, [&](std::uint32_t each) { return each == value; });
+}
+
+/// Where the pixels that touch a span and are coded before it have one value, and its guide has one
+/// in the span and above it: the number of its chance. `i`: the span's first pixel; `length`:
+/// pixels. None in the first row.
+std::optional<std::uint32_t> even_span(const Coded& coded, Numbers guide, std::size_t i,
+                                       std::size_t length) {
+    const std::size_t width = coded.width;
+    if (i < width) return std::nullopt;
+    const std::size_t x = i % width;
+    const std::size_t before = x > 0 ? 1 : 0;
+    const std::size_t behind = x + length < width ? 1 : 0;
+    const std::span all(coded.values);
+    const std::uint32_t value = all[i - width];
+    if (before > 0 && all[i - 1] != value) return std::nullopt;
+    if (!all_are(all.subspan(i - width - before, before + length + behind), value))
+        return std::nullopt;
+    if (guide.empty()) return chances_of_spans;
+    if (!all_are(guide.subspan(i, length), guide[i]) ||
+        !all_are(guide.subspan(i - width, length), guide[i]))
+        return std::nullopt;
+    return chances_of_spans + (guide[i] == value ? 1U : 2U);
+}
 
 } // namespace
 
@@ -28,7 +67,7 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
     const std::size_t pixels = mask.empty() ? values.size() : mask.size();
     Coded coded{width, std::vector<std::uint32_t>(pixels), std::vector<std::uint8_t>(pixels), 0};
     BitCoder coder;
-    std::vector<BitChance> chances(6U << 11U);
+    std::vector<BitChance> chances(chance_count);
     NumberCoder steps;
     std::uint32_t largest = 0;
     std::size_t next = 0;
@@ -36,6 +75,21 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
         if (!mask.empty() && mask[i] == 0) continue;
         const auto x = static_cast<std::int64_t>(i % width);
         const auto y = static_cast<std::int64_t>(i / width);
+        if (const auto column = static_cast<std::size_t>(x);
+            mask.empty() && column % span_length == 0) {
+            const std::size_t length = std::min({span_length, width - column, pixels - i});
+            if (const auto chance = even_span(coded, guide, i, length)) {
+                const std::uint32_t around = coded.values[i - width];
+                const bool even = all_are(values.subspan(next, length), around);
+                coder.code(even, chances[*chance]);
+                if (even) {
+                    coded.set(i, length, around);
+                    next += length;
+                    i += length - 1;
+                    continue;
+                }
+            }
+        }
         const std::uint32_t value = values[next++];
         const std::uint32_t west = coded.at(x - 1, y);
         const std::uint32_t north = coded.at(x, y - 1);
@@ -72,9 +126,7 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
             if (!is_new) steps.code(coder, folded(static_cast<std::int32_t>(value - base)));
         }
         largest = std::max(largest, value);
-        coded.values[i] = value;
-        coded.is_coded[i] = 1;
-        coded.last = value;
+        coded.set(i, 1, value);
     }
     return coder.finish();
 }

@@ -2,6 +2,7 @@
 // data for the report, which are written by the process that makes them.
 #pragma once
 
+#include "compare/json/memo.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
@@ -34,13 +35,13 @@ struct EvidenceSummary {
 /// A named list of values for the viewer, encoded (compare/json/blocks.h).
 using Blocks = std::vector<std::pair<std::string, std::string>>;
 
-/// What a report shows of the evidence.
+/// What a report shows of the evidence. The memo is that of the scene.
 class EvidenceReport {
 public:
     /// A picture of the report: "volumes" is written to volumes.png.
     struct Picture {
         std::string kind;
-        std::function<std::string(const Frame&)> png; ///< the file's bytes
+        std::function<std::string(const Frame&, Memo&)> png; ///< the file's bytes
     };
 
     EvidenceReport() = default;
@@ -51,7 +52,7 @@ public:
     virtual std::vector<Picture> pictures() const = 0;
     /// Members of the header of the cell's data, as the text of a JSON object.
     virtual std::string header() const = 0;
-    virtual Blocks blocks(const Frame& frame) const = 0;
+    virtual Blocks blocks(const Frame& frame, Memo& memo) const = 0;
 };
 
 } // namespace shadowproof

@@ -102,13 +102,14 @@ public:
     }
 
     std::vector<Picture> pictures() const override {
-        return {
-            {"texels", [this](const Frame& frame) { return to_png(texel_picture(frame, at_)); }}};
+        return {{"texels", [this](const Frame& frame, Memo& memo) {
+                     return to_png(texel_picture(frame, at_), &memo);
+                 }}};
     }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& frame) const override {
+    Blocks blocks(const Frame& frame, Memo& memo) const override {
         const auto of_differing = [&](const auto& list) {
-            return differing_block(NumberList(list), frame.claim.width, differing_);
+            return differing_block(NumberList(list), frame.claim.width, differing_, &memo);
         };
         const int side = pictured_size(frame.mapped->model);
         return {{"map_asked", of_differing(asked_)},
@@ -121,7 +122,7 @@ public:
                 {"map_lit", of_differing(lit_)},
                 {"map_width", of_differing(width_)},
                 {"map_foot", sequence_block(NumberList(foot_), 2)},
-                {"map_faces", areas_block(NumberList(faces_), side)}};
+                {"map_faces", areas_block(NumberList(faces_), side, {}, &memo)}};
     }
 
 private:

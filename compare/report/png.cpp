@@ -49,7 +49,7 @@ enum class ColorType : char { gray = 0, rgb = 2, palette = 3 }; ///< as the spec
 /// libpng has another compressor, whose files of these pictures are larger and take longer. Rows
 /// are not filtered but those of colours, which are stored as differences to the pixel before.
 std::string encoded(int width, int height, std::string_view pixels, ColorType type,
-                    std::string_view palette) {
+                    std::string_view palette, Memo* memo) {
     const std::size_t row = pixels.size() / static_cast<std::size_t>(std::max(height, 1));
     const bool differences = type == ColorType::rgb;
     std::string rows;
@@ -69,7 +69,8 @@ std::string encoded(int width, int height, std::string_view pixels, ColorType ty
     std::string bytes = "\x89PNG\r\n\x1a\n";
     append_chunk(bytes, "IHDR", header);
     if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
-    append_chunk(bytes, "IDAT", zlib_stream(rows));
+    append_chunk(bytes, "IDAT",
+                 remembered(memo, {bytes_for_memo(rows)}, [&] { return zlib_stream(rows); }));
     append_chunk(bytes, "IEND", {});
     return bytes;
 }
@@ -82,20 +83,22 @@ std::string_view bytes_of(const std::vector<T>& list) {
 
 } // namespace
 
-std::string to_png(const Image<Visibility>& classes) {
-    return encoded(classes.width, classes.height, bytes_of(classes.pixels), ColorType::gray, {});
+std::string to_png(const Image<Visibility>& classes, Memo* memo) {
+    return encoded(classes.width, classes.height, bytes_of(classes.pixels), ColorType::gray, {},
+                   memo);
 }
 
-std::string to_png(const Image<Rgb>& picture) {
+std::string to_png(const Image<Rgb>& picture, Memo* memo) {
     static_assert(sizeof(Rgb) == 3);
-    return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, {});
+    return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, {},
+                   memo);
 }
 
-std::string to_png(const PalettePicture& picture) {
+std::string to_png(const PalettePicture& picture, Memo* memo) {
     static_assert(sizeof(Rgb) == 3);
     assert(picture.palette.size() <= 256);
     return encoded(picture.indices.width, picture.indices.height, bytes_of(picture.indices.pixels),
-                   ColorType::palette, bytes_of(picture.palette));
+                   ColorType::palette, bytes_of(picture.palette), memo);
 }
 
 std::optional<std::string> png_damage(std::string_view bytes, std::uint64_t width,

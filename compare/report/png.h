@@ -2,6 +2,7 @@
 // have a third of the bytes to compress, and take a third of the time.
 #pragma once
 
+#include "compare/json/memo.h"
 #include "scenes/frame.h"
 #include "scenes/image.h"
 
@@ -23,12 +24,13 @@ struct PalettePicture {
     const Rgb& at(int x, int y) const { return palette[indices.at(x, y)]; }
 };
 
-/// The bytes of a PNG file, 8-bit gray. The same for the same picture.
-std::string to_png(const Image<Visibility>& classes);
+/// The bytes of a PNG file, 8-bit gray. The same for the same picture. With a memo pixels that were
+/// compressed before are not compressed again.
+std::string to_png(const Image<Visibility>& classes, Memo* memo = nullptr);
 /// The same, 8 bits a colour.
-std::string to_png(const Image<Rgb>& picture);
+std::string to_png(const Image<Rgb>& picture, Memo* memo = nullptr);
 /// The same, with a palette of colours.
-std::string to_png(const PalettePicture& picture);
+std::string to_png(const PalettePicture& picture, Memo* memo = nullptr);
 
 /// What is wrong with the bytes of a PNG file that should be of this size; none if it is intact.
 /// Every pixel is decoded, as a truncated picture still has its size in its header.

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "compare/cell.h"
+#include "compare/json/memo.h"
 #include "compare/output/replaced_folder.h"
 #include "compare/words.h"
 
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -70,7 +72,7 @@ std::string truth_path(const SceneResult& scene);
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.
-inline constexpr int results_format = 7;
+inline constexpr int results_format = 8;
 
 /// results.json of that schema.
 std::string to_json(const Report& report);
@@ -94,7 +96,8 @@ public:
     /// Throws Error where `folder` must not be replaced, or cannot be written.
     explicit ReportFolder(const std::filesystem::path& folder);
 
-    /// Writes the truth and what else the cells of a scene share.
+    /// Writes the truth and what else the cells of a scene share. Its cells are to be added before
+    /// the next scene.
     void add_scene(const SceneResult& scene) const;
     /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
     /// threads 0: one per core.
@@ -117,6 +120,7 @@ public:
 
 private:
     ReplacedFolder files_;
+    std::unique_ptr<Memo> memo_; ///< of the scene added last
 };
 
 } // namespace shadowproof

@@ -65,16 +65,16 @@ std::string scene_script(const SceneResult& scene) {
     return script("scene", folder_of(scene), header, blocks);
 }
 
-std::string cell_script(const SceneResult& scene, const Cell& cell) {
+std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) {
     Json header = Json::object();
     const NumberList truth(scene.truth.visibility.pixels);
     const NumberList claim(cell.frame.claim.pixels);
     const NumberList causes(cell.comparison.cause.pixels);
     const auto guided = [&](const NumberList& list, std::string_view name, const NumberList& by) {
-        return areas_block(list, scene.width, {name, &by});
+        return areas_block(list, scene.width, {name, &by}, &memo);
     };
     Blocks blocks{{"claim", guided(claim, "visibility", truth)},
-                  {"cause", areas_block(causes, scene.width)}};
+                  {"cause", areas_block(causes, scene.width, {}, &memo)}};
     if (!cell.frame.share.pixels.empty())
         blocks.emplace_back("share",
                             guided(NumberList(std::vector<float>(cell.frame.share.pixels.begin(),
@@ -82,14 +82,15 @@ std::string cell_script(const SceneResult& scene, const Cell& cell) {
                                    "claim", claim));
     if (cell.evidence) {
         header = Json::parse(cell.evidence->header());
-        for (auto& named : cell.evidence->blocks(cell.frame)) blocks.push_back(std::move(named));
+        for (auto& named : cell.evidence->blocks(cell.frame, memo))
+            blocks.push_back(std::move(named));
     }
     header["family"] = cell.family;
     if (cell.comparison.colors) {
         const Image<ColorVerdict>& verdicts = cell.comparison.colors->verdict;
         const NumberList right = color_list(color_picture(scene.color));
         blocks.emplace_back("color", shades_block(color_list(color_picture(cell.frame.color)),
-                                                  scene.width, {"true_color", &right}));
+                                                  scene.width, {"true_color", &right}, &memo));
         blocks.emplace_back("color_verdict", guided(NumberList(verdicts.pixels), "claim", claim));
     }
     return script("cell", folder_of(scene) + "/" + cell.technique, header, blocks);
@@ -104,8 +105,10 @@ std::string results_script(const std::string& results_json) {
     return "shadowproof.results(" + results.dump() + ");\n";
 }
 
-std::string packed_cause_map(const Comparison& comparison) {
-    return packed(std::as_bytes(std::span(comparison.cause.pixels)));
+std::string packed_cause_map(const Comparison& comparison, Memo* memo) {
+    const Memo::Bytes causes = bytes_for_memo(comparison.cause.pixels);
+    return remembered(memo, {bytes_for_memo(std::string_view("cause_map")), causes},
+                      [&] { return packed(causes); });
 }
 
 } // namespace shadowproof

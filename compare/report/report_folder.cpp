@@ -11,16 +11,18 @@
 namespace shadowproof {
 
 ReportFolder::ReportFolder(const std::filesystem::path& folder)
-    : files_(folder, {page_name, results_name, results_script_name}) {}
+    : files_(folder, {page_name, results_name, results_script_name}),
+      memo_(std::make_unique<Memo>()) {}
 
 void ReportFolder::add_scene(const SceneResult& scene) const {
     const auto lock = hold_unfinished();
+    memo_->forget();
     write_scene(scene, {files_});
 }
 
 void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) const {
     const auto lock = hold_unfinished();
-    write_cell(scene, cell, {files_}, threads);
+    write_cell(scene, cell, {files_}, *memo_, threads);
 }
 
 void ReportFolder::add_file(const std::string& name, std::string_view bytes) const {

@@ -127,22 +127,23 @@ void write_scene(const SceneResult& scene, const FolderPart& report) {
     report.add(folder_of(scene) + "/scene.js", scene_script(scene));
 }
 
-void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, int threads) {
+void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, Memo& memo,
+                int threads) {
     if (!cell.error.empty()) return;
     const auto add = [&](const char* kind, const auto& picture) {
-        report.add(picture_path(scene, cell, kind), to_png(picture));
+        report.add(picture_path(scene, cell, kind), to_png(picture, &memo));
     };
     const std::string script = folder_of(scene) + "/" + cell.technique + "/cell.js";
     std::vector<std::function<void()>> jobs{
-        [&] { report.add(script, cell_script(scene, cell)); },
-        [&] { cell.cause_map = packed_cause_map(cell.comparison); },
+        [&] { report.add(script, cell_script(scene, cell, memo)); },
+        [&] { cell.cause_map = packed_cause_map(cell.comparison, &memo); },
         [&] { add("claim", cell.frame.claim); },
         [&] { add("difference", difference_picture(scene.truth, cell)); },
         [&] { add("cause", cause_picture(cell)); }};
     if (cell.evidence)
         for (const EvidenceReport::Picture& picture : cell.evidence->pictures())
             jobs.emplace_back([&, picture] {
-                report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame));
+                report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame, memo));
             });
     if (cell.comparison.colors)
         jobs.emplace_back(

@@ -22,6 +22,7 @@ PalettePicture color_error_picture(const ColorCheck& colors);
 void write_scene(const SceneResult& scene, const FolderPart& report);
 /// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
 /// threads 0: one per core.
-void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, int threads);
+void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, Memo& memo,
+                int threads);
 
 } // namespace shadowproof

@@ -105,37 +105,39 @@ public:
           differing_(std::move(differing)) {}
 
     std::vector<Picture> pictures() const override {
-        return {{"volumes", [](const Frame& frame) { return to_png(volume_picture(frame)); }}};
+        return {{"volumes", [](const Frame& frame, Memo& memo) {
+                     return to_png(volume_picture(frame), &memo);
+                 }}};
     }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& frame) const override {
+    Blocks blocks(const Frame& frame, Memo& memo) const override {
         const Counting& counting = frame.counted->counting;
         const int width = frame.claim.width;
         const NumberList claim(frame.claim.pixels);
         const NumberList predicted = counter_list(predicted_, counting);
         const Guide by_predicted{"predicted", &predicted};
         const auto of_differing = [&](const auto& list) {
-            return differing_block(NumberList(list), width, differing_);
+            return differing_block(NumberList(list), width, differing_, &memo);
         };
         const auto rows = [](const auto& list, int columns = 1) {
             return sequence_block(NumberList(list), columns);
         };
-        return {
-            {"predicted", areas_block(predicted, width, {"claim", &claim})},
-            {"read_back",
-             areas_block(counter_list(frame.counted->counter, counting), width, by_predicted)},
-            {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width, by_predicted)},
-            {"seen", of_differing(ledgers_.seen)},
-            {"shown", of_differing(ledgers_.shown)},
-            {"exactness", of_differing(ledgers_.exactness)},
-            {"ledger", of_differing(ledgers_.ledger)},
-            {"ledger_counts", rows(ledgers_.counts, 5)},
-            {"ledger_exact", rows(ledgers_.adds_up)},
-            {"ledger_predicted", rows(ledgers_.predicted)},
-            {"crossing", rows_block(crossing_list(ledgers_))},
-            {"face", rows(ledgers_.face, 2)},
-            {"triangle", rows(ledgers_.triangle, 4)},
-            {"vertex", rows(ledgers_.vertex, 3)}};
+        return {{"predicted", areas_block(predicted, width, {"claim", &claim}, &memo)},
+                {"read_back", areas_block(counter_list(frame.counted->counter, counting), width,
+                                          by_predicted, &memo)},
+                {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width,
+                                      by_predicted, &memo)},
+                {"seen", of_differing(ledgers_.seen)},
+                {"shown", of_differing(ledgers_.shown)},
+                {"exactness", of_differing(ledgers_.exactness)},
+                {"ledger", of_differing(ledgers_.ledger)},
+                {"ledger_counts", rows(ledgers_.counts, 5)},
+                {"ledger_exact", rows(ledgers_.adds_up)},
+                {"ledger_predicted", rows(ledgers_.predicted)},
+                {"crossing", rows_block(crossing_list(ledgers_))},
+                {"face", rows(ledgers_.face, 2)},
+                {"triangle", rows(ledgers_.triangle, 4)},
+                {"vertex", rows(ledgers_.vertex, 3)}};
     }
 
 private:

@@ -44,7 +44,7 @@ public:
 
     std::vector<Picture> pictures() const override { return {}; }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& /*frame*/) const override {
+    Blocks blocks(const Frame& /*frame*/, Memo& /*memo*/) const override {
         return {{"ray", sequence_block(NumberList(rows_.ray), 9)},
                 {"met", sequence_block(NumberList(rows_.met), 4)},
                 {"at", sequence_block(NumberList(rows_.at), 3)}};

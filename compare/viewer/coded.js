@@ -62,6 +62,30 @@ class NumberReader {
 /** -1 of 1, 1 of 2, -2 of 3, ... */
 const unfolded = (value) => value >>> 1 ^ -(value & 1);
 
+const spanLength = 16;
+const chancesOfSpans = (5 << 11) + 1;
+
+/** Whether `count` values from `first` are all `value`. */
+function allAre(values, first, count, value) {
+  for (let i = first; i < first + count; ++i)
+    if (values[i] !== value) return false;
+  return true;
+}
+
+/** Of the span of pixels that begins at `i`, in column `x`: the number of its chance, or -1. */
+function evenSpan(coded, guide, width, i, x, length) {
+  const above = i - width;
+  if (above < 0) return -1;
+  const value = coded[above];
+  const before = x > 0 ? 1 : 0;
+  const behind = x + length < width ? 1 : 0;
+  if (before > 0 && coded[i - 1] !== value) return -1;
+  if (!allAre(coded, above - before, before + length + behind, value)) return -1;
+  if (!guide) return chancesOfSpans;
+  if (!allAre(guide, i, length, guide[i]) || !allAre(guide, above, length, guide[i])) return -1;
+  return chancesOfSpans + (guide[i] === value ? 1 : 2);
+}
+
 /** A picture of areas into `values`; `guide` and `mask` may be null. */
 function readAreas(reader, values, { width }, { guide, mask }) {
   const pixels = mask ? mask.length : values.length;
@@ -76,6 +100,17 @@ function readAreas(reader, values, { width }, { guide, mask }) {
   for (let i = 0, x = 0; i < pixels; ++i, x = x + 1 < width ? x + 1 : 0) {
     if (has[i] === 0) continue;
     const above = i - width;
+    if (!mask && x % spanLength === 0) {
+      const length = Math.min(spanLength, width - x, pixels - i);
+      const chance = evenSpan(coded, guide, width, i, x, length);
+      if (chance >= 0 && reader.bit(chances, chance)) {
+        last = coded[above];
+        coded.fill(last, i, i + length);
+        i += length - 1;
+        x += length - 1;
+        continue;
+      }
+    }
     const west = x > 0 && has[i - 1] ? coded[i - 1] : last;
     const north = above >= 0 && has[above] ? coded[above] : last;
     const northWest = x > 0 && above >= 0 && has[above - 1] ? coded[above - 1] : last;

@@ -37,6 +37,10 @@ public:
     bool tells_stages() const { return tells_stages_; }
     void tell_stages(bool tell) { tells_stages_ = tell; }
 
+    /// Up to so many frames are drawn, and the quickest one's time is told. One by default.
+    int timed_frames() const { return timed_frames_; }
+    void time_frames(int most) { timed_frames_ = most; }
+
     const GlFunctions& gl() const;
     const DriverInfo& driver() const; ///< depth and stencil bits are those of a D24_S8 texture
 
@@ -51,6 +55,7 @@ private:
     struct Context;
     std::unique_ptr<Context> context_;
     bool tells_stages_ = false;
+    int timed_frames_ = 1;
 };
 
 } // namespace shadowproof

@@ -52,10 +52,10 @@ void compile_all(const GlFunctions& gl, const Draw& draw) {
     gl.Finish();
 }
 
-/// The quickest of up to three frames, as many as are begun within 20 ms. `draw` takes the frame's
+/// The quickest of up to `most` frames, as many as are begun within 20 ms. `draw` takes the frame's
 /// StageClock and ends its stages. `divided`: one more is drawn for the stages.
 template <class Draw>
-FrameTime quickest_frame(const GlFunctions& gl, bool divided, const Draw& draw) {
+FrameTime quickest_frame(const GlFunctions& gl, int most, bool divided, const Draw& draw) {
     const auto drawn = [&](StageClock::Waits waits) {
         StageClock clock(gl, waits);
         draw(clock);
@@ -64,7 +64,7 @@ FrameTime quickest_frame(const GlFunctions& gl, bool divided, const Draw& draw) 
     };
     FrameTime time{.milliseconds = drawn(StageClock::Waits::once).milliseconds()};
     double all = time.milliseconds;
-    for (int i = 1; i < 3 && all < 20; ++i) {
+    for (int i = 1; i < most && all < 20; ++i) {
         const double one = drawn(StageClock::Waits::once).milliseconds();
         all += one;
         if (one < time.milliseconds) time.milliseconds = one;

@@ -171,7 +171,8 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
     compile_all(gl, draw);
-    const FrameTime time = quickest_frame(gl, true, draw); // results tell the map's own time
+    const FrameTime time = // results tell the map's own time
+        quickest_frame(gl, gpu.timed_frames(), true, draw);
     Frame frame = read_back(gl, frames.target, Counter::none);
     if (recipe.lighting) {
         frame.color = read_color(gl, frames.target);

@@ -307,7 +307,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
     compile_all(gl, draw);
-    const FrameTime time = quickest_frame(gl, gpu.tells_stages(), draw);
+    const FrameTime time = quickest_frame(gl, gpu.timed_frames(), gpu.tells_stages(), draw);
     Frame frame = read_back(gl, frames.target, recipe.counter);
     if (recipe.lighting) {
         frame.color = read_color(gl, frames.target);

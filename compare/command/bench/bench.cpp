@@ -149,6 +149,7 @@ MeasuredPart measure(const BenchOptions& options, const std::optional<BenchRun>&
                      Console& console, PointPictures& pictures, Pieces& pieces) {
     const std::unique_ptr<Gpu> gpu = start_gpu(pieces, options.technique.platform);
     gpu->tell_stages(!options.scaling);
+    gpu->time_frames(3);
     MeasuredPart outcome{.run = begin_run(options, *gpu)};
     if (kept) require_same_settings(options.json, *kept, outcome.run);
     const bool in_folder = name_in_report(options.json, options.out).has_value();
