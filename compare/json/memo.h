@@ -26,8 +26,9 @@ public:
     void forget();
 
 private:
-    /// Bytes of results. What is beyond is made again.
-    static constexpr std::size_t most = std::size_t{64} << 20U;
+    /// Bytes of results: a small part of what the program takes by itself, by
+    /// scenes/memory_budget.h. What is beyond is made again.
+    static constexpr std::size_t most = std::size_t{16} << 20U;
 
     std::mutex mutex_;
     std::map<std::array<std::uint64_t, 2>, std::string> results_; ///< by hash

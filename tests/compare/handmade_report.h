@@ -11,10 +11,12 @@ namespace shadowproof {
 class HandmadeEvidence final : public EvidenceReport {
 public:
     std::vector<Picture> pictures() const override {
-        return {{"volumes", [](const Frame& frame) { return to_png(volume_picture(frame)); }}};
+        return {{"volumes", [](const Frame& frame, Memo& memo) {
+                     return to_png(volume_picture(frame), &memo);
+                 }}};
     }
     std::string header() const override { return "{}"; }
-    Blocks blocks(const Frame& /*frame*/) const override { return {}; }
+    Blocks blocks(const Frame& /*frame*/, Memo& /*memo*/) const override { return {}; }
 };
 
 /// Truth:      claim:      cause:

@@ -1,0 +1,117 @@
+// Writes lists of diced numbers, each beside the block that it is coded as, as a list in JavaScript
+// whose characters are bytes, for coded_test.mjs.
+#include "compare/json/blocks.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+#include <random>
+
+namespace shadowproof {
+namespace {
+
+using List = std::vector<std::uint32_t>;
+
+struct Size {
+    int width;
+    int height;
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+};
+
+std::uint32_t diced(std::mt19937& random, std::uint32_t below) {
+    return static_cast<std::uint32_t>(random()) % below;
+}
+
+/// Rectangles of a few values, and some pixels of any.
+List areas(std::mt19937& random, const Size& size) {
+    List values(size.pixels(), diced(random, 3));
+    const std::uint32_t rectangles = diced(random, 6);
+    for (std::uint32_t k = 0; k < rectangles; ++k) {
+        const int left = static_cast<int>(diced(random, static_cast<std::uint32_t>(size.width)));
+        const int top = static_cast<int>(diced(random, static_cast<std::uint32_t>(size.height)));
+        const std::uint32_t value = diced(random, 5);
+        for (int y = top; y < size.height; ++y)
+            std::fill_n(values.begin() + y * size.width + left, size.width - left, value);
+    }
+    const std::uint32_t scattered = diced(random, 2) == 0 ? 0 : diced(random, 20);
+    for (std::uint32_t k = 0; k < scattered; ++k)
+        values[diced(random, static_cast<std::uint32_t>(values.size()))] =
+            static_cast<std::uint32_t>(random());
+    return values;
+}
+
+/// The list with some values changed.
+List nearly(std::mt19937& random, List values) {
+    const std::uint32_t changes = diced(random, 3) * diced(random, 20);
+    for (std::uint32_t k = 0; k < changes; ++k)
+        values[diced(random, static_cast<std::uint32_t>(values.size()))] = diced(random, 5);
+    return values;
+}
+
+void write(const std::string& block, const List& values, const List& guide, const List& mask) {
+    std::cout << fmt::format("{{\"values\":[{}],\"guide\":[{}],\"mask\":[{}],\"block\":",
+                             fmt::join(values, ","), fmt::join(guide, ","), fmt::join(mask, ","))
+              << block << "},\n";
+}
+
+void write_areas(std::mt19937& random, const Size& size) {
+    NumberList list;
+    list.type = "u32";
+    list.values = areas(random, size);
+    NumberList guide{list};
+    guide.values = nearly(random, list.values);
+    write(areas_block(list, size.width), list.values, {}, {});
+    write(areas_block(list, size.width, {"guide", &guide}), list.values, guide.values, {});
+    NumberList mask{list};
+    for (std::uint32_t& each : mask.values) each = diced(random, 2);
+    NumberList masked{list};
+    masked.values.clear();
+    for (std::size_t i = 0; i < list.values.size(); ++i)
+        if (mask.values[i] != 0) masked.values.push_back(list.values[i]);
+    write(differing_block(masked, size.width, mask), masked.values, {}, mask.values);
+}
+
+void write_shades(std::mt19937& random, const Size& size) {
+    NumberList list;
+    list.type = "u8";
+    for (std::size_t i = 0; i < 3 * size.pixels(); ++i)
+        list.values.push_back((static_cast<std::uint32_t>(i) / 7 + diced(random, 3)) & 255U);
+    NumberList guide{list};
+    for (std::uint32_t& each : guide.values) each = (each + diced(random, 2)) & 255U;
+    write(shades_block(list, size.width), list.values, {}, {});
+    write(shades_block(list, size.width, {"guide", &guide}), list.values, guide.values, {});
+}
+
+void write_all() {
+    std::mt19937 random(20261128);
+    std::cout << "[\n";
+    for (const int width : {1, 2, 15, 16, 17, 31, 32, 33, 100})
+        for (const int height : {1, 2, 3, 20})
+            for (int round = 0; round < 4; ++round) {
+                const Size size{width, height};
+                write_areas(random, size);
+                write_shades(random, size);
+                const List values = areas(random, size);
+                write(sequence_block(NumberList(values), width), values, {}, {});
+            }
+    NumberList even;
+    even.type = "u8";
+    even.values = List(2000, 1);
+    NumberList other{even};
+    other.values = List(2000, 2);
+    write(areas_block(even, 100), even.values, {}, {});
+    write(areas_block(even, 100, {"guide", &other}), even.values, other.values, {});
+    std::cout << "]\n";
+}
+
+} // namespace
+} // namespace shadowproof
+
+int main() {
+    shadowproof::write_all();
+    return std::cout.flush() ? 0 : 1;
+}
