@@ -61,6 +61,22 @@ std::optional<std::uint32_t> even_span(const Coded& coded, Numbers guide, std::s
     return chances_of_spans + (guide[i] == value ? 1U : 2U);
 }
 
+/// Codes the span that begins at pixel `i` by one bit, where it may be. Returns how many pixels are
+/// coded by it: 0 where they have to be coded singly. `values`: of all pixels.
+std::size_t code_even_span(BitCoder& coder, std::vector<BitChance>& chances, Coded& coded,
+                           Numbers values, Numbers guide, std::size_t i) {
+    const std::size_t length =
+        std::min({span_length, coded.width - i % coded.width, values.size() - i});
+    const std::optional<std::uint32_t> chance = even_span(coded, guide, i, length);
+    if (!chance) return 0;
+    const std::uint32_t around = coded.values[i - coded.width];
+    const bool even = all_are(values.subspan(i, length), around);
+    coder.code(even, chances[*chance]);
+    if (!even) return 0;
+    coded.set(i, length, around);
+    return length;
+}
+
 } // namespace
 
 std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numbers mask) {
@@ -75,19 +91,12 @@ std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numb
         if (!mask.empty() && mask[i] == 0) continue;
         const auto x = static_cast<std::int64_t>(i % width);
         const auto y = static_cast<std::int64_t>(i / width);
-        if (const auto column = static_cast<std::size_t>(x);
-            mask.empty() && column % span_length == 0) {
-            const std::size_t length = std::min({span_length, width - column, pixels - i});
-            if (const auto chance = even_span(coded, guide, i, length)) {
-                const std::uint32_t around = coded.values[i - width];
-                const bool even = all_are(values.subspan(next, length), around);
-                coder.code(even, chances[*chance]);
-                if (even) {
-                    coded.set(i, length, around);
-                    next += length;
-                    i += length - 1;
-                    continue;
-                }
+        if (mask.empty() && i % width % span_length == 0) {
+            const std::size_t length = code_even_span(coder, chances, coded, values, guide, i);
+            if (length > 0) {
+                i += length - 1;
+                next += length;
+                continue;
             }
         }
         const std::uint32_t value = values[next++];

@@ -12,9 +12,10 @@ using Numbers = std::span<const std::uint32_t>;
 
 /// A picture of areas that are of one value each, `width` to a row: classes, counters, triangles.
 /// Guessed is one of the values around a pixel, or the `guide`'s at the same pixel; a guide is a
-/// picture of the same size, or empty. Its edges are learned from, too. Sixteen pixels of a row are
-/// one bit where all around them is of one value. If `mask` is not empty, only pixels where it is
-/// not 0 have a value, which `values` lists in rows from the top.
+/// picture of the same size, or empty. Its edges are learned from, too. One bit says of up to
+/// sixteen pixels of a row, below the first, that they have the one value of all coded pixels that
+/// touch them, where the guide is even there, too. If `mask` is not empty, only pixels where it is
+/// not 0 have a value, which `values` lists in rows from the top; then there is no such bit.
 std::string coded_areas(Numbers values, std::uint32_t width, Numbers guide, Numbers mask);
 
 /// A picture of shades that change little by little, with `channels` bytes for each pixel. Guessed

@@ -35,8 +35,8 @@ std::string Memo::result(std::initializer_list<Bytes> inputs,
     }
     std::string made = make();
     const std::lock_guard lock(mutex_);
-    if (size_ + made.size() <= most && results_.try_emplace(hash, made).second)
-        size_ += made.size();
+    const std::size_t taken = made.size() + around_each;
+    if (size_ + taken <= most && results_.try_emplace(hash, made).second) size_ += taken;
     return made;
 }
 

@@ -23,16 +23,18 @@ public:
     /// now. Inputs are taken for the same if 128 bits of a hash are.
     std::string result(std::initializer_list<Bytes> inputs,
                        const std::function<std::string()>& make);
+    /// To be called where little will be the same as before: it frees the memory.
     void forget();
 
 private:
-    /// Bytes of results: a small part of what the program takes by itself, by
-    /// scenes/memory_budget.h. What is beyond is made again.
-    static constexpr std::size_t most = std::size_t{16} << 20U;
+    /// Bytes: little beside what the program takes by itself (scenes/memory_budget.h). What is
+    /// beyond is made again.
+    static constexpr std::size_t most = std::size_t{3} << 20U;
+    static constexpr std::size_t around_each = 128; ///< bytes of a map's node, about
 
     std::mutex mutex_;
     std::map<std::array<std::uint64_t, 2>, std::string> results_; ///< by hash
-    std::size_t size_ = 0;                                        ///< bytes of results
+    std::size_t size_ = 0;                                        ///< bytes
 };
 
 /// The bytes of a text or of a contiguous list of numbers.

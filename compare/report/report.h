@@ -96,8 +96,8 @@ public:
     /// Throws Error where `folder` must not be replaced, or cannot be written.
     explicit ReportFolder(const std::filesystem::path& folder);
 
-    /// Writes the truth and what else the cells of a scene share. Its cells are to be added before
-    /// the next scene.
+    /// Writes the truth and what else the cells of a scene share. Its cells should be added before
+    /// the next scene: what they have alike is then compressed once.
     void add_scene(const SceneResult& scene) const;
     /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
     /// threads 0: one per core.

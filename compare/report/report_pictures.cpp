@@ -146,8 +146,10 @@ void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, 
                 report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame, memo));
             });
     if (cell.comparison.colors)
-        jobs.emplace_back(
-            [&] { add("color_error", color_error_picture(*cell.comparison.colors)); });
+        jobs.emplace_back([&] { // which no two cells have alike
+            report.add(picture_path(scene, cell, "color_error"),
+                       to_png(color_error_picture(*cell.comparison.colors)));
+        });
     parallel_for(static_cast<int>(jobs.size()), thread_count(threads),
                  [&](int job, int) { jobs[static_cast<std::size_t>(job)](); });
 }

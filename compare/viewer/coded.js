@@ -72,7 +72,10 @@ function allAre(values, first, count, value) {
   return true;
 }
 
-/** Of the span of pixels that begins at `i`, in column `x`: the number of its chance, or -1. */
+/**
+ * Of the span of pixels that begins at `i`, in column `x`: the number of its chance, or -1 where not
+ * all that touches it has one value.
+ */
 function evenSpan(coded, guide, width, i, x, length) {
   const above = i - width;
   if (above < 0) return -1;
@@ -88,6 +91,7 @@ function evenSpan(coded, guide, width, i, x, length) {
 
 /** A picture of areas into `values`; `guide` and `mask` may be null. */
 function readAreas(reader, values, { width }, { guide, mask }) {
+  if (!(Number.isInteger(width) && width > 0)) return; // damaged: the sum will say so
   const pixels = mask ? mask.length : values.length;
   const coded = mask ? new Uint32Array(pixels) : values;
   const has = mask ?? new Uint8Array(pixels).fill(1);

@@ -37,7 +37,8 @@ public:
     bool tells_stages() const { return tells_stages_; }
     void tell_stages(bool tell) { tells_stages_ = tell; }
 
-    /// Up to so many frames are drawn, and the quickest one's time is told. One by default.
+    /// The most frames that are timed, as many as begin within 20 ms: the quickest is the time. One
+    /// by default.
     int timed_frames() const { return timed_frames_; }
     void time_frames(int most) { timed_frames_ = most; }
 

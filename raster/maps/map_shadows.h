@@ -75,8 +75,8 @@ std::vector<T> joined(std::vector<T> list, std::initializer_list<T> more) {
 }
 
 /// Draws the scene's surfaces as zfail_reversed does, and looks up the map in the light pass. Draws
-/// once more beforehand, so that the driver finishes deferred compilation; the quickest of the frames
-/// that the Gpu times is the time. Throws Error where the driver fails.
+/// once more beforehand, so that the driver finishes deferred compilation; the quickest of the
+/// frames that the Gpu times is the time. Throws Error where the driver fails.
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe);
 
 } // namespace shadowproof

@@ -35,8 +35,8 @@ struct StencilRecipe {
 
 /// Draws one pixel of the frame, so that the driver finishes deferred compilation. Then draws the
 /// whole as often as the Gpu times frames, including the making of what depends on the light; the
-/// quickest is the time. Reads back the pictures, and draws the volumes once more to show and to measure them.
-/// Throws Error where the driver fails.
+/// quickest is the time. Reads back the pictures, and draws the volumes once more to show and to
+/// measure them. Throws Error where the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
 
 /// The numbers in which techniques tell depths apart: window depth of 24 bits, up to a far plane or

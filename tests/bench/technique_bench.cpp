@@ -177,6 +177,7 @@ bool holds(const Record& record, bool all_scenes) {
 
 int run(int rounds, std::vector<std::string> names) {
     Gpu gpu(GlPlatform::osmesa);
+    gpu.time_frames(3);
     const bool all_scenes = names.empty();
     if (all_scenes)
         for (const BundledScene& scene : bundled_scenes()) names.emplace_back(scene.name);

@@ -60,7 +60,7 @@ const largestCells = () => readdirSync(folder).flatMap((scene) => {
   const sizeOf = (technique) => bytesBelow(join(folder, scene, technique, 'cell.js'));
   const cells = readdirSync(join(folder, scene))
     .filter((name) => existsSync(join(folder, scene, name, 'cell.js')));
-  return [`${scene}/${cells.reduce((a, b) => (sizeOf(a) >= sizeOf(b) ? a : b))}`];
+  return cells.length === 0 ? [] : [`${scene}/${cells.reduce((a, b) => (sizeOf(a) >= sizeOf(b) ? a : b))}`];
 });
 
 if (given) {

@@ -458,6 +458,7 @@ Section plane_coefficients() {
 std::vector<Section> bump_claims() {
     const std::vector<std::unique_ptr<Lit>> scenes = lit_scenes();
     Gpu gpu(GlPlatform::osmesa);
+    gpu.time_frames(3);
     return {one_pass_matches_three(scenes, gpu),
             whose_self_shadowing(scenes, gpu),
             spaces_agree(scenes, gpu),

@@ -311,6 +311,7 @@ Section fill_rate(const std::vector<Traced>& scenes, Gpu& gpu) {
 std::vector<Section> map_claims() {
     const std::vector<Traced> scenes = stages();
     Gpu gpu(GlPlatform::osmesa);
+    gpu.time_frames(3);
     return {fill_rate(scenes, gpu),  aliasing(scenes, gpu),
             bias(scenes, gpu),       dynamic_scenes(gpu),
             precision(gpu),          filtering(gpu),

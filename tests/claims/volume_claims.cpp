@@ -231,6 +231,7 @@ Section collapsing_volumes(Gpu& gpu) {
 
 std::vector<Section> volume_claims() {
     Gpu gpu(GlPlatform::osmesa);
+    gpu.time_frames(3);
     return {fill_rate(gpu), far_planes(gpu), caps(gpu), counters(gpu), collapsing_volumes(gpu)};
 }
 

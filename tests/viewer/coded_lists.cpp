@@ -17,9 +17,8 @@ using List = std::vector<std::uint32_t>;
 struct Size {
     int width;
     int height;
-    std::size_t pixels() const {
-        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    }
+    int lacking = 0; ///< pixels of the last row
+    std::size_t pixels() const { return static_cast<std::size_t>(width * height - lacking); }
 };
 
 std::uint32_t diced(std::mt19937& random, std::uint32_t below) {
@@ -35,7 +34,9 @@ List areas(std::mt19937& random, const Size& size) {
         const int top = static_cast<int>(diced(random, static_cast<std::uint32_t>(size.height)));
         const std::uint32_t value = diced(random, 5);
         for (int y = top; y < size.height; ++y)
-            std::fill_n(values.begin() + y * size.width + left, size.width - left, value);
+            for (int x = left; x < size.width; ++x)
+                if (const auto i = static_cast<std::size_t>(y * size.width + x); i < values.size())
+                    values[i] = value;
     }
     const std::uint32_t scattered = diced(random, 2) == 0 ? 0 : diced(random, 20);
     for (std::uint32_t k = 0; k < scattered; ++k)
@@ -94,6 +95,8 @@ void write_all() {
             for (int round = 0; round < 4; ++round) {
                 const Size size{width, height};
                 write_areas(random, size);
+                const auto below = static_cast<std::uint32_t>(width);
+                write_areas(random, {width, height, static_cast<int>(diced(random, below))});
                 write_shades(random, size);
                 const List values = areas(random, size);
                 write(sequence_block(NumberList(values), width), values, {}, {});

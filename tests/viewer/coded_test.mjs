@@ -26,6 +26,13 @@ test('pixels of one value are read from next to nothing', () => {
   for (const { block } of even) assert.ok(block.data.length < 12, `${block.data.length} bytes`);
 });
 
+test('a width that no picture has is damage, too', () => {
+  const { block } = lists.find(({ values, mask, guide, block: { as } }) =>
+    as === 'areas' && mask.length === 0 && guide.length === 0 && values.some((value) => value > 0));
+  for (const width of [0, -12, 1.5, null])
+    assert.throws(() => codedNumbers({ ...block, width }, block.length, {}), /damaged/);
+});
+
 test('a block whose bytes were changed is refused', () => {
   const { guide, block } = lists.find(({ values, block: { as } }) => as === 'areas' && values.length > 500);
   const damaged = { ...block, data: `~~~~${block.data.slice(4)}` };

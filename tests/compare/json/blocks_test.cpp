@@ -64,5 +64,32 @@ TEST(Blocks, no_byte_of_a_block_ends_its_string_or_its_line) {
     EXPECT_EQ(text.substr(end), "\"}");
 }
 
+TEST(Blocks, a_memo_takes_no_block_for_another) {
+    const NumberList values(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
+    const NumberList bytes(std::vector<std::uint8_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
+    const NumberList guide(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 4});
+    const NumberList other(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 5});
+    const NumberList some(std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
+    const NumberList rest(std::vector<std::uint8_t>{0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    Memo memo;
+    for (int round = 0; round < 2; ++round)
+        for (Memo* const each : {static_cast<Memo*>(nullptr), &memo}) {
+            const std::vector<std::string> blocks{areas_block(values, 4, {}, each),
+                                                  areas_block(values, 6, {}, each),
+                                                  areas_block(bytes, 4, {}, each),
+                                                  areas_block(values, 4, {"guide", &guide}, each),
+                                                  areas_block(values, 4, {"other", &guide}, each),
+                                                  areas_block(values, 4, {"other", &other}, each),
+                                                  differing_block(values, 4, some, each),
+                                                  differing_block(values, 4, rest, each),
+                                                  shades_block(bytes, 4, {}, each),
+                                                  shades_block(bytes, 2, {}, each)};
+            for (std::size_t i = 0; i < blocks.size(); ++i)
+                for (std::size_t k = 0; k < i; ++k) EXPECT_NE(blocks[i], blocks[k]) << i << k;
+            EXPECT_EQ(blocks[3], areas_block(values, 4, {"guide", &guide}));
+            EXPECT_EQ(blocks[7], differing_block(values, 4, rest));
+        }
+}
+
 } // namespace
 } // namespace shadowproof

@@ -43,7 +43,7 @@ TEST(Memo, makes_again_what_is_too_much_to_remember) {
             .result({bytes_for_memo(name)},
                     [&] {
                         ++times;
-                        return std::string(std::size_t{10} << 20U, name.front());
+                        return std::string(std::size_t{2} << 20U, name.front());
                     })
             .front();
     };
