@@ -76,7 +76,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
 
 /// Bytes as the characters of a string in a script that is read as x-user-defined
 /// (encoding.spec.whatwg.org, section 14.5): every byte is one character.
-std::string quoted(std::string_view bytes) {
+std::string in_quotes(std::string_view bytes) {
     std::string text;
     text.reserve(bytes.size() + bytes.size() / 32 + 2);
     text += '"';
@@ -105,7 +105,7 @@ std::string block(const NumberList& list, std::string_view as, const std::string
     const auto make = [&] {
         return fmt::format(R"({{"type":"{}","length":{},"as":"{}",{}"sum":{},"data":)", list.type,
                            list.values.size(), as, how, sum_of(list.values)) +
-               quoted(code()) + "}";
+               in_quotes(code()) + "}";
     };
     return remembered(memo,
                       {bytes_for_memo(list.type), bytes_for_memo(as), bytes_for_memo(how),

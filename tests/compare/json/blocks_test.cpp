@@ -68,7 +68,7 @@ TEST(Blocks, a_memo_takes_no_block_for_another) {
     const NumberList values(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
     const NumberList bytes(std::vector<std::uint8_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 3});
     const NumberList guide(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 4});
-    const NumberList other(std::vector<std::uint32_t>{1, 1, 2, 2, 1, 1, 2, 2, 3, 3, 3, 5});
+    const NumberList other(std::vector<std::uint32_t>{1, 2, 1, 2, 1, 2, 1, 2, 1, 2, 1, 2});
     const NumberList some(std::vector<std::uint8_t>{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
     const NumberList rest(std::vector<std::uint8_t>{0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
     Memo memo;
