@@ -80,12 +80,15 @@ var cutawayWords = (function () {
     return short(column[0].depth) + (column.length > 1 ? '\u2026' : '');
   }
 
-  /** Lines of at most `most` characters. */
+  /** How many letters a text is as wide as: signs are wider. */
+  function letters(text) { return text.length + 0.4 * (text.match(/[+\u2212=]/g) || []).length; }
+
+  /** Lines that are at most `most` letters wide. */
   function wrapped(text, most) {
     var lines = [''];
     text.split(' ').forEach(function (word) {
       var last = lines[lines.length - 1];
-      if (last && last.length + word.length + 1 > most) lines.push(word);
+      if (last && letters(last) + letters(word) + 1 > most) lines.push(word);
       else lines[lines.length - 1] = last ? last + ' ' + word : word;
     });
     return lines;
