@@ -12,7 +12,7 @@ build_packages=(
     libcli11-dev libfmt-dev libcereal-dev duktape-dev
 )
 test_packages=(libgtest-dev libbenchmark-dev libxml2-utils clang-format assimp-testmodels chromium fonts-dejavu-core locales time
-    dpkg-dev file povray python3-ogre-1.12 xvfb xauth)
+    dpkg-dev file povray python3-ogre-1.12 xvfb xauth slurmctld slurmd)
 # libFuzzer comes with clang's run-time libraries; llvm has the symbolizer of its reports.
 fuzz_packages=(clang-14 libclang-rt-14-dev llvm-14 assimp-testmodels)
 

@@ -21,7 +21,7 @@ foreach(room scenes reference raster compare)
         PATTERN glsl EXCLUDE PATTERN techniques EXCLUDE)
 endforeach()
 install(DIRECTORY scenes/bundled/ DESTINATION ${scenes_folder}
-    FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "*.bin"
+    FILES_MATCHING PATTERN "*.gltf" PATTERN "*.glb" PATTERN "*.bin" PATTERN "costs.json"
     PATTERN author EXCLUDE)
 install(FILES ${CMAKE_BINARY_DIR}/shadowproof.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${CMAKE_BINARY_DIR}/shadowproof.bash RENAME shadowproof

@@ -36,16 +36,17 @@ struct Cell {
                        ///< meaningless, except the verdict if it is timed_out
     Verdict verdict = Verdict::agrees;
     double milliseconds = 0;
-    std::vector<std::string> left_out;            ///< what the technique omitted as not needed
-    std::vector<Cause> excused;                   ///< causes found that technique and scene excuse
-    std::optional<Since> since;                   ///< change since the same cell of a baseline
-    std::vector<Acceptance> accepted;             ///< in that cell of the baseline
+    double spent_milliseconds = 0;     ///< in all: drawing, judging, writing; 0: not known
+    std::vector<std::string> left_out; ///< what the technique omitted as not needed
+    std::vector<Cause> excused;        ///< causes found that technique and scene excuse
+    std::optional<Since> since;        ///< change since the same cell of a baseline
+    std::vector<Acceptance> accepted;  ///< in that cell of the baseline
     std::optional<FirstDifference> first_failing; ///< the first pixel that fails the gate
     Comparison comparison;
     std::string cause_map; ///< the comparison's causes, packed as in results.json
     Frame frame;
     std::shared_ptr<const EvidenceReport> evidence; ///< for the report; null: nothing is shown
-    /// By kind, where pictures stand in the report once those that are the same are kept once.
+    /// By kind, where those of its pictures stand that are the same as an earlier cell's.
     std::map<std::string, std::string> same_pictures{};
 };
 
@@ -68,8 +69,9 @@ struct SceneResult {
     std::vector<std::string> no_longer_provoked;
     std::string error; ///< if not empty, the scene could not be traced and has no cells
     GroundTruth truth;
-    bool bump_lit = false;   ///< colours are judged, of techniques that have them
-    Image<glm::dvec3> color; ///< the true colours
+    bool bump_lit = false;         ///< colours are judged, of techniques that have them
+    Image<glm::dvec3> color;       ///< the true colours
+    double spent_milliseconds = 0; ///< before its cells: reading, tracing, writing; 0: not known
     std::vector<Cell> cells;
 };
 
@@ -80,6 +82,14 @@ struct Baseline {
     std::vector<std::string> notes; ///< what could not be compared, or differs besides pixels
 };
 
+/// The part of a run that a report is of.
+struct ReportShard {
+    std::size_t number = 1; ///< from 1 on
+    std::size_t of = 1;
+    std::string run;      ///< the same for the shards of one run, and no others
+    std::string baseline; ///< its outline (compare/results/baseline.h), as JSON; empty: none
+};
+
 struct Report {
     std::string version;
     DriverInfo gl;
@@ -88,6 +98,7 @@ struct Report {
                                         ///< program, the subcommand, scene, technique and outputs
     Gate gate;
     std::optional<Baseline> baseline;
+    std::optional<ReportShard> shard;
     std::vector<SceneResult> scenes;
     bool passed = false;
     double milliseconds = 0;        ///< from the start of the process until the results are written

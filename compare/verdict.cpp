@@ -72,6 +72,13 @@ std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fai
     return causes;
 }
 
+bool is_default_picture(std::span<const std::string> settings) {
+    return std::ranges::none_of(settings, [](const std::string& word) {
+        return word.starts_with("--") && word != "--gl" && word != "--gate" && word != "--allow" &&
+               word != "--timeout";
+    });
+}
+
 std::vector<Cause> no_longer_provoked(std::span<const Cause> provokes,
                                       std::span<const std::vector<Cause>> fails_at,
                                       const std::function<bool(Cause)>& is_shown) {

@@ -39,6 +39,10 @@ Verdict judge(const Scene& scene, std::span<const Cause> fails_at, std::span<con
 std::vector<Cause> excused_causes(const Scene& scene, std::span<const Cause> fails_at,
                                   std::span<const Cause> by_nature, const Comparison& comparison);
 
+/// Whether a run with these settings, words of a command line, shows what the bundled scenes are
+/// made to provoke: none of them changes picture or technique.
+bool is_default_picture(std::span<const std::string> settings);
+
 /// Causes that the scene declares, that some technique tried is known for, and that no cell shows:
 /// the scene has stopped provoking them. `fails_at`: of each technique tried.
 std::vector<Cause> no_longer_provoked(std::span<const Cause> provokes,

@@ -3,6 +3,7 @@
 #include "compare/command/process/child_process.h"
 #include "compare/command/process/console.h"
 #include "compare/command/process/exit_code.h"
+#include "compare/command/process/signals.h"
 #include "compare/command/process/standard_output.h"
 #include "compare/memory.h"
 #include "compare/output/unfinished.h"
@@ -148,6 +149,11 @@ int guarded(const WatchedWork& work, const std::string& report) {
     const ChildEnd end = child.wait();
     if (end.code) left_behind.done();
     return code_of(end);
+}
+
+int guarded_resumable(const WatchedWork& work, const std::string& report) {
+    leave_unfinished("the same command goes on with what is done of " + report);
+    return guarded(work);
 }
 
 int guarded_within(double seconds, const std::string& what, const WatchedWork& work) {

@@ -20,6 +20,9 @@ using WatchedWork = std::function<int(int watcher)>;
 /// the child has been doing for a minute is said in a line, and again after twice as long.
 int guarded(const WatchedWork& work, const std::string& report = {});
 
+/// The same where the report stays unfinished, for a later process that goes on with it.
+int guarded_resumable(const WatchedWork& work, const std::string& report);
+
 /// The same for work that writes no report, given up after `seconds` (0: no limit). `what`: the
 /// subject of the message then, such as a scene.
 int guarded_within(double seconds, const std::string& what, const WatchedWork& work);

@@ -10,6 +10,7 @@ Work add_merge(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("merge", "One report of several runs: shards by scene or technique");
     const auto options = std::make_shared<RebuildOptions>();
+    options->what = Rebuilt::several;
     command
         ->add_option("RESULTS", options->from,
                      "Folders of reports, or results.json files beside their pictures")

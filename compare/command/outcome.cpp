@@ -25,14 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_default_picture(const Report& report) {
-    const auto& words = report.arguments;
-    return std::none_of(words.begin(), words.end(), [](const std::string& word) {
-        return word == "--size" || word == "--camera" || word == "--light" || word == "--time" ||
-               word == "--camera-matrix" || word == "--light-position" || word == "--fov";
-    });
-}
-
 int exit_code(const Report& report) {
     for (const SceneResult& scene : report.scenes)
         if (!scene.error.empty() ||
@@ -105,7 +97,6 @@ void check_outputs(const OutputOptions& options, std::span<const std::string> re
 
 void finish(ReportFolder& folder, Console& console, Report& report, const OutputOptions& options,
             const std::string& started) {
-    folder.share(report);
     const std::optional<std::string> json = name_in_report(options.json, options.out);
     if (json && *json != results_name) folder.add_requested(*json, to_json(report));
     if (const std::optional<std::string> junit = name_in_report(options.junit, options.out))
@@ -117,13 +108,13 @@ void finish(ReportFolder& folder, Console& console, Report& report, const Output
 std::vector<std::string> stopped_provoking(const Report& report,
                                            std::span<const SceneResult> lights) {
     const SceneResult& scene = lights.front();
-    if (!is_default_picture(report) || !is_bundled(scene.argument)) return {};
+    if (!is_default_picture(report.arguments) || !is_bundled(scene.argument)) return {};
     std::vector<std::vector<Cause>> fails_at;
     CausePixels shown{};
     for (const SceneResult& light : lights)
         for (const Technique& technique : all_techniques()) {
             // Its shadows are zfail_reversed's, which is tried on every scene.
-            if (technique.needs_bump_maps) continue;
+            if (technique.needs_bump_maps || !is_for(technique, light.light.kind)) continue;
             const auto cell =
                 std::find_if(light.cells.begin(), light.cells.end(),
                              [&](const Cell& tried) { return tried.technique == technique.name; });
@@ -176,8 +167,9 @@ int end_run(ReportFolder& folder, Console& console, Report& report, const GateOp
             const std::optional<ResultsFile>& baseline, const OutputOptions& output,
             const std::string& started) {
     if (baseline)
-        report.baseline = Baseline{gate.baseline, baseline->json["passed"].get<bool>(),
-                                   notes_on(*baseline, report)};
+        report.baseline =
+            Baseline{gate.baseline, baseline->json["passed"].get<bool>(),
+                     notes_on(outline_of(baseline->json), outline_of(report), !report.shard)};
     report.passed = passes(report);
     finish(folder, console, report, output, started);
     return conclude(console, report, output, started);

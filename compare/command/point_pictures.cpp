@@ -121,7 +121,7 @@ std::string PointPictures::add(const BenchSettings& settings, Cell cell, int thr
 std::string PointPictures::write(const BenchSettings& settings, Cell cell, int threads) {
     const std::size_t number = group_for(settings);
     scene_->name = groups_[number].result.name;
-    write_cell(*scene_, cell, part_, *memo_, threads);
+    write_cell(*scene_, cell, part_, *memo_, nullptr, threads);
     cell.frame = {};
     cell.evidence.reset();
     cell.comparison.cause = {};

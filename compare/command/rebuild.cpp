@@ -5,6 +5,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/process/console.h"
 #include "compare/command/process/exit_code.h"
+#include "compare/output/descriptor.h"
 #include "compare/output/write_file.h"
 #include "compare/results/merge.h"
 #include "compare/results/results_check.h"
@@ -26,33 +27,52 @@ namespace {
 
 Matrix whole_matrix() {
     Matrix matrix;
-    for (const Technique& technique : all_techniques())
-        matrix.techniques.push_back(
-            {std::string(technique.name), technique.fails_at, !technique.needs_bump_maps});
+    for (const Technique& technique : all_techniques()) {
+        KnownTechnique& known = matrix.techniques.emplace_back(KnownTechnique{
+            std::string(technique.name), technique.fails_at, !technique.needs_bump_maps});
+        for (const Light::Kind kind : technique.lights) known.lights.emplace_back(name_of(kind));
+    }
     for (const BundledScene& scene : bundled_scenes()) matrix.scenes.emplace_back(scene.name);
     return matrix;
 }
 
-/// Copies the files that the results name. Damaged ones do not stop the report: the viewer checks
-/// them itself, and shows what is missing as missing.
-void take_over_all(const std::vector<ReportFile>& files, const ReportFolder& folder,
-                   const MemoryAccount& memory, Console& console) {
-    constexpr std::size_t most_lines = 12; // a whole missing folder is reported once
-    std::size_t damaged = 0;
-    std::set<fs::path> taken; // several cells may have the same picture
-    for (const ReportFile& file : files) {
-        console.progress("copying " + file.to);
-        const std::optional<std::string> damage = take_over(file, folder, memory);
-        if (taken.insert(file.from).second && damage && ++damaged <= most_lines)
-            console.always(fmt::format("damaged: {} {}", file.from.string(), *damage));
+/// Copies the files that results name. Damaged ones do not stop the report: the viewer checks them
+/// itself, and shows what is missing as missing.
+class TakeOver {
+public:
+    TakeOver(const ReportFolder& folder, const MemoryAccount& memory, Console& console)
+        : folder_(folder), memory_(memory), console_(console) {}
+
+    void scene(const std::vector<ReportFile>& files) {
+        std::set<fs::path> taken; // several cells may have the same picture
+        for (const ReportFile& file : files) {
+            console_.progress("copying " + file.to);
+            const std::optional<std::string> damage = take_over(file, folder_, memory_);
+            if (taken.insert(file.from).second && damage && ++damaged_ <= most_lines)
+                console_.always(fmt::format("damaged: {} {}", file.from.string(), *damage));
+        }
+        taken_ += taken.size();
     }
-    if (damaged > most_lines)
-        console.always(fmt::format("damaged: {} more files", damaged - most_lines));
-    if (damaged > 0)
-        console.always(fmt::format("{} of {} pictures and data files are missing or damaged, and "
-                                   "the report shows them so",
-                                   grouped(damaged), grouped(taken.size())));
-}
+
+    void conclude() const {
+        if (damaged_ > most_lines)
+            console_.always(fmt::format("damaged: {} more files", damaged_ - most_lines));
+        if (damaged_ > 0)
+            console_.always(
+                fmt::format("{} of {} pictures and data files are missing or damaged, and the "
+                            "report shows them so",
+                            grouped(damaged_), grouped(taken_)));
+    }
+
+private:
+    static constexpr std::size_t most_lines = 12; // a whole missing folder is reported once
+
+    const ReportFolder& folder_;
+    const MemoryAccount& memory_;
+    Console& console_;
+    std::size_t damaged_ = 0;
+    std::size_t taken_ = 0;
+};
 
 struct Outcome {
     std::size_t cells = 0;
@@ -63,37 +83,38 @@ struct Outcome {
 };
 
 /// Names what fails.
-Outcome count_outcome(const ResultsJson& results, Console& console) {
+Outcome count_outcome(const Merged& results, Console& console) {
     Outcome outcome;
-    for (const ResultsJson& scene : results.at("scenes")) {
-        const std::string name = shown(scene.at("name"));
-        if (could_not_run(scene)) {
+    for (const MergedScene& scene : results.scenes) {
+        const std::string name = shown(scene.head.at("name"));
+        if (could_not_run(scene.head)) {
             ++outcome.unread;
             console.always(fmt::format("fails: {} could not be tried", name));
             continue;
         }
-        for (const ResultsJson& cell : scene.at("techniques")) {
+        for (const MergedCell& cell : scene.cells) {
+            const IndexedCell& what = cell.what;
             ++outcome.cells;
-            if (cell.at("fails") != true) continue;
+            if (!what.fails) continue;
             ++outcome.failing;
             // A verdict beside the error: given up after the time limit.
-            const bool ran = !could_not_run(cell) || cell.contains("verdict");
+            const bool ran = !what.could_not_run || !what.verdict.empty();
             if (!ran) ++outcome.not_run;
-            console.always(
-                fmt::format("fails: {} on {}: {}", shown(cell.at("name")), name,
-                            ran ? cell.at("verdict").get<std::string>() : "could not run"));
+            console.always(fmt::format("fails: {} on {}: {}", shown(what.name), name,
+                                       ran ? what.verdict : "could not run"));
         }
-        if (scene.at("no_longer_provoked").empty()) continue;
+        const ResultsJson& stopped = scene.head.at("no_longer_provoked");
+        if (stopped.empty()) continue;
         ++outcome.unprovoked;
-        console.always(fmt::format("fails: no technique shows {} of {} any more",
-                                   scene.at("no_longer_provoked").dump(), name));
+        console.always(
+            fmt::format("fails: no technique shows {} of {} any more", stopped.dump(), name));
     }
     return outcome;
 }
 
-int conclude(const ResultsJson& results, const std::string& out, Console& console) {
+int conclude(const Merged& results, const std::string& out, Console& console) {
     const Outcome outcome = count_outcome(results, console);
-    const bool passed = results.at("passed") == true;
+    const bool passed = results.head.at("passed") == true;
     std::string text = passed ? "passed: " + counted(outcome.cells, "cell")
                               : fmt::format("failed: {} of {}", grouped(outcome.failing),
                                             counted(outcome.cells, "cell"));
@@ -129,25 +150,35 @@ namespace {
 int rebuild_here(const RebuildOptions& options, int watcher) {
     Console console(options.quiet, watcher);
     MemoryAccount memory(options.memory);
-    std::vector<ResultsFile> runs;
+    std::vector<IndexedResults> runs;
     for (const std::string& path : options.from) {
         console.progress("reading " + path);
-        refuse_to_lose(runs.emplace_back(read_results(path, &memory)).path, options.out);
+        refuse_to_lose(runs.emplace_back(index_results(path, memory)).path, options.out);
     }
     check_output(options.json, options.out, Output::results);
     ReportFolder folder(options.out);
     console.progress("joining the results");
-    Merged merged = merge(runs, whole_matrix());
-    take_over_all(merged.files, folder, memory, console);
-    folder.share(merged.results);
-    const std::string text = results_text(merged.results);
+    const Merged merged =
+        options.what == Rebuilt::one_run ? alone(runs.front()) : merge(runs, whole_matrix());
     const std::optional<std::string> inside = name_in_report(options.json, options.out);
-    if (inside && *inside != results_name) folder.add_requested(*inside, text);
+    GrowingResults results =
+        folder.grow_results(merged.head, inside && *inside != results_name ? inside : std::nullopt);
+    TakeOver files(folder, memory, console);
+    for (std::size_t i = 0; i < merged.scenes.size(); ++i) {
+        const WholeScene scene = whole_scene(merged, i, runs);
+        files.scene(scene.files);
+        results.add(scene.json);
+    }
+    results.end();
+    files.conclude();
     console.progress("writing " + options.out);
-    folder.finish(text);
+    folder.finish();
     for (const std::string& note : folder.notes()) console.always(note);
-    if (!options.json.empty() && !inside) write_file(options.json, text);
-    return conclude(merged.results, options.out, console);
+    if (!options.json.empty() && !inside)
+        write_file(options.json, [&](const TakesBytes& take) {
+            read_pieces(fs::canonical(fs::path(options.out) / results_name), take);
+        });
+    return conclude(merged, options.out, console);
 }
 
 } // namespace

@@ -14,7 +14,10 @@ class App;
 
 namespace shadowproof {
 
+enum class Rebuilt { one_run, several };
+
 struct RebuildOptions {
+    Rebuilt what = Rebuilt::one_run; ///< several are joined; of one run, a shard stays one
     std::vector<std::string> from; ///< report folders, or results.json files beside their pictures
     std::string out = "report";
     std::string json;

@@ -15,23 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Results nest nine deep. Parsing is recursive, and a file must not make the stack overflow.
-constexpr int deepest = 64;
-
 constexpr std::uint64_t largest = std::uint64_t{1} << 30U; // bytes
 
-/// Only a regular file is opened: a FIFO would wait for a writer, and a device never ends.
 std::string text_of(const fs::path& file, const JsonRemedies& remedies,
                     const MemoryAccount* memory) {
     const char* const remedy = remedies.name;
+    require_json_file(file, remedies);
     std::error_code failure;
-    if (!fs::exists(file, failure))
-        throw Error(file.string(),
-                    failure ? fmt::format("cannot be read ({})", failure.message())
-                            : "there is no such file",
-                    remedy);
-    if (!fs::is_regular_file(file, failure))
-        throw Error(file.string(), "cannot be read (it is not a file)", remedy);
     const std::uint64_t size = fs::file_size(file, failure);
     if (failure || size > largest)
         throw Error(file.string(), fmt::format("has more than {} bytes", largest), remedy);
@@ -48,28 +38,38 @@ std::string text_of(const fs::path& file, const JsonRemedies& remedies,
     return text;
 }
 
-/// Where the parser stopped; past the last byte, the error is that the file ends.
-[[noreturn]] void throw_not_json(const std::string& text, const std::string& file, std::size_t byte,
-                                 const char* give_whole) {
-    if (text.empty()) throw Error(file, "is empty", give_whole);
-    if (byte > text.size())
-        throw Error(file, fmt::format("is cut off after byte {}", text.size()), give_whole);
-    throw Error(file, fmt::format("is not JSON at byte {}", byte), give_whole);
+} // namespace
+
+void require_json_file(const fs::path& file, const JsonRemedies& remedies) {
+    std::error_code failure;
+    if (!fs::exists(file, failure))
+        throw Error(file.string(),
+                    failure ? fmt::format("cannot be read ({})", failure.message())
+                            : "there is no such file",
+                    remedies.name);
+    if (!fs::is_regular_file(file, failure))
+        throw Error(file.string(), "cannot be read (it is not a file)", remedies.name);
 }
 
-} // namespace
+void throw_not_json(const std::string& file, std::uint64_t size, std::uint64_t byte,
+                    const JsonRemedies& remedies) {
+    if (size == 0) throw Error(file, "is empty", remedies.whole);
+    if (byte > size)
+        throw Error(file, fmt::format("is cut off after byte {}", size), remedies.whole);
+    throw Error(file, fmt::format("is not JSON at byte {}", byte), remedies.whole);
+}
 
 ResultsJson parse_json(const std::string& text, const std::string& file,
                        const JsonRemedies& remedies) {
     const auto not_too_deep = [&](int depth, ResultsJson::parse_event_t, ResultsJson&) {
-        if (depth > deepest)
-            throw Error(file, fmt::format("nests deeper than {}", deepest), remedies.whole);
+        if (depth > deepest_json)
+            throw Error(file, fmt::format("nests deeper than {}", deepest_json), remedies.whole);
         return true;
     };
     try {
         return ResultsJson::parse(text, not_too_deep);
     } catch (const ResultsJson::parse_error& error) {
-        throw_not_json(text, file, error.byte, remedies.whole);
+        throw_not_json(file, text.size(), error.byte, remedies);
     } catch (const ResultsJson::out_of_range&) {
         throw Error(file, "holds a number beyond every double", remedies.whole);
     }
@@ -79,7 +79,7 @@ std::string json_text(const fs::path& file, const JsonRemedies& remedies, Memory
     std::string text = text_of(file, remedies, memory);
     // Once as read, once as merged, and as text again.
     if (memory != nullptr)
-        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest)) + 4 * text.size(),
+        memory->keep({2 * gltf::json_bytes(gltf::count_json(text, deepest_json)) + 4 * text.size(),
                       file.string(), "its values", "merge fewer runs at once"});
     return text;
 }

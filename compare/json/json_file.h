@@ -4,6 +4,7 @@
 
 #include "scenes/memory_budget.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +18,18 @@ struct JsonRemedies {
     const char* name = "";  ///< where the file does not exist, or is no regular file
     const char* whole = ""; ///< where its text is incomplete
 };
+
+/// Results nest nine deep. Parsing is recursive, and a file must not make the stack overflow.
+inline constexpr int deepest_json = 64;
+
+/// Throws Error where there is no such file, or no regular one: a FIFO would wait for a writer, and
+/// a device never ends.
+void require_json_file(const std::filesystem::path& file, const JsonRemedies& remedies);
+
+/// Throws Error: where a parser stopped, in a file of `size` bytes; past the last one, the error is
+/// that it ends.
+[[noreturn]] void throw_not_json(const std::string& file, std::uint64_t size, std::uint64_t byte,
+                                 const JsonRemedies& remedies);
 
 /// The text of a file of JSON, and its values, which no schema was applied to yet. Both throw Error
 /// naming the file; the first charges what the values will take to the account, if there is one.

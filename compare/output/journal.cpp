@@ -94,6 +94,8 @@ Journal::Journal(const fs::path& file, const FolderIdentity& folder)
     append(file_, of_folder, fmt::format("{} {}", folder.device, folder.inode));
 }
 
+Journal::Journal(const fs::path& file) : file_(open_file(file, O_WRONLY | O_APPEND | O_NOFOLLOW)) {}
+
 void Journal::begin(const std::string& name, const Fingerprint& fingerprint) const {
     append(file_, of_begun, fmt::format("{} {} {}", fingerprint.size, fingerprint.xxh3, name));
 }

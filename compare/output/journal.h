@@ -11,12 +11,12 @@
 
 namespace shadowproof {
 
-/// Identifies a folder independently of its name.
+/// Tells the folders of one file system apart, independently of their names.
 struct FolderIdentity {
-    std::uint64_t device = 0;
+    std::uint64_t device = 0; ///< another number on each machine that has mounted the file system
     std::uint64_t inode = 0;
 
-    bool operator==(const FolderIdentity&) const = default;
+    bool operator==(const FolderIdentity& other) const { return inode == other.inode; }
 };
 /// Throws std::system_error.
 FolderIdentity identity_of(const std::filesystem::path& folder);
@@ -36,6 +36,8 @@ public:
     Journal() = default;
     /// Begins a new one.
     Journal(const std::filesystem::path& file, const FolderIdentity& folder);
+    /// Goes on with one.
+    explicit Journal(const std::filesystem::path& file);
 
     void begin(const std::string& name, const Fingerprint& fingerprint) const;
     void complete(const std::string& name) const;

@@ -54,22 +54,30 @@ std::optional<std::pair<std::string, Fingerprint>> entry_of(const Json& json) {
 
 } // namespace
 
+GrowingFingerprint::GrowingFingerprint()
+    : state_(XXH3_createState(),
+             [](void* state) { XXH3_freeState(static_cast<XXH3_state_t*>(state)); }) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_.get()));
+}
+
+void GrowingFingerprint::add(std::string_view bytes) {
+    XXH3_128bits_update(static_cast<XXH3_state_t*>(state_.get()), bytes.data(), bytes.size());
+    size_ += bytes.size();
+}
+
+Fingerprint GrowingFingerprint::so_far() const {
+    return {size_, hexadecimal(XXH3_128bits_digest(static_cast<XXH3_state_t*>(state_.get())))};
+}
+
 Fingerprint fingerprint_of(std::string_view bytes) {
     return {bytes.size(), hexadecimal(XXH3_128bits(bytes.data(), bytes.size()))};
 }
 
 Fingerprint fingerprint_of(const fs::path& file) {
-    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
-                                                                         &XXH3_freeState);
-    if (!state) throw std::bad_alloc();
-    XXH3_128bits_reset(state.get());
-    Fingerprint fingerprint;
-    read_pieces(file, [&](std::string_view piece) {
-        XXH3_128bits_update(state.get(), piece.data(), piece.size());
-        fingerprint.size += piece.size();
-    });
-    fingerprint.xxh3 = hexadecimal(XXH3_128bits_digest(state.get()));
-    return fingerprint;
+    GrowingFingerprint fingerprint;
+    read_pieces(file, [&](std::string_view piece) { fingerprint.add(piece); });
+    return fingerprint.so_far();
 }
 
 bool is_name_below(std::string_view name) {

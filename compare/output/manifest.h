@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,18 @@ struct Fingerprint {
     std::string xxh3;       ///< XXH3 of 128 bits (xxhash.com), seed 0, canonical, in hexadecimal
 
     bool operator==(const Fingerprint&) const = default;
+};
+
+/// The fingerprint of bytes that come in parts.
+class GrowingFingerprint {
+public:
+    GrowingFingerprint();
+    void add(std::string_view bytes);
+    Fingerprint so_far() const;
+
+private:
+    std::shared_ptr<void> state_; ///< the hash's
+    std::uint64_t size_ = 0;
 };
 
 Fingerprint fingerprint_of(std::string_view bytes);

@@ -23,8 +23,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* journal_name = "journal";
+constexpr const char* progress_name = "progress";
+
 bool is_there(const fs::path& path) {
     return fs::exists(fs::symlink_status(path));
+}
+
+fs::path work_folder_of(const fs::path& place) {
+    return place.string() + ".writing";
 }
 
 fs::path place_of(const fs::path& folder) {
@@ -67,7 +74,7 @@ std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path&
                                            const std::set<std::string>& replaced) {
     const fs::path content = work / "report";
     const fs::path older = work / "older";
-    const JournalRecord record = read_journal(work / "journal");
+    const JournalRecord record = read_journal(work / journal_name);
     remove_leftovers(work, Writers::none);
     std::vector<std::string> left;
     if (is_there(older)) {
@@ -83,7 +90,9 @@ std::vector<std::string> empty_work_folder(const fs::path& work, const fs::path&
                              : fate_of_old_content(content, replaced));
         left.insert(left.end(), more.begin(), more.end());
     }
-    if (left.empty() && ::unlink((work / "journal").c_str()) != 0 && errno != ENOENT) throw_errno();
+    if (!left.empty()) return left;
+    for (const char* own : {progress_name, journal_name})
+        if (::unlink((work / own).c_str()) != 0 && errno != ENOENT) throw_errno();
     return left;
 }
 
@@ -131,18 +140,58 @@ bool is_in_the_way(const KeptFile& kept, const Manifest& manifest) {
 
 } // namespace
 
-ReplacedFolder::ReplacedFolder(const fs::path& folder, const std::vector<std::string>& fixed)
-    : named_(folder), place_(place_of(folder)), work_(place_.string() + ".writing"),
-      content_(work_ / "report"), fixed_(fixed), unfinished_([this] { clean_up(); }) {
+ReplacedFolder::ReplacedFolder(const fs::path& folder, const std::vector<std::string>& fixed,
+                               CutOff cut_off)
+    : named_(folder), place_(place_of(folder)), work_(work_folder_of(place_)),
+      content_(work_ / "report"), fixed_(fixed), cut_off_(cut_off),
+      unfinished_([this] { clean_up(); }) {
     const auto lock = hold_unfinished();
     check_report_place(named_, place_, fixed_);
     try {
         made_parents_ = make_parents(place_);
         lock_ = FolderLock(work_, named_);
+        goes_on_ = cut_off_ == CutOff::is_kept && take_over();
+        if (!goes_on_) prepare();
+    } catch (const std::system_error& error) {
+        throw unwritable_report(named_, error.code().value());
+    }
+}
+
+fs::path ReplacedFolder::progress_file_of(const fs::path& folder) {
+    return work_folder_of(place_of(folder)) / progress_name;
+}
+
+void ReplacedFolder::begin_anew() {
+    const auto lock = hold_unfinished();
+    try {
+        goes_on_ = false;
+        earlier_.clear();
         prepare();
     } catch (const std::system_error& error) {
         throw unwritable_report(named_, error.code().value());
     }
+}
+
+/// Whether all that the journal lists is there, and nothing else: files of which it does not know
+/// that they are complete are removed.
+bool ReplacedFolder::take_over() {
+    JournalRecord record = read_journal(work_ / journal_name);
+    if (is_there(work_ / "older") || !is_there(content_) || !record.folder ||
+        identity_of(content_) != *record.folder)
+        return false;
+    remove_leftovers(work_, Writers::none);
+    Manifest intact;
+    const std::vector<std::string> left =
+        empty_out(content_, place_, [&](const std::string& name, const fs::path& file) {
+            if (!is_as_listed(record.written, name, file))
+                return is_as_listed(record.begun, name, file) ? Fate::remove : Fate::leave;
+            intact.insert(*record.written.find(name));
+            return Fate::leave;
+        });
+    if (intact.empty() || left.size() != intact.size() || intact != record.written) return false;
+    earlier_ = std::move(record.written);
+    journal_ = Journal(work_ / journal_name);
+    return true;
 }
 
 void ReplacedFolder::prepare() {
@@ -154,39 +203,44 @@ void ReplacedFolder::prepare() {
                                 left.empty() ? "a folder" : listed(left)),
                     "move it away, or name another folder with --out");
     if (::mkdir(content_.c_str(), 0777) != 0) throw_errno();
-    journal_ = Journal(work_ / "journal", identity_of(content_));
+    journal_ = Journal(work_ / journal_name, identity_of(content_));
 }
 
 /// Its name is that of the whole file from the beginning, so that what is found under it can be
 /// compared with the journal.
-void ReplacedFolder::make_whole(const std::string& name, std::string_view bytes) const {
-    journal_.begin(name, fingerprint_of(bytes));
+void ReplacedFolder::make_whole(const std::string& name, const Fingerprint& fingerprint,
+                                PassingFile& file) const {
+    journal_.begin(name, fingerprint);
     make_folders_for(content_ / name);
+    put_at_place(file, content_ / name);
+}
+
+void ReplacedFolder::make_whole(const std::string& name, std::string_view bytes) const {
     PassingFile file = make_passing_file(work_);
     try {
         write_all(file.opened, bytes);
-        put_at_place(file, content_ / name);
+        make_whole(name, fingerprint_of(bytes), file);
     } catch (...) {
         discard(file);
         throw;
     }
 }
 
+/// What an earlier process wrote under a name is written again.
+void ReplacedFolder::make_room(const std::string& name) const {
+    if (!is_name_below(name)) throw std::system_error(EINVAL, std::generic_category());
+    if (!earlier_.contains(name)) return;
+    if (::unlink((content_ / name).c_str()) != 0 && errno != ENOENT) throw_errno();
+    journal_.drop(name);
+}
+
 void ReplacedFolder::add(const std::string& name, std::string_view bytes) const {
     try {
-        if (!is_name_below(name)) throw std::system_error(EINVAL, std::generic_category());
+        make_room(name);
         make_whole(name, bytes);
         journal_.complete(name);
     } catch (const std::system_error& error) {
         throw unwritable_report(named_ / name, error.code().value());
-    }
-}
-
-Manifest ReplacedFolder::added() const {
-    try {
-        return read_journal(work_ / "journal").written;
-    } catch (const std::system_error& error) {
-        throw unwritable_report(named_, error.code().value());
     }
 }
 
@@ -200,18 +254,41 @@ std::string ReplacedFolder::bytes_of(const std::string& name) const {
     }
 }
 
-void ReplacedFolder::remove(const std::string& name) const {
-    try {
-        if (::unlink((content_ / name).c_str()) != 0) throw_errno();
-        journal_.drop(name);
-    } catch (const std::system_error& error) {
-        throw unwritable_report(named_ / name, error.code().value());
-    }
-}
-
 void ReplacedFolder::add_requested(const std::string& name, std::string_view bytes) {
     requested_.insert(name);
     add(name, bytes);
+}
+
+ReplacedFolder::GrowingFile::GrowingFile(const ReplacedFolder& folder, std::string name)
+    : folder_(&folder), name_(std::move(name)) {
+    try {
+        folder.make_room(name_);
+        file_ = make_passing_file(folder.work_);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(folder.named_ / name_, error.code().value());
+    }
+}
+
+ReplacedFolder::GrowingFile::~GrowingFile() {
+    discard(file_);
+}
+
+void ReplacedFolder::GrowingFile::write(std::string_view bytes) {
+    try {
+        write_all(file_.opened, bytes);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(folder_->named_ / name_, error.code().value());
+    }
+    fingerprint_.add(bytes);
+}
+
+void ReplacedFolder::GrowingFile::end() {
+    try {
+        folder_->make_whole(name_, fingerprint_.so_far(), file_);
+        folder_->journal_.complete(name_);
+    } catch (const std::system_error& error) {
+        throw unwritable_report(folder_->named_ / name_, error.code().value());
+    }
 }
 
 void ReplacedFolder::keep_what_is_foreign(const Manifest& manifest) {
@@ -264,7 +341,7 @@ void ReplacedFolder::exchange() {
 void ReplacedFolder::finish() {
     const auto lock = hold_unfinished();
     try {
-        const JournalRecord record = read_journal(work_ / "journal");
+        const JournalRecord record = read_journal(work_ / journal_name);
         for (const auto& [name, fingerprint] : record.begun) {
             const fs::path file = content_ / name;
             if (record.written.contains(name) || !is_as_listed(record.begun, name, file)) continue;
@@ -283,6 +360,7 @@ void ReplacedFolder::finish() {
     } catch (const std::system_error& error) {
         throw unwritable_report(named_, error.code().value());
     }
+    cut_off_ = CutOff::is_removed;
     clean_up();
     if (lock_)
         notes_.push_back(fmt::format("{}: could not be removed whole; the next run into {} tries "
@@ -290,7 +368,17 @@ void ReplacedFolder::finish() {
                                      work_.string(), named_.string()));
 }
 
+/// Whether there is something for a later run to go on with.
+bool ReplacedFolder::is_worth_keeping() const {
+    try {
+        return cut_off_ == CutOff::is_kept && !read_journal(work_ / journal_name).written.empty();
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
 void ReplacedFolder::clean_up() {
+    if (is_worth_keeping()) return;
     constexpr int tries = 2; // a passing failure must not leave anything behind
     for (int i = 0; i < tries && lock_; ++i) {
         try {

@@ -76,12 +76,12 @@ Descriptor open_to_write_into(const fs::path& file) {
     }
 }
 
-void write_into(const Destination& to, const fs::path& file, std::string_view bytes) {
+void write_into(const Destination& to, const fs::path& file, const BytesInParts& bytes) {
     if (to.descriptor) std::fflush(nullptr); // keeps the order with what was printed before
     Descriptor opened = to.descriptor ? Descriptor(::fcntl(*to.descriptor, F_DUPFD_CLOEXEC, 0))
                                       : open_to_write_into(file);
     if (!opened) throw_errno();
-    write_all(opened, bytes);
+    bytes([&](std::string_view part) { write_all(opened, part); });
     sync_to_disk(opened);
     opened.close();
 }
@@ -94,13 +94,13 @@ void take_over_mode(const Descriptor& file, const Status& from) {
     if (::fchmod(file.number(), from.st_mode & 07777U) != 0) throw_errno();
 }
 
-void put_in_place(const Destination& to, std::string_view bytes) {
+void put_in_place(const Destination& to, const BytesInParts& bytes) {
     const fs::path folder = to.place.parent_path();
     remove_leftovers(folder, Writers::others);
     PassingFile made = make_passing_file(folder);
     Unfinished unfinished([&made] { discard(made); });
     if (to.there) take_over_mode(made.opened, *to.there);
-    write_all(made.opened, bytes);
+    bytes([&](std::string_view part) { write_all(made.opened, part); });
     sync_to_disk(made.opened);
     if (to.there || !made.name.empty()) {
         name_in_passing(made, folder);
@@ -117,6 +117,10 @@ void put_in_place(const Destination& to, std::string_view bytes) {
 } // namespace
 
 void write_file(const fs::path& file, std::string_view bytes) {
+    write_file(file, [&](const TakesBytes& take) { take(bytes); });
+}
+
+void write_file(const fs::path& file, const BytesInParts& bytes) {
     const auto lock = hold_unfinished();
     try {
         const Destination to = destination_of(file);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace shadowproof {
@@ -16,6 +17,11 @@ namespace shadowproof {
 /// file its name; the next file that is written into that folder removes what is left then. Throws
 /// Error naming `file`, with what was there untouched.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// The same where the bytes come in parts.
+using TakesBytes = std::function<void(std::string_view)>;
+using BytesInParts = std::function<void(const TakesBytes&)>;
+void write_file(const std::filesystem::path& file, const BytesInParts& bytes);
 
 /// Throws Error naming the file if write_file could not write it now. To be called before the work.
 /// Changes nothing.

@@ -5,6 +5,8 @@
 #include "compare/cell.h"
 #include "compare/json/memo.h"
 #include "compare/output/replaced_folder.h"
+#include "compare/report/growing_results.h"
+#include "compare/report/shared_files.h"
 #include "compare/words.h"
 
 #include <filesystem>
@@ -93,34 +95,48 @@ std::string to_step_summary(const Report& report);
 /// beside its place. For what happens to an existing folder see compare/output/replaced_folder.h.
 class ReportFolder {
 public:
-    /// Throws Error where `folder` must not be replaced, or cannot be written.
-    explicit ReportFolder(const std::filesystem::path& folder);
+    /// As ReplacedFolder. Throws Error where `folder` must not be replaced, or cannot be written.
+    explicit ReportFolder(const std::filesystem::path& folder, CutOff cut_off = CutOff::is_removed);
 
-    /// Writes the truth and what else the cells of a scene share. Its cells should be added before
-    /// the next scene: what they have alike is then compressed once.
+    /// Of a report whose writing was cut off: see ReplacedFolder.
+    bool goes_on() const { return files_.goes_on(); }
+    void begin_anew() { files_.begin_anew(); }
+    std::filesystem::path progress_file() const { return files_.progress_file(); }
+    static std::filesystem::path progress_file_of(const std::filesystem::path& folder) {
+        return ReplacedFolder::progress_file_of(folder);
+    }
+
+    /// Writes the truth and what else the cells of a scene share. Its cells must be added before
+    /// the next scene: what they have alike is then compressed, and written, once.
     void add_scene(const SceneResult& scene) const;
-    /// Writes pictures and data of a cell, which may then be dropped, and packs its cause map.
-    /// threads 0: one per core.
+    /// Writes pictures and data of a cell, which may then be dropped, packs its cause map, and
+    /// notes where its pictures stand. threads 0: one per core.
     void add_cell(const SceneResult& scene, Cell& cell, int threads = 0) const;
+    /// A cell that an earlier process has added: later ones may share what it wrote.
+    void recall_cell(const SceneResult& scene, const Cell& cell) const;
     /// Writes a file that is taken over from another report.
     void add_file(const std::string& name, std::string_view bytes) const;
+    /// The same for a cell's picture, unless an earlier one of its scene is the same. Returns where
+    /// it stands.
+    std::string add_picture(const std::string& name, std::string_view bytes) const;
+    /// The same for a cell's data, without the blocks that an earlier one of its scene has.
+    void add_script(const std::string& name, const std::string& script) const;
     /// Writes a file that the user requested by its name in this folder.
     void add_requested(const std::string& name, std::string_view bytes);
-    /// Keeps only one of pictures and data that are the same in several cells of a scene, and
-    /// changes the pictures' paths in the report, or in results; to be called before these are
-    /// written.
-    void share(Report& report) const;
-    void share(nlohmann::ordered_json& results) const;
     /// Writes index.html, results.json and results.js, and replaces an older report.
     void finish(const Report& report);
-    void finish(const std::string& results_json);
+    /// The same where the results come scene by scene: they must have ended before finish().
+    GrowingResults grow_results(nlohmann::ordered_json head,
+                                const std::optional<std::string>& requested);
+    void finish();
 
     /// Messages for the user: files in the folder that were kept.
     const std::vector<std::string>& notes() const { return files_.notes(); }
 
 private:
     ReplacedFolder files_;
-    std::unique_ptr<Memo> memo_; ///< of the scene added last
+    std::unique_ptr<Memo> memo_;          ///< of the scene added last
+    std::unique_ptr<SharedFiles> shared_; ///< of its cells
 };
 
 } // namespace shadowproof

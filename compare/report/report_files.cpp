@@ -5,6 +5,7 @@
 #include "compare/report/report.h"
 #include "compare/report/shared_files.h"
 
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -48,7 +49,10 @@ std::optional<std::string> take_over(const ReportFile& file, const ReportFolder&
         return "cannot be read (" + error.code().message() + ")";
     }
     if (file.opening.empty()) {
-        report.add_file(file.to, bytes);
+        if (file.place != nullptr)
+            *file.place = report.add_picture(file.to, bytes);
+        else
+            report.add_file(file.to, bytes);
         return png_damage(bytes, file.width, file.height);
     }
     std::optional<std::string> damage = script_damage(file, bytes);
@@ -65,7 +69,10 @@ std::optional<std::string> take_over(const ReportFile& file, const ReportFolder&
         if (std::string lacking = lacking_blocks(bytes); !lacking.empty())
             damage = std::move(lacking);
     }
-    report.add_file(file.to, bytes);
+    if (file.of_cell)
+        report.add_script(file.to, bytes);
+    else
+        report.add_file(file.to, bytes);
     return damage;
 }
 

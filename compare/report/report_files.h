@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,9 @@ struct ReportFile {
     std::uint64_t height = 0;
     std::string opening;     ///< what the script begins with: shadowproof.scene("near_plane",
     std::string new_opening; ///< what it begins with in the new report
+    bool of_cell = false;    ///< written only where no earlier cell of the scene has the same
+    /// Of a cell's picture: its path in the new results, changed where it is an earlier one's.
+    nlohmann::ordered_json* place = nullptr;
 };
 
 /// Copies it into `report`, even if it is damaged. Returns what is wrong with it, or none; a file

@@ -2,17 +2,12 @@
 #include "compare/report/report_data.h"
 #include "compare/report/report_page.h"
 #include "compare/report/report_pictures.h"
-#include "compare/report/shared_files.h"
-
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 
 namespace shadowproof {
 
-ReportFolder::ReportFolder(const std::filesystem::path& folder)
-    : files_(folder, {page_name, results_name, results_script_name}),
-      memo_(std::make_unique<Memo>()) {}
+ReportFolder::ReportFolder(const std::filesystem::path& folder, CutOff cut_off)
+    : files_(folder, {page_name, results_name, results_script_name}, cut_off),
+      memo_(std::make_unique<Memo>()), shared_(std::make_unique<SharedFiles>()) {}
 
 void ReportFolder::add_scene(const SceneResult& scene) const {
     const auto lock = hold_unfinished();
@@ -22,7 +17,17 @@ void ReportFolder::add_scene(const SceneResult& scene) const {
 
 void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) const {
     const auto lock = hold_unfinished();
-    write_cell(scene, cell, {files_}, *memo_, threads);
+    write_cell(scene, cell, {files_}, *memo_, shared_.get(), threads);
+}
+
+void ReportFolder::recall_cell(const SceneResult& scene, const Cell& cell) const {
+    if (!cell.error.empty()) return;
+    for (const std::string& kind : picture_kinds(cell)) {
+        const std::string path = own_path(scene, cell, kind);
+        if (picture_path(scene, cell, kind) == path) shared_->place_of(path, files_.bytes_of(path));
+    }
+    const std::string path = script_path(scene, cell);
+    shared_->shared(path, files_.bytes_of(path));
 }
 
 void ReportFolder::add_file(const std::string& name, std::string_view bytes) const {
@@ -30,56 +35,37 @@ void ReportFolder::add_file(const std::string& name, std::string_view bytes) con
     files_.add(name, bytes);
 }
 
+std::string ReportFolder::add_picture(const std::string& name, std::string_view bytes) const {
+    std::string place = shared_->place_of(name, bytes);
+    if (place == name) add_file(name, bytes);
+    return place;
+}
+
+void ReportFolder::add_script(const std::string& name, const std::string& script) const {
+    add_file(name, shared_->shared(name, script));
+}
+
 void ReportFolder::add_requested(const std::string& name, std::string_view bytes) {
     const auto lock = hold_unfinished();
     files_.add_requested(name, bytes);
 }
 
-void ReportFolder::share(Report& report) const {
-    const auto lock = hold_unfinished();
-    for (SceneResult& scene : report.scenes) {
-        if (!scene.error.empty()) continue;
-        const std::string folder = folder_of(scene);
-        SceneFiles shared{folder, {}};
-        for (Cell& cell : scene.cells) {
-            if (!cell.error.empty()) continue;
-            CellFiles& files = shared.cells.emplace_back();
-            files.script = fmt::format("{}/{}/cell.js", folder, cell.technique);
-            for (const std::string& kind : picture_kinds(cell)) {
-                const std::string path = picture_path(scene, cell, kind);
-                files.pictures.push_back(&(cell.same_pictures[kind] = path));
-            }
-        }
-        share_files(files_, shared);
-    }
-}
-
-void ReportFolder::share(nlohmann::ordered_json& results) const {
-    const auto lock = hold_unfinished();
-    for (auto& scene : results.at("scenes")) {
-        if (scene.contains("error")) continue;
-        SceneFiles shared{scene.at("folder").get<std::string>(), {}};
-        for (auto& cell : scene.at("techniques")) {
-            if (cell.contains("error")) continue;
-            CellFiles& files = shared.cells.emplace_back();
-            files.script = fmt::format("{}/{}/cell.js", shared.folder,
-                                       cell.at("name").get_ref<const std::string&>());
-            for (auto& path : cell.at("images"))
-                files.pictures.push_back(&path.get_ref<std::string&>());
-        }
-        share_files(files_, shared);
-    }
+GrowingResults ReportFolder::grow_results(nlohmann::ordered_json head,
+                                          const std::optional<std::string>& requested) {
+    return {files_, std::move(head), requested};
 }
 
 void ReportFolder::finish(const Report& report) {
-    finish(to_json(report));
-}
-
-void ReportFolder::finish(const std::string& results) {
     const auto lock = hold_unfinished();
-    files_.add(page_name, report_page());
+    const std::string results = to_json(report);
     files_.add(results_name, results);
     files_.add(results_script_name, results_script(results));
+    finish();
+}
+
+void ReportFolder::finish() {
+    const auto lock = hold_unfinished();
+    files_.add(page_name, report_page());
     files_.finish();
 }
 

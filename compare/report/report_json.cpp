@@ -75,6 +75,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
     const Comparison& comparison = cell.comparison;
     json["family"] = cell.family;
     json["ms"] = cell.milliseconds;
+    if (cell.spent_milliseconds > 0) json["spent_ms"] = cell.spent_milliseconds;
     if (!cell.left_out.empty()) json["left_out"] = cell.left_out;
     json["verdict"] = name_of(cell.verdict);
     json["pixels"] =
@@ -117,6 +118,7 @@ Json scene_of(const Report& report, const SceneResult& scene) {
     json["digest"] = scene.digest;
     json["triangles"] = scene.triangles;
     json["light"] = scene.light.name;
+    json["light_kind"] = name_of(scene.light.kind);
     json["provokes"] = scene.provokes;
     json["no_longer_provoked"] = scene.no_longer_provoked;
     json["left_out"] = scene.left_out;
@@ -129,6 +131,7 @@ Json scene_of(const Report& report, const SceneResult& scene) {
                          {"shadowed", traced.shadowed},
                          {"background", traced.background},
                          {"degenerate", traced.degenerate}};
+    if (scene.spent_milliseconds > 0) json["spent_ms"] = scene.spent_milliseconds;
     json["images"] = {{"truth", truth_path(scene)}};
     json["techniques"] = Json::array();
     for (const Cell& cell : scene.cells) json["techniques"].push_back(cell_of(report, scene, cell));
@@ -161,6 +164,12 @@ std::string to_json(const Report& report) {
         json["baseline"] = {{"file", report.baseline->file},
                             {"passed", report.baseline->passed},
                             {"notes", report.baseline->notes}};
+    if (report.shard) {
+        json["shard"] = {
+            {"number", report.shard->number}, {"of", report.shard->of}, {"run", report.shard->run}};
+        if (!report.shard->baseline.empty())
+            json["shard"]["baseline"] = Json::parse(report.shard->baseline);
+    }
     for (const SceneResult& scene : report.scenes)
         json["scenes"].push_back(scene_of(report, scene));
     // A file name need not be UTF-8; what is not is shown as U+FFFD.

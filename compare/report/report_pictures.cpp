@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace shadowproof {
 
@@ -40,10 +42,17 @@ std::string folder_of(const SceneResult& scene) {
     return folder.empty() ? "scene" : folder;
 }
 
+std::string own_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
+    return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+}
+
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
     const auto same = cell.same_pictures.find(kind);
-    if (same != cell.same_pictures.end()) return same->second;
-    return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+    return same != cell.same_pictures.end() ? same->second : own_path(scene, cell, kind);
+}
+
+std::string script_path(const SceneResult& scene, const Cell& cell) {
+    return folder_of(scene) + "/" + cell.technique + "/cell.js";
 }
 
 std::vector<std::string> picture_kinds(const Cell& cell) {
@@ -128,30 +137,39 @@ void write_scene(const SceneResult& scene, const FolderPart& report) {
 }
 
 void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, Memo& memo,
-                int threads) {
+                SharedFiles* shared, int threads) {
     if (!cell.error.empty()) return;
-    const auto add = [&](const char* kind, const auto& picture) {
-        report.add(picture_path(scene, cell, kind), to_png(picture, &memo));
-    };
-    const std::string script = folder_of(scene) + "/" + cell.technique + "/cell.js";
+    std::string script;
+    std::deque<std::pair<std::string, std::string>> pictures; // kinds and bytes; they stay in place
     std::vector<std::function<void()>> jobs{
-        [&] { report.add(script, cell_script(scene, cell, memo)); },
-        [&] { cell.cause_map = packed_cause_map(cell.comparison, &memo); },
-        [&] { add("claim", cell.frame.claim); },
-        [&] { add("difference", difference_picture(scene.truth, cell)); },
-        [&] { add("cause", cause_picture(cell)); }};
+        [&] { script = cell_script(scene, cell, memo); },
+        [&] { cell.cause_map = packed_cause_map(cell.comparison, &memo); }};
+    const auto add = [&](const std::string& kind, const std::function<std::string()>& png) {
+        std::string& bytes = pictures.emplace_back(kind, std::string()).second;
+        jobs.emplace_back([&bytes, png] { bytes = png(); });
+    };
+    add("claim", [&] { return to_png(cell.frame.claim, &memo); });
+    add("difference", [&] { return to_png(difference_picture(scene.truth, cell), &memo); });
+    add("cause", [&] { return to_png(cause_picture(cell), &memo); });
     if (cell.evidence)
         for (const EvidenceReport::Picture& picture : cell.evidence->pictures())
-            jobs.emplace_back([&, picture] {
-                report.add(picture_path(scene, cell, picture.kind), picture.png(cell.frame, memo));
-            });
+            add(picture.kind, [&, picture] { return picture.png(cell.frame, memo); });
     if (cell.comparison.colors)
-        jobs.emplace_back([&] { // which no two cells have alike
-            report.add(picture_path(scene, cell, "color_error"),
-                       to_png(color_error_picture(*cell.comparison.colors)));
+        add("color_error", [&] { // which no two cells have alike
+            return to_png(color_error_picture(*cell.comparison.colors));
         });
     parallel_for(static_cast<int>(jobs.size()), thread_count(threads),
                  [&](int job, int) { jobs[static_cast<std::size_t>(job)](); });
+    for (const auto& [kind, bytes] : pictures) {
+        const std::string path = own_path(scene, cell, kind);
+        const std::string place = shared != nullptr ? shared->place_of(path, bytes) : path;
+        if (place == path)
+            report.add(path, bytes);
+        else
+            cell.same_pictures[kind] = place;
+    }
+    const std::string path = script_path(scene, cell);
+    report.add(path, shared != nullptr ? shared->shared(path, script) : script);
 }
 
 } // namespace shadowproof

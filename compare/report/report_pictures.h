@@ -5,6 +5,7 @@
 #include "compare/report/png.h"
 #include "compare/report/report.h"
 #include "compare/report/report_legend.h"
+#include "compare/report/shared_files.h"
 
 namespace shadowproof {
 
@@ -18,11 +19,17 @@ PalettePicture cause_picture(const Cell& cell);
 /// of a step of 1/255 on. What is beyond its bound, or unpredicted, has its cause's colour.
 PalettePicture color_error_picture(const ColorCheck& colors);
 
+/// Where a cell's picture stands if no earlier one is the same, and its data, relative to the
+/// report's folder.
+std::string own_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
+std::string script_path(const SceneResult& scene, const Cell& cell);
+
 /// Writes the truth, at truth_path, and the data that the cells share into `report`.
 void write_scene(const SceneResult& scene, const FolderPart& report);
-/// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data.
-/// threads 0: one per core.
+/// Packs the cause map of a cell that ran, and writes its pictures, at picture_path, and its data;
+/// what earlier cells of the scene have too is not written again, where it is known. threads 0: one
+/// per core.
 void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, Memo& memo,
-                int threads);
+                SharedFiles* shared, int threads);
 
 } // namespace shadowproof

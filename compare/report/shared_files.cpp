@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <unordered_map>
+#include <vector>
 
 namespace shadowproof {
 
@@ -62,61 +62,48 @@ std::string_view reference_in(std::string_view block) {
                         block.size() - reference_begin.size() - reference_end.size());
 }
 
-void share_pictures(const ReplacedFolder& files, const Manifest& added, const SceneFiles& scene) {
-    std::map<std::pair<std::uint64_t, std::string>, std::string> earlier; // by fingerprint
-    const auto first_alike = [&](const std::string& path) {
-        const auto found = added.find(path);
-        if (found == added.end()) return path;
-        return earlier.try_emplace({found->second.size, found->second.xxh3}, path).first->second;
-    };
-    for (const CellFiles& cell : scene.cells)
-        for (std::string* const path : cell.pictures) {
-            const std::string first = first_alike(*path);
-            if (first == *path) continue;
-            files.remove(*path);
-            *path = first;
-        }
-}
-
 /// "zpass" of "spot/zpass/cell.js".
-std::string technique_of(const std::string& script, const std::string& folder) {
-    const std::size_t begin = folder.size() + 1;
+std::string technique_of(const std::string& script) {
+    const std::size_t begin = script.find('/') + 1;
     return script.substr(begin, script.rfind('/') - begin);
 }
 
-void share_blocks(const ReplacedFolder& files, const Manifest& added, const SceneFiles& scene) {
-    std::unordered_map<std::string, std::string> earlier; // where each block stands
-    for (const CellFiles& cell : scene.cells) {
-        if (!added.contains(cell.script)) continue;
-        const std::string script = files.bytes_of(cell.script);
-        SplitScript parts = split(script);
-        std::vector<std::string> references(
-            parts.blocks.size()); // as long as the lines that use them
-        bool changed = false;
-        for (std::size_t i = 0; i < parts.blocks.size(); ++i) {
-            BlockLine& line = parts.blocks[i];
-            if (line.block.size() < least_shared) continue;
-            const std::string here =
-                fmt::format("{}/{}", technique_of(cell.script, scene.folder), line.name);
-            const auto [place, is_new] = earlier.try_emplace(std::string(line.block), here);
-            if (is_new) continue;
-            references[i] = fmt::format("{}{}{}", reference_begin, place->second, reference_end);
-            line.block = references[i];
-            changed = true;
-        }
-        if (!changed) continue;
-        const std::string shared = joined(parts);
-        files.remove(cell.script);
-        files.add(cell.script, shared);
-    }
+/// Where the same bytes stand: `here`, unless they stood elsewhere before.
+template <class Places>
+const std::string& first_place(Places& places, std::string_view bytes, const std::string& here) {
+    const Fingerprint print = fingerprint_of(bytes);
+    return places.try_emplace({print.size, print.xxh3}, here).first->second;
 }
 
 } // namespace
 
-void share_files(const ReplacedFolder& files, const SceneFiles& scene) {
-    const Manifest added = files.added();
-    share_pictures(files, added, scene);
-    share_blocks(files, added, scene);
+void SharedFiles::enter_folder_of(const std::string& path) {
+    std::string folder = path.substr(0, path.find('/'));
+    if (folder == folder_) return;
+    folder_ = std::move(folder);
+    pictures_.clear();
+    blocks_.clear();
+}
+
+std::string SharedFiles::place_of(const std::string& path, std::string_view bytes) {
+    enter_folder_of(path);
+    return first_place(pictures_, bytes, path);
+}
+
+std::string SharedFiles::shared(const std::string& path, const std::string& script) {
+    enter_folder_of(path);
+    SplitScript parts = split(script);
+    std::vector<std::string> references(parts.blocks.size()); // as long as the lines that use them
+    for (std::size_t i = 0; i < parts.blocks.size(); ++i) {
+        BlockLine& line = parts.blocks[i];
+        if (line.block.size() < least_shared) continue;
+        const std::string here = fmt::format("{}/{}", technique_of(path), line.name);
+        const std::string& first = first_place(blocks_, line.block, here);
+        if (first == here) continue;
+        references[i] = fmt::format("{}{}{}", reference_begin, first, reference_end);
+        line.block = references[i];
+    }
+    return joined(parts);
 }
 
 std::string with_own_blocks(const std::string& script,

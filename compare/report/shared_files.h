@@ -2,30 +2,36 @@
 // the same pictures, and many of the same blocks.
 #pragma once
 
-#include "compare/output/replaced_folder.h"
+#include "compare/output/manifest.h"
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 namespace shadowproof {
 
-/// The files of one cell.
-struct CellFiles {
-    std::string script;                 ///< cell.js
-    std::vector<std::string*> pictures; ///< paths, each changed where an earlier file is the same
-};
+/// What was written of a scene's cells so far. Another scene's files, which lie in another folder,
+/// begin anew.
+class SharedFiles {
+public:
+    /// Where a picture stands: at `path`, "spot/zpass/claim.png", unless an earlier one of its
+    /// scene is the same.
+    std::string place_of(const std::string& path, std::string_view bytes);
+    /// The script at `path`, "spot/zpass/cell.js", with each block that an earlier one of its scene
+    /// has replaced by where that stands: {"from":"zpass/seen"}.
+    std::string shared(const std::string& path, const std::string& script);
 
-struct SceneFiles {
-    std::string folder;
-    std::vector<CellFiles> cells; ///< in the order of the results
-};
+private:
+    using Places = std::map<std::pair<std::uint64_t, std::string>, std::string>; // by fingerprint
 
-/// Removes pictures that are the same as an earlier one of the scene, and changes their paths.
-/// Replaces blocks that an earlier one of the scene's cells is the same as by where that stands:
-/// {"from":"zpass/seen"}. Files that are not there stay so. Throws Error as ReplacedFolder does.
-void share_files(const ReplacedFolder& files, const SceneFiles& scene);
+    std::string folder_;
+    Places pictures_;
+    Places blocks_;
+
+    void enter_folder_of(const std::string& path);
+};
 
 /// A cell's script with all blocks in itself. `script_of`: that of another technique of its scene,
 /// empty where there is none; what is not found there stays as it is.

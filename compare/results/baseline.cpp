@@ -18,16 +18,12 @@ const ResultsJson* find(const ResultsJson& list, std::string_view key, const std
     return nullptr;
 }
 
-const ResultsJson* find_scene(const ResultsFile& baseline, const SceneResult& scene) {
-    return find(baseline.json["scenes"], "name", scene.name);
+const ResultsJson* find_scene(const ResultsJson& results, const std::string& name) {
+    return find(results.at("scenes"), "name", name);
 }
 
 bool could_be_tried(const ResultsJson& thing) {
     return !thing.contains("error");
-}
-
-bool same_content(const ResultsJson& was, const SceneResult& scene) {
-    return could_be_tried(was) && scene.error.empty() && was["digest"] == scene.digest;
 }
 
 std::string words_of(const ResultsJson& value) {
@@ -40,33 +36,40 @@ void note_changed(std::vector<std::string>& notes, std::string_view what, const 
         notes.push_back(fmt::format("{} is {}, and was {}", what, words_of(now), words_of(was)));
 }
 
-void note_scene(std::vector<std::string>& notes, const ResultsJson& was, const SceneResult& scene) {
-    if (!scene.error.empty()) return;
+void note_scene(std::vector<std::string>& notes, const ResultsJson& was, const ResultsJson& now,
+                bool is_whole) {
+    if (!could_be_tried(now)) return;
+    const std::string name = words_of(now.at("name"));
     if (!could_be_tried(was)) {
-        notes.push_back(fmt::format("{} could not be tried then", scene.name));
+        notes.push_back(fmt::format("{} could not be tried then", name));
         return;
     }
-    if (!same_content(was, scene)) {
+    if (was.at("digest") != now.at("digest")) {
         notes.push_back(fmt::format("{} has another content, camera, light or size (digest {}, and "
                                     "was {}): its pixels cannot be compared",
-                                    scene.name, scene.digest, words_of(was["digest"])));
+                                    name, words_of(now.at("digest")), words_of(was.at("digest"))));
         return;
     }
-    for (const Cell& cell : scene.cells) {
-        const ResultsJson* old = find(was["techniques"], "name", cell.technique);
+    for (const ResultsJson& cell : now.at("techniques")) {
+        const std::string technique = words_of(cell.at("name"));
+        const ResultsJson* old = find(was.at("techniques"), "name", technique);
         if (old == nullptr)
-            notes.push_back(fmt::format("{} on {} is new", cell.technique, scene.name));
+            notes.push_back(fmt::format("{} on {} is new", technique, name));
         else if (!could_be_tried(*old))
-            notes.push_back(fmt::format("{} on {} could not run then", cell.technique, scene.name));
+            notes.push_back(fmt::format("{} on {} could not run then", technique, name));
     }
-    for (const ResultsJson& old : was["techniques"]) {
-        const bool tried =
-            std::any_of(scene.cells.begin(), scene.cells.end(),
-                        [&](const Cell& cell) { return old["name"] == cell.technique; });
-        if (!tried)
-            notes.push_back(
-                fmt::format("{} on {} was not tried now", words_of(old["name"]), scene.name));
-    }
+    if (!is_whole) return;
+    for (const ResultsJson& old : was.at("techniques"))
+        if (const std::string technique = words_of(old.at("name"));
+            find(now.at("techniques"), "name", technique) == nullptr)
+            notes.push_back(fmt::format("{} on {} was not tried now", technique, name));
+}
+
+/// Of a scene or a cell.
+ResultsJson outline(const std::string& name, bool could_be_tried) {
+    ResultsJson json{{"name", name}};
+    if (!could_be_tried) json["error"] = true;
+    return json;
 }
 
 /// What a picture's unexplained pixels are: its best hypothesis.
@@ -83,8 +86,10 @@ std::string accepted_name(const ResultsJson& cell, Cause cause) {
 }
 
 void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& cell) {
-    const ResultsJson* was = find_scene(baseline, scene);
-    if (was == nullptr || !same_content(*was, scene) || !cell.error.empty()) return;
+    const ResultsJson* was = find_scene(baseline.json, scene.name);
+    if (was == nullptr || !could_be_tried(*was) || !scene.error.empty() || !cell.error.empty() ||
+        was->at("digest") != scene.digest)
+        return;
     const ResultsJson* old = find((*was)["techniques"], "name", cell.technique);
     if (old == nullptr || !could_be_tried(*old)) return;
     Image<std::uint8_t> causes(scene.width, scene.height);
@@ -105,26 +110,55 @@ void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& c
             cell.accepted.push_back({words.cause, reasons[name].get<std::string>()});
 }
 
-std::vector<std::string> notes_on(const ResultsFile& baseline, const Report& report) {
-    const ResultsJson& was = baseline.json;
-    std::vector<std::string> notes;
-    note_changed(notes, "shadowproof", was["version"], report.version);
-    note_changed(notes, "Embree", was["embree"], report.embree);
-    note_changed(notes, "OpenGL", was["gl"]["version"], report.gl.version);
-    note_changed(notes, "the renderer", was["gl"]["renderer"], report.gl.renderer);
+ResultsJson outline_of(const ResultsJson& results) {
+    ResultsJson json{{"version", results.at("version")},
+                     {"embree", results.at("embree")},
+                     {"gl", results.at("gl")},
+                     {"scenes", ResultsJson::array()}};
+    for (const ResultsJson& scene : results.at("scenes")) {
+        ResultsJson& one =
+            json["scenes"].emplace_back(outline(words_of(scene.at("name")), could_be_tried(scene)));
+        if (!could_be_tried(scene)) continue;
+        one["digest"] = scene.at("digest");
+        one["techniques"] = ResultsJson::array();
+        for (const ResultsJson& cell : scene.at("techniques"))
+            one["techniques"].push_back(outline(words_of(cell.at("name")), could_be_tried(cell)));
+    }
+    return json;
+}
+
+ResultsJson outline_of(const Report& report) {
+    ResultsJson json{{"version", report.version},
+                     {"embree", report.embree},
+                     {"gl", {{"version", report.gl.version}, {"renderer", report.gl.renderer}}},
+                     {"scenes", ResultsJson::array()}};
     for (const SceneResult& scene : report.scenes) {
-        const ResultsJson* old = find_scene(baseline, scene);
+        ResultsJson& one = json["scenes"].emplace_back(outline(scene.name, scene.error.empty()));
+        one["digest"] = scene.digest;
+        one["techniques"] = ResultsJson::array();
+        for (const Cell& cell : scene.cells)
+            one["techniques"].push_back(outline(cell.technique, cell.error.empty()));
+    }
+    return json;
+}
+
+std::vector<std::string> notes_on(const ResultsJson& was, const ResultsJson& now, bool is_whole) {
+    std::vector<std::string> notes;
+    note_changed(notes, "shadowproof", was.at("version"), now.at("version"));
+    note_changed(notes, "Embree", was.at("embree"), now.at("embree"));
+    note_changed(notes, "OpenGL", was.at("gl").at("version"), now.at("gl").at("version"));
+    note_changed(notes, "the renderer", was.at("gl").at("renderer"), now.at("gl").at("renderer"));
+    for (const ResultsJson& scene : now.at("scenes")) {
+        const ResultsJson* old = find_scene(was, words_of(scene.at("name")));
         if (old != nullptr)
-            note_scene(notes, *old, scene);
+            note_scene(notes, *old, scene, is_whole);
         else
-            notes.push_back(fmt::format("{} is new", scene.name));
+            notes.push_back(fmt::format("{} is new", words_of(scene.at("name"))));
     }
-    for (const ResultsJson& old : was["scenes"]) {
-        const bool tried =
-            std::any_of(report.scenes.begin(), report.scenes.end(),
-                        [&](const SceneResult& scene) { return old["name"] == scene.name; });
-        if (!tried) notes.push_back(words_of(old["name"]) + " was not tried now");
-    }
+    if (!is_whole) return notes;
+    for (const ResultsJson& old : was.at("scenes"))
+        if (const std::string name = words_of(old.at("name")); find_scene(now, name) == nullptr)
+            notes.push_back(name + " was not tried now");
     return notes;
 }
 

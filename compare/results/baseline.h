@@ -17,8 +17,14 @@ std::string accepted_name(const ResultsJson& cell, Cause cause);
 /// (equal digests). Throws Error naming the file where a cause map in it is damaged.
 void compare_with(const ResultsFile& baseline, const SceneResult& scene, Cell& cell);
 
+/// What notes_on needs of results: version, driver, and of scenes and cells the names, digests, and
+/// whether they could be tried.
+ResultsJson outline_of(const ResultsJson& results);
+ResultsJson outline_of(const Report& report);
+
 /// What could not be compared, and what differs besides pixels, one sentence each: another driver
-/// or version, scenes of another content, cells that are new or were not tried.
-std::vector<std::string> notes_on(const ResultsFile& baseline, const Report& report);
+/// or version, scenes of another content, cells that are new or were not tried. `was`, `now`:
+/// outlines. `is_whole`: what is lacking now was not tried, and is not another shard's.
+std::vector<std::string> notes_on(const ResultsJson& was, const ResultsJson& now, bool is_whole);
 
 } // namespace shadowproof

@@ -30,6 +30,13 @@ void folder(const JsonPlace& place) {
     require(place.value.is_string() && is_plain_name(place.value.get_ref<const std::string&>()),
             place, "a plain folder name of letters, digits, '-' and '_'");
 }
+void light_kind(const JsonPlace& place) {
+    one_of(place, {"point", "spot", "directional"});
+}
+void technique(const JsonPlace& place) {
+    require(place.value.is_string() && is_technique_name(place.value.get_ref<const std::string&>()),
+            place, "a technique's name, or several joined by '+'");
+}
 void family(const JsonPlace& place) {
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
     const auto holds = [&](const std::string& name) {
@@ -185,7 +192,7 @@ void failed_cell(const JsonPlace& place) {
 
 void cell(const JsonPlace& place) {
     if (place.value.is_object() && could_not_run(place.value)) return failed_cell(place);
-    object(place, {{"name", folder},
+    object(place, {{"name", technique},
                    {"family", family},
                    {"summary", text},
                    {"command", text},
@@ -193,6 +200,7 @@ void cell(const JsonPlace& place) {
                    {"gate", gate, Need::optional},
                    {"allow", list_of<text>, Need::optional},
                    {"ms", milliseconds},
+                   {"spent_ms", milliseconds, Need::optional},
                    {"left_out", list_of<text>, Need::optional},
                    {"verdict", verdict},
                    {"pixels", size},
@@ -225,21 +233,24 @@ void scene(const JsonPlace& place) {
         nothing_beside_error(place, {"techniques", "images", "no_longer_provoked"});
         return;
     }
-    object(place, {{"name", text},
-                   {"file", text},
-                   {"width", side},
-                   {"height", side},
-                   {"folder", folder},
-                   {"digest", digest},
-                   {"triangles", count},
-                   {"light", text},
-                   {"provokes", list_of<cause>},
-                   {"no_longer_provoked", list_of<cause>},
-                   {"left_out", list_of<text>},
-                   {"notes", list_of<text>},
-                   {"reference", reference},
-                   {"images", truth_images},
-                   {"techniques", some_of<cell>}});
+    object(place,
+           {{"name", text},
+            {"file", text},
+            {"width", side},
+            {"height", side},
+            {"folder", folder},
+            {"digest", digest},
+            {"triangles", count},
+            {"light", text},
+            {"light_kind", light_kind, Need::optional}, // absent in results of older versions
+            {"provokes", list_of<cause>},
+            {"no_longer_provoked", list_of<cause>},
+            {"left_out", list_of<text>},
+            {"notes", list_of<text>},
+            {"reference", reference},
+            {"spent_ms", milliseconds, Need::optional},
+            {"images", truth_images},
+            {"techniques", some_of<cell>}});
     check_scene_figures(place);
     const JsonPlace cells = place.at("techniques");
     std::set<std::string> names;
@@ -250,15 +261,41 @@ void scene(const JsonPlace& place) {
     }
 }
 
-/// A cell's data are found by the folder of its scene.
-void check_folders_differ(const JsonPlace& scenes) {
-    std::set<std::string> folders;
-    for (std::size_t i = 0; i < scenes.value.size(); ++i) {
-        const Json& scene = scenes.value.at(i);
-        if (could_not_run(scene)) continue;
-        if (!folders.insert(scene.at("folder").get<std::string>()).second)
-            refuse(scenes.at(i).at("folder"), "is the folder of another scene too");
-    }
+void shard_count(const JsonPlace& place) {
+    require(is_count(place.value, 1) && place.value.get<std::uint64_t>() <= 1'000'000, place,
+            "a whole number from 1 to 1000000");
+}
+
+void outlined_cell(const JsonPlace& place) {
+    object(place, {{"name", text}, {"error", boolean, Need::optional}});
+}
+
+void outlined_scene(const JsonPlace& place) {
+    object(place, {{"name", text},
+                   {"error", boolean, Need::optional},
+                   {"digest", digest, Need::optional},
+                   {"techniques", list_of<outlined_cell>, Need::optional}});
+    if (!could_not_run(place.value))
+        for (const char* member : {"digest", "techniques"})
+            if (!place.value.contains(member)) refuse(place, fmt::format("lacks \"{}\"", member));
+}
+
+void outlined_baseline(const JsonPlace& place) {
+    object(place,
+           {{"version", text}, {"embree", text}, {"gl", gl}, {"scenes", list_of<outlined_scene>}});
+}
+
+void shard(const JsonPlace& place) {
+    object(place, {{"number", shard_count},
+                   {"of", shard_count},
+                   {"run", digest},
+                   {"baseline", outlined_baseline, Need::optional}});
+    require(place.value.at("number") <= place.value.at("of"), place.at("number"),
+            "no more than \"of\"");
+}
+
+void scenes_apart(const JsonPlace& place) {
+    require(place.value.is_array(), place, "an array");
 }
 
 } // namespace
@@ -270,8 +307,22 @@ bool is_plain_name(std::string_view name) {
     });
 }
 
+bool is_technique_name(std::string_view name) {
+    while (true) {
+        const std::size_t end = std::min(name.find('+'), name.size());
+        if (!is_plain_name(name.substr(0, end))) return false;
+        if (end == name.size()) return true;
+        name.remove_prefix(end + 1);
+    }
+}
+
 bool could_not_run(const Json& scene_or_cell) {
     return scene_or_cell.contains("error");
+}
+
+bool has_same_gate(const Json& a, const Json& b) {
+    const auto allowed = [](const Json& each) { return each.value("allow", Json::array()); };
+    return a.at("gate") == b.at("gate") && allowed(a) == allowed(b);
 }
 
 bool scene_fails(const Json& scene) {
@@ -281,11 +332,26 @@ bool scene_fails(const Json& scene) {
                        [](const Json& cell) { return cell.at("fails") == true; });
 }
 
-void check_results(const Json& results, const std::string& file) {
+void check_schema(const Json& results, const std::string& file) {
     const JsonPlace whole{file, "", results};
     // The schema's name is checked before its rules.
     object(whole, {{"schema", schema}});
     object(whole, {{"format", format}});
+}
+
+void ResultsCheck::next(const Json& scene_given) {
+    const JsonPlace place{file_, fmt::format("/scenes/{}", scenes_++), scene_given};
+    scene(place);
+    any_fails_ = any_fails_ || scene_fails(scene_given);
+    if (could_not_run(scene_given)) return;
+    // A cell's data are found by the folder of its scene.
+    if (!folders_.insert(scene_given.at("folder").get<std::string>()).second)
+        refuse(place.at("folder"), "is the folder of another scene too");
+}
+
+void ResultsCheck::end(const Json& results) const {
+    check_schema(results, file_);
+    const JsonPlace whole{file_, "", results};
     object(whole, {{"version", some_text},
                    {"gl", gl},
                    {"embree", text},
@@ -294,14 +360,24 @@ void check_results(const Json& results, const std::string& file) {
                    {"allow", list_of<text>, Need::optional},
                    {"baseline", baseline, Need::optional},
                    {"accepted", accepted, Need::optional},
+                   {"shard", shard, Need::optional},
                    {"passed", boolean},
                    {"ms", milliseconds},
                    {"report_ms", milliseconds},
-                   {"scenes", some_of<scene>}});
-    check_folders_differ(whole.at("scenes"));
-    const Json& scenes = results.at("scenes");
-    if (results.at("passed") == true && std::any_of(scenes.begin(), scenes.end(), scene_fails))
+                   {"scenes", scenes_apart}});
+    // One of many shards may have nothing to try.
+    require(scenes_ > 0 || results.contains("shard"), whole.at("scenes"),
+            "an array that is not empty");
+    if (results.at("passed") == true && any_fails_)
         refuse(whole.at("passed"), "is true, but a scene or a cell fails");
+}
+
+void check_results(const Json& results, const std::string& file) {
+    check_schema(results, file);
+    ResultsCheck check(file);
+    if (results.contains("scenes") && results.at("scenes").is_array())
+        for (const Json& scene : results.at("scenes")) check.next(scene);
+    check.end(results);
 }
 
 } // namespace shadowproof

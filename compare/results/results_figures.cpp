@@ -32,7 +32,7 @@ void pictures_in(const JsonPlace& images, const std::string& folder, bool of_cel
         const std::size_t slash = rest.find('/');
         const bool beneath = slash == std::string_view::npos
                                  ? is_plain_name(rest)
-                                 : of_cells && is_plain_name(rest.substr(0, slash)) &&
+                                 : of_cells && is_technique_name(rest.substr(0, slash)) &&
                                        is_plain_name(rest.substr(slash + 1));
         require(beneath, place,
                 fmt::format("the path of a picture, \"{}/{}NAME.png\"", folder,

@@ -6,25 +6,22 @@
 
 namespace shadowproof {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-constexpr JsonRemedies of_results{"name a results.json, or the folder of a report",
-                                  "give the whole results.json that shadowproof wrote"};
-
-} // namespace
+fs::path results_path(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored) ? path / "results.json" : path;
+}
 
 ResultsJson parse_results(const std::string& text, const std::string& file) {
-    ResultsJson results = parse_json(text, file, of_results);
+    ResultsJson results = parse_json(text, file, results_remedies);
     check_results(results, file);
     return results;
 }
 
 ResultsFile read_results(const fs::path& path, MemoryAccount* memory) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(path, ignored) ? path / "results.json" : path;
-    return {file, parse_results(json_text(file, of_results, memory), file.string())};
+    const fs::path file = results_path(path);
+    return {file, parse_results(json_text(file, results_remedies, memory), file.string())};
 }
 
 } // namespace shadowproof

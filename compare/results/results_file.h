@@ -16,6 +16,13 @@ struct ResultsFile {
     ResultsJson json;
 };
 
+inline constexpr JsonRemedies results_remedies{
+    "name a results.json, or the folder of a report",
+    "give the whole results.json that shadowproof wrote"};
+
+/// A results.json, or the one in the folder of a report.
+std::filesystem::path results_path(const std::filesystem::path& path);
+
 /// `path`: a results.json, or the folder of a report, which holds one. Throws Error naming the
 /// file, the JSON pointer (RFC 6901) of what is wrong in it, and the remedy. The memory that it
 /// takes is charged to the account, if there is one.

@@ -4,7 +4,8 @@ import assert from 'node:assert/strict';
 import { cpSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
-import { filesBelow, isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
+import { assertSameReport, filesBelow, isForPointLights, scratch, shadowproof }
+  from './shadowproof.mjs';
 
 const size = ['--size', '64x64'];
 const verify = (out, ...args) => {
@@ -14,33 +15,6 @@ const verify = (out, ...args) => {
 };
 const textOf = (...path) => readFileSync(join(scratch, ...path), 'utf8');
 const resultsOf = (folder) => JSON.parse(textOf(folder, 'results.json'));
-
-/** Results as they are but for times, and for what says which techniques were asked for. */
-function timeless(results) {
-  const copy = structuredClone(results);
-  delete copy.ms;
-  delete copy.report_ms;
-  for (const scene of copy.scenes) {
-    delete scene.reference.ms;
-    delete scene.reference.build_ms;
-    for (const cell of scene.techniques) {
-      delete cell.ms;
-      delete cell.saved?.ms;
-      delete cell.saved?.plan_ms;
-      delete cell.map?.ms;
-    }
-  }
-  return copy;
-}
-
-function assertSameReport(folder, whole) {
-  assert.deepEqual(timeless(resultsOf(folder)), timeless(resultsOf(whole)));
-  const files = filesBelow(join(scratch, whole));
-  assert.deepEqual(filesBelow(join(scratch, folder)), files);
-  for (const file of files.filter((name) => !/^(results\.js|manifest\.json)/.test(name)))
-    assert.deepEqual(readFileSync(join(scratch, folder, file)),
-                     readFileSync(join(scratch, whole, file)), file);
-}
 
 const techniques = JSON.parse(shadowproof(['list', '--json']).out).techniques
   .filter(isForPointLights).map(({ name }) => name);

@@ -1,6 +1,7 @@
 // Starts the command under test and cleans up behind it.
+import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdtempSync, readdirSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after } from 'node:test';
@@ -34,4 +35,37 @@ export function filesBelow(folder, prefix = '') {
     const path = join(prefix, name);
     return statSync(join(folder, path)).isDirectory() ? filesBelow(folder, path) : [path];
   });
+}
+
+/** Results as they are but for times. */
+export function timeless(results) {
+  const copy = structuredClone(results);
+  delete copy.ms;
+  delete copy.report_ms;
+  for (const scene of copy.scenes) {
+    delete scene.spent_ms;
+    delete scene.reference?.ms;
+    delete scene.reference?.build_ms;
+    for (const cell of scene.techniques ?? []) {
+      delete cell.ms;
+      delete cell.spent_ms;
+      delete cell.saved?.ms;
+      delete cell.saved?.plan_ms;
+      delete cell.map?.ms;
+    }
+  }
+  return copy;
+}
+
+/** Two reports, in folders of `scratch`, that are the same to the byte but for times. */
+export function assertSameReport(folder, whole) {
+  const resultsOf = (name) => JSON.parse(readFileSync(join(scratch, name, 'results.json')));
+  // As text, in which the order of members counts.
+  const text = (name) => JSON.stringify(timeless(resultsOf(name)), null, 1);
+  assert.equal(text(folder), text(whole));
+  const files = filesBelow(join(scratch, whole));
+  assert.deepEqual(filesBelow(join(scratch, folder)), files);
+  for (const file of files.filter((name) => !/^(results\.js|manifest\.json)/.test(name)))
+    assert.deepEqual(readFileSync(join(scratch, folder, file)),
+                     readFileSync(join(scratch, whole, file)), file);
 }

@@ -36,8 +36,13 @@ void check_merge(const std::vector<ResultsFile>& runs, fuzz::Input input) {
                          {"bump_tangent_space", {}, false}},
                         {"near_plane", "sun"}};
     try {
-        const Merged merged = merge(runs, matrix);
-        parse_results(results_text(merged.results), "merged");
+        std::vector<IndexedResults> indexed;
+        for (const ResultsFile& run : runs) indexed.push_back(index_results(run));
+        const Merged merged = merge(indexed, matrix);
+        ResultsJson whole = merged.head;
+        for (std::size_t i = 0; i < merged.scenes.size(); ++i)
+            whole["scenes"].push_back(whole_scene(merged, i, indexed).json);
+        parse_results(results_text(whole), "merged");
     } catch (const Error& error) {
         // The result of a merge that did not throw must be results again.
         if (!std::string(error.what()).starts_with("merged"))
@@ -77,7 +82,7 @@ void check_baseline(const ResultsFile& baseline, fuzz::Input input) {
     try {
         for (SceneResult& scene : report.scenes)
             for (Cell& cell : scene.cells) compare_with(baseline, scene, cell);
-        notes_on(baseline, report);
+        notes_on(outline_of(baseline.json), outline_of(report), true);
     } catch (const Error& error) {
         fuzz::check_message(error.what(), baseline.path.string(), "results", input);
     }

@@ -1,6 +1,5 @@
 #include "compare/command/pieces/messages.h"
 
-#include "compare/command/pieces/archive.h"
 #include "scenes/error.h"
 
 #include <poll.h>
@@ -12,8 +11,6 @@
 #include <cstring>
 
 namespace shadowproof {
-
-SHADOWPROOF_SEND_ALL(Message, kind, bytes, name, place, again, least_seconds)
 
 namespace {
 

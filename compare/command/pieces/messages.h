@@ -2,6 +2,8 @@
 // what came of it, so that a crash loses only the piece that crashed.
 #pragma once
 
+#include "compare/command/pieces/archive.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +17,8 @@ struct Message {
         done,   ///< the innermost piece; `bytes` are its result
         aside,  ///< what the supervisor itself keeps, in `bytes`
         failed, ///< the work as a whole cannot go on; `bytes` say why
-        result  ///< of the work as a whole, in `bytes`
+        result, ///< of the work as a whole, in `bytes`
+        started ///< by the supervisor, in a WorkLog: a new worker
     };
     Kind kind = Kind::begun;
     std::string bytes{};
@@ -24,7 +27,11 @@ struct Message {
     std::uint64_t place = 0;  ///< among those within the same piece
     bool again = false;       ///< an earlier worker has begun it, too
     double least_seconds = 0; ///< that it is given at least, whatever the time limit
+    // Of a piece that is done:
+    bool for_this_run = false; ///< another run would do it again
 };
+
+SHADOWPROOF_SEND_ALL(Message, kind, bytes, name, place, again, least_seconds, for_this_run)
 
 /// Throws Error if the pipe has no reader any more.
 void send(int pipe, const Message& message);

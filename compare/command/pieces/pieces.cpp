@@ -57,9 +57,11 @@ Pieces::Entered Pieces::enter(const std::string& name, double least_seconds) {
     return {known};
 }
 
-void Pieces::leave(Message::Kind how, std::string bytes) {
+void Pieces::leave(Message::Kind how, std::string bytes, bool for_this_run) {
     scopes_.pop_back();
-    send(pipe_, {.kind = how, .bytes = std::move(bytes)});
+    Message message{.kind = how, .bytes = std::move(bytes)};
+    message.for_this_run = for_this_run;
+    send(pipe_, message);
 }
 
 void Pieces::meet(const PieceRecord& lost) {

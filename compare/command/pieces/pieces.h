@@ -39,12 +39,22 @@ public:
     /// where a worker was lost in it, and what the work throws.
     template <class Work>
     auto piece(const std::string& name, const Work& work) {
+        return piece(name, work, [](const auto&) { return true; });
+    }
+    /// `is_final`: whether a result holds for a later run, too, that goes on with this one.
+    template <class Work, class IsFinal>
+    auto piece(const std::string& name, const Work& work, const IsFinal& is_final) {
         using Result = std::decay_t<decltype(work())>;
         const Entered entered = enter(name, 0);
         if (entered.known != nullptr && entered.known->done)
             return unpacked<Result>(entered.known->result);
-        const std::string result = within([&] { return packed(Result(work())); });
-        leave(Message::Kind::done, result);
+        bool holds = true;
+        const std::string result = within([&] {
+            const Result made(work());
+            holds = is_final(made);
+            return packed(made);
+        });
+        leave(Message::Kind::done, result, !holds);
         return unpacked<Result>(result);
     }
 
@@ -88,7 +98,7 @@ private:
 
     void open(const PieceRecord* known);
     Entered enter(const std::string& name, double least_seconds);
-    void leave(Message::Kind how, std::string bytes);
+    void leave(Message::Kind how, std::string bytes, bool for_this_run = false);
     void meet(const PieceRecord& lost);
 
     template <class Work>

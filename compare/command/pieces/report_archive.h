@@ -69,20 +69,22 @@ SHADOWPROOF_SEND_ALL(Acceptance, cause, reason)
 
 template <class Archive>
 void serialize(Archive& archive, Cell& cell) {
-    auto& [technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
-           since, accepted, first_failing, comparison, cause_map, FRAME, EVIDENCE, SAME_PICTURES] =
-        cell;
-    archive(technique, family, summary, command, error, verdict, milliseconds, left_out, excused,
-            since, accepted, first_failing, comparison, cause_map);
+    auto& [technique, family, summary, command, error, verdict, milliseconds, spent_milliseconds,
+           left_out, excused, since, accepted, first_failing, comparison, cause_map, FRAME,
+           EVIDENCE, same_pictures] = cell;
+    archive(technique, family, summary, command, error, verdict, milliseconds, spent_milliseconds,
+            left_out, excused, since, accepted, first_failing, comparison, cause_map,
+            same_pictures);
 }
 
 template <class Archive>
 void serialize(Archive& archive, SceneResult& scene) {
     auto& [name, file, argument, width, height, triangles, digest, light, one_of_many, camera, far,
            meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit, COLOR,
-           cells] = scene;
+           spent_milliseconds, cells] = scene;
     archive(name, file, argument, width, height, triangles, digest, light, one_of_many, camera, far,
-            meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit, cells);
+            meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit,
+            spent_milliseconds, cells);
 }
 
 } // namespace shadowproof

@@ -47,7 +47,10 @@ int do_work(int pipe, const WorkRecord& record, Console& console,
 
 class Supervisor {
 public:
-    explicit Supervisor(const Supervision& how) : how_(how) {}
+    explicit Supervisor(const Supervision& how) : how_(how) {
+        if (how.log == nullptr) return;
+        for (Message& message : how.log->take_earlier()) take(std::move(message));
+    }
 
     const WorkRecord& record() const { return record_; }
     std::optional<std::string>& result() { return result_; }
@@ -55,12 +58,12 @@ public:
     /// Follows one worker until it ends or takes too long.
     void follow(ChildProcess& worker) {
         MessageReader reader(worker.pipe());
-        open_ = {{.place = 0, .limit = how_.timeout}};
+        note({.kind = Message::Kind::started});
         heard_at_ = Clock::now();
         while (!reader.at_end()) {
             if (std::optional<Message> message = reader.next(milliseconds_left())) {
                 heard_at_ = Clock::now();
-                take(std::move(*message));
+                note(std::move(*message));
             } else if (is_too_late()) {
                 worker.kill();
                 worker.wait();
@@ -110,8 +113,16 @@ private:
         return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, most));
     }
 
+    void note(Message message) {
+        if (how_.log != nullptr) how_.log->add(message);
+        take(std::move(message));
+    }
+
     void take(Message message) {
         switch (message.kind) {
+        case Message::Kind::started:
+            open_ = {{.place = 0, .limit = how_.timeout}};
+            return;
         case Message::Kind::begun:
             return begin(message);
         case Message::Kind::ended:

@@ -1,8 +1,10 @@
 // The supervisor process: starts a worker, records what it does, and if it crashes or takes too
-// long, starts another one that goes on after the piece that was lost.
+// long, starts another one that goes on after the piece that was lost. With a log it goes on with
+// what an earlier run has done, too; what was lost there is tried again.
 #pragma once
 
 #include "compare/command/pieces/pieces.h"
+#include "compare/command/pieces/work_log.h"
 
 #include <functional>
 #include <string>
@@ -17,6 +19,8 @@ struct Supervision {
     Console& console;
     /// Takes what workers send aside, in order; a later worker starts with what was kept.
     std::function<void(const std::string& bytes)> keep{};
+    /// Where what is done is kept for a later run, and is taken from first; null: nowhere.
+    WorkLog* log = nullptr;
 };
 
 /// Does the work in worker processes, and returns its packed result. Neither Embree nor OpenGL may

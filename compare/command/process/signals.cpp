@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -25,6 +26,12 @@ std::atomic<pid_t> running_child = -1;
 std::atomic<int> pipe_of_child = -1;
 std::atomic<pid_t> owner = -1;
 std::atomic<bool> is_ending = false;
+/// Never changed after the program has begun its work; never destroyed, as the thread that waits
+/// for signals may outlive main().
+std::string& fate() {
+    static auto* const words = new std::string("what was unfinished is removed");
+    return *words;
+}
 
 /// Ignored signals stay ignored (nohup).
 bool is_default(int signal) {
@@ -44,9 +51,8 @@ void end_child() {
     is_ending = true;
     end_child();
     remove_unfinished();
-    const std::string words =
-        fmt::format("shadowproof: ended by signal {} ({}); what was unfinished is removed\n",
-                    signal, strsignal(signal));
+    const std::string words = fmt::format("shadowproof: ended by signal {} ({}); {}\n", signal,
+                                          strsignal(signal), fate());
     // A failed write is ignored: there is nowhere to report it.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, words.data(), words.size());
     // The program ends by the signal itself, so that its parent can tell.
@@ -93,6 +99,10 @@ void handle_signals() {
         if (is_default(signal)) sigaddset(&signals, signal);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     std::thread(end_by_first_of, signals).detach();
+}
+
+void leave_unfinished(const std::string& words) {
+    fate() = words;
 }
 
 void set_running_child(pid_t process, int pipe) {

@@ -4,6 +4,8 @@
 
 #include <sys/types.h>
 
+#include <string>
+
 namespace shadowproof {
 
 /// From here on SIGINT, SIGTERM and SIGHUP leave nothing unfinished behind. SIGPIPE and SIGXFSZ do
@@ -11,6 +13,9 @@ namespace shadowproof {
 /// thread ends this process with a message and exit_could_not; in a child process it is a crash. To
 /// be called once, before any other thread is started: threads inherit the blocked signals.
 void handle_signals();
+
+/// What is unfinished stays, and a signal that ends the program says `words` of that.
+void leave_unfinished(const std::string& words);
 
 /// The child to be killed first, and the pipe that ends with it; -1: none.
 void set_running_child(pid_t process, int pipe);

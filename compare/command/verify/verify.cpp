@@ -1,7 +1,9 @@
 #include "compare/command/commands.h"
 #include "compare/command/guard.h"
 #include "compare/command/outcome.h"
+#include "compare/command/pieces/work_log.h"
 #include "compare/command/process/stopwatch.h"
+#include "compare/command/verify/run_identity.h"
 #include "compare/command/verify/worker.h"
 #include "compare/memory.h"
 
@@ -29,6 +31,30 @@ Report begin_report(const VerifyOptions& options) {
     return report;
 }
 
+/// What cells have cost: the bundled scenes', and those of the run that the user names.
+Costs known_costs(const VerifyOptions& options, MemoryAccount& memory) {
+    Costs costs;
+    costs.add(bundled_costs());
+    if (!options.costs.empty()) costs.add(read_results(options.costs, &memory).json);
+    return costs;
+}
+
+/// The run that was cut off, and is to be gone on with; empty: none.
+std::string work_cut_off(const VerifyOptions& options) {
+    if (!options.resume) return {};
+    return WorkLog::work_in(ReportFolder::progress_file_of(options.output.out));
+}
+
+void say_what_is_resumed(const ReportFolder& folder, const std::string& cut_off,
+                         const std::string& out, Console& console) {
+    if (folder.goes_on())
+        console.line(fmt::format("note: {}: goes on with the run that was cut off", out));
+    else if (!cut_off.empty())
+        console.line(fmt::format("note: {}: begins anew: nothing that the run before has written "
+                                 "is whole",
+                                 out));
+}
+
 /// `waited`: milliseconds since the program was started.
 int verify(const VerifyOptions& options, double waited, int watcher) {
     const Stopwatch stopwatch;
@@ -46,11 +72,27 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     for (const Allowance& allowance : options.gate.gate.allow)
         if (allowance.cause == Cause::edge)
             console.line("note: --allow edge changes nothing: edge pixels never fail");
-    ReportFolder folder(options.output.out);
     Report report = begin_report(options);
-    VerifiedScenes verified =
-        supervised({.timeout = options.timeout, .console = console}, [&](Pieces& pieces) {
-            return try_scenes({options, report, baseline, console, stopwatch, folder, pieces});
+    const ResultsJson identity = run_identity(options, report.arguments);
+    if (options.shard)
+        report.shard = ReportShard{.number = options.shard->number,
+                                   .of = options.shard->of,
+                                   .run = run_name(identity),
+                                   .baseline = baseline ? outline_of(baseline->json).dump() : ""};
+    const Costs costs = options.shard ? known_costs(options, memory) : Costs();
+    const std::string process = process_identity(identity, options);
+    const std::string cut_off = work_cut_off(options);
+    if (!cut_off.empty()) require_same_process(options.output.out, cut_off, process);
+    ReportFolder folder(options.output.out, options.resume ? CutOff::is_kept : CutOff::is_removed);
+    if (cut_off.empty() && folder.goes_on()) folder.begin_anew();
+    if (options.resume) say_what_is_resumed(folder, cut_off, options.output.out, console);
+    WorkLog log = folder.goes_on() ? WorkLog::gone_on_with(folder.progress_file())
+                                   : WorkLog::begun(folder.progress_file(), process);
+    const bool resumed = folder.goes_on();
+    VerifiedScenes verified = supervised(
+        {.timeout = options.timeout, .console = console, .log = &log}, [&](Pieces& pieces) {
+            return try_scenes(
+                {options, report, baseline, costs, resumed, console, stopwatch, folder, pieces});
         });
     report.gl = verified.gl;
     report.embree = verified.embree;
@@ -59,6 +101,32 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     console.progress("writing " + options.output.out);
     report.milliseconds = waited + stopwatch.milliseconds();
     return end_run(folder, console, report, options.gate, baseline, options.output, started);
+}
+
+/// For runs that outgrow one machine, or one sitting.
+void add_part_flags(CLI::App& command, VerifyOptions& options) {
+    CLI::Option* shard =
+        command
+            .add_option_function<std::string>(
+                "--shard",
+                [&](const std::string& text) {
+                    options.shard = parse_shard(text);
+                    if (!options.shard)
+                        throw CLI::ValidationError(
+                            "--shard", fmt::format("\"{}\" is not I/N with 1 <= I <= N", text));
+                },
+                "Only the I-th of N parts of the run, of about the same cost, for one of N "
+                "machines; merge joins their reports")
+            ->type_name("I/N");
+    command
+        .add_option("--costs", options.costs,
+                    "An earlier results.json or report, by whose times shards are cut")
+        ->type_name("FILE")
+        ->check(not_empty())
+        ->needs(shard);
+    command.add_flag(
+        "--resume", options.resume,
+        "Go on where the same command was cut off, and keep what is done if this one is cut off, too");
 }
 
 } // namespace
@@ -72,6 +140,7 @@ Work add_verify(CLI::App& app) {
     add_scene_flags(*command, options->scene);
     add_gate_flags(*command, options->gate);
     add_output_flags(*command, options->output);
+    add_part_flags(*command, *options);
     command
         ->add_option("--witness", options->witness,
                      "Pixels that a second exact tracer, slow and simple, decides again; where it "
@@ -83,8 +152,9 @@ Work add_verify(CLI::App& app) {
                      "given up (600; 0: any number)");
     return [options] {
         const double waited = milliseconds_since_start_of_process().value_or(0);
-        return guarded([&](int watcher) { return verify(*options, waited, watcher); },
-                       options->output.out);
+        const WatchedWork work = [&](int watcher) { return verify(*options, waited, watcher); };
+        return options->resume ? guarded_resumable(work, options->output.out)
+                               : guarded(work, options->output.out);
     };
 }
 

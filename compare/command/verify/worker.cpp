@@ -9,11 +9,13 @@
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/start_gpu.h"
+#include "compare/command/verify/run_plan.h"
 #include "compare/families.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
+#include "scenes/load/digest.h"
 
 #include <fmt/format.h>
 
@@ -44,6 +46,14 @@ struct Run {
     void progress(const std::string& what) const { setup.console.progress(what); }
 };
 
+/// A scene whose truth is written.
+struct WrittenScene {
+    std::string digest{};
+    double milliseconds = 0;
+};
+
+SHADOWPROOF_SEND_ALL(WrittenScene, digest, milliseconds)
+
 /// A cell, judged and written.
 struct DoneCell {
     Cell cell{};
@@ -59,6 +69,22 @@ struct DoneScene {
 };
 
 SHADOWPROOF_SEND_ALL(DoneScene, results, report_milliseconds)
+
+/// Whether a later run that goes on with this one need not try it again.
+bool is_final(const DoneCell& done) {
+    return done.cell.error.empty();
+}
+bool is_final(const DoneScene& done) {
+    return std::ranges::all_of(done.results, [](const SceneResult& result) {
+        return result.error.empty() &&
+               std::ranges::all_of(result.cells, &std::string::empty, &Cell::error);
+    });
+}
+
+[[noreturn]] void refuse_changed(const std::string& argument) {
+    throw Error(argument, "is another scene than the run that was cut off has tried",
+                "leave out --resume, and all is tried anew");
+}
 
 /// A scene under one of its lights, traced: what its techniques are judged against.
 struct Trial {
@@ -126,16 +152,18 @@ void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& ce
     setup.console.cell_details(cell, gate);
 }
 
-/// Plans and traces the chosen light of a scene; the truth lies in the result.
+/// The name of a scene's result under its chosen light, unique among those before it.
+std::string name_of(const Scene& scene, bool one_of_many, std::span<const SceneResult> before) {
+    const std::string& choice = chosen_light(scene).choice;
+    return unique_name(before, one_of_many ? scene.name + "-" + choice : scene.name);
+}
+
+/// Plans and traces the chosen light of a scene; the truth lies in the result, which has its name.
 void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
                  std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     require_scene(options.scene.memory, scene, Workload::comparison);
     require_memory(options.scene.memory, options.technique.asked);
-    result.light = chosen_light(scene);
-    result.name = scene.name;
-    if (result.one_of_many) result.name += "-" + result.light.choice;
-    result.name = unique_name(run.scenes, result.name);
     describe(result, scene);
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
@@ -181,19 +209,31 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
 DoneCell done_cell(const Run& run, const Trial& trial, const SceneResult& result,
                    const Technique& technique) {
     const WorkerSetup& setup = run.setup;
+    const auto judge_and_write = [&] {
+        const Stopwatch spent;
+        DoneCell done;
+        Cell& cell = done.cell;
+        cell = try_technique(run, trial, technique, done.report_milliseconds);
+        if (setup.baseline) compare_with(*setup.baseline, result, cell);
+        if (cell.error.empty())
+            cell.first_failing = first_that_fails(cell, setup.options.gate.gate);
+        const Stopwatch writing;
+        setup.folder.add_cell(result, cell, setup.options.scene.threads);
+        done.report_milliseconds += writing.milliseconds();
+        cell.spent_milliseconds = spent.milliseconds();
+        return done;
+    };
     try {
-        return setup.pieces.piece(std::string(technique.name), [&] {
-            DoneCell done;
-            Cell& cell = done.cell;
-            cell = try_technique(run, trial, technique, done.report_milliseconds);
-            if (setup.baseline) compare_with(*setup.baseline, result, cell);
-            if (cell.error.empty())
-                cell.first_failing = first_that_fails(cell, setup.options.gate.gate);
-            const Stopwatch writing;
-            setup.folder.add_cell(result, cell, setup.options.scene.threads);
-            done.report_milliseconds += writing.milliseconds();
-            return done;
-        });
+        bool by_this_worker = false;
+        DoneCell done = setup.pieces.piece(
+            std::string(technique.name),
+            [&] {
+                by_this_worker = true;
+                return judge_and_write();
+            },
+            [](const DoneCell& made) { return is_final(made); });
+        if (!by_this_worker) setup.folder.recall_cell(result, done.cell);
+        return done;
     } catch (const LostPiece& lost) {
         DoneCell done;
         done.cell.technique = technique.name;
@@ -204,16 +244,22 @@ DoneCell done_cell(const Run& run, const Trial& trial, const SceneResult& result
     }
 }
 
-/// Judges the chosen techniques in turn. Returns the milliseconds spent on the report.
-double judge_techniques(const Run& run, const Trial& trial, SceneResult& result) {
+/// Judges techniques in turn. `since`: when the scene was begun. Returns the milliseconds spent on
+/// the report.
+double judge_techniques(const Run& run, const Trial& trial,
+                        const std::vector<const Technique*>& techniques, const Stopwatch& since,
+                        SceneResult& result) {
     const WorkerSetup& setup = run.setup;
     run.progress(result.name + ": writing");
-    double report_milliseconds = setup.pieces.piece(result.name + ": writing", [&] {
+    const WrittenScene written = setup.pieces.piece(result.name + ": writing", [&] {
         const Stopwatch writing;
         setup.folder.add_scene(result);
-        return writing.milliseconds();
+        return WrittenScene{result.digest, writing.milliseconds()};
     });
-    for (const Technique* technique : techniques_for(setup.options, trial.scene)) {
+    if (written.digest != result.digest) refuse_changed(result.argument);
+    result.spent_milliseconds = since.milliseconds();
+    double report_milliseconds = written.milliseconds;
+    for (const Technique* technique : techniques) {
         run.progress(fmt::format("{}: {}", result.name, technique->name));
         DoneCell done = done_cell(run, trial, result, *technique);
         announce(setup, result, done.cell);
@@ -236,7 +282,6 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
     } catch (const Error& error) {
         result.error = error.what();
     }
-    result.name = unique_name(run.scenes, result.name);
     if (!run.setup.pieces.catching_up()) complain(result.error);
     return false;
 }
@@ -249,73 +294,192 @@ SceneResult begin_result(const std::string& argument) {
     return result;
 }
 
+SceneRequest request_of(const VerifyOptions& options) {
+    SceneRequest request = options.scene.request();
+    // A position that is given is of one light.
+    request.every_light = !request.light && !request.view.light_position;
+    return request;
+}
+
+Scene read_scene(const Run& run, const std::string& argument) {
+    run.progress(argument + ": reading");
+    return run.setup.pieces.step(argument + ": reading", [&] {
+        return load_scene(argument, request_of(run.setup.options));
+    });
+}
+
+/// What the whole run tries of a scene; nothing where no technique is for it. Adds the names of its
+/// results to those before.
+PlannedScene planned_scene(const Run& run, const std::string& argument,
+                           std::vector<SceneResult>& before) {
+    PlannedScene planned{.argument = argument};
+    const auto add = [&](const std::string& name, std::uint64_t triangles) -> PlannedLight& {
+        before.emplace_back().name = name;
+        return planned.lights.emplace_back(
+            PlannedLight{.name = name, .triangles = triangles, .techniques = {}});
+    };
+    try {
+        Scene scene = read_scene(run, argument);
+        if (techniques_for(run.setup.options, scene).empty()) return planned;
+        const std::size_t lights =
+            request_of(run.setup.options).every_light ? scene.lights.size() : 1;
+        for (std::size_t i = 0; i < lights; ++i) {
+            if (lights > 1) scene.light = i;
+            PlannedLight& light = add(name_of(scene, lights > 1, before), scene.triangles.size());
+            for (const Technique* technique : techniques_for(run.setup.options, scene))
+                light.techniques.emplace_back(technique->name);
+        }
+    } catch (const std::bad_alloc&) { // one result says why, in the shard that has it
+        planned.lights.clear();
+    } catch (const Error&) {
+        planned.lights.clear();
+    }
+    if (planned.lights.empty()) add(unique_name(before, begin_result(argument).name), 0);
+    return planned;
+}
+
+/// The part of the run that this shard has.
+std::vector<PlannedScene> planned_shard(const Run& run) {
+    const WorkerSetup& setup = run.setup;
+    return setup.pieces.piece("planning", [&] {
+        std::vector<PlannedScene> whole;
+        std::vector<SceneResult> names;
+        for (const std::string& argument : scenes_to_verify(setup.options))
+            whole.push_back(planned_scene(run, argument, names));
+        return part_of(whole, *setup.options.shard, setup.costs);
+    });
+}
+
+/// Those that are named, in the order of all.
+std::vector<const Technique*> only(std::vector<const Technique*> all,
+                                   const std::vector<std::string>& names) {
+    std::erase_if(all, [&](const Technique* one) {
+        return std::ranges::find(names, one->name) == names.end();
+    });
+    return all;
+}
+
 /// A scene with several lights is judged under each of them, with one result for each, unless one
-/// was chosen. The results are the last of the run.
-double try_scene(const Run& run, const std::string& argument) {
+/// was chosen. The results are the last of the run. `part`: what a shard tries; null: all.
+double try_scene(const Run& run, const std::string& argument, const PlannedScene* part) {
     const WorkerSetup& setup = run.setup;
     std::optional<Scene> scene;
-    std::size_t lights = 1;
+    std::size_t lights = part != nullptr ? part->lights.size() : 1;
     double report_milliseconds = 0;
     for (std::size_t i = 0; i < lights; ++i) {
+        const PlannedLight* const planned = part != nullptr ? &part->lights[i] : nullptr;
+        if (planned != nullptr && !planned->tried) continue;
+        const Stopwatch since;
         SceneResult result = begin_result(argument);
         std::optional<Trial> trial;
+        std::vector<const Technique*> techniques;
         bool none_suits = false;
         const bool traced = attempt(run, result, [&] {
             if (!scene) {
-                run.progress(result.name + ": reading");
-                SceneRequest request = setup.options.scene.request();
-                // A position that is given is of one light.
-                request.every_light = !request.light && !request.view.light_position;
-                scene = setup.pieces.step(result.name + ": reading",
-                                          [&] { return load_scene(argument, request); });
+                scene = read_scene(run, argument);
                 none_suits = techniques_for(setup.options, *scene).empty();
                 if (none_suits) return;
-                if (request.every_light) lights = scene->lights.size();
+                if (part == nullptr && request_of(setup.options).every_light)
+                    lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
-            if (result.one_of_many) scene->light = i;
+            if (result.one_of_many) scene->light = std::min(i, scene->lights.size() - 1);
+            techniques = techniques_for(setup.options, *scene);
+            if (planned != nullptr) {
+                techniques = only(std::move(techniques), planned->techniques);
+                if (techniques.size() != planned->techniques.size() || techniques.empty())
+                    throw Error(argument, "has changed since the shards were planned",
+                                "run this shard again");
+            }
+            result.name = planned != nullptr ? planned->name
+                                             : name_of(*scene, result.one_of_many, run.scenes);
             begin_trial(run, *scene, result, trial);
         });
         // When all bundled scenes run, one that none of the named techniques is for is skipped.
         if (none_suits) break;
+        bool written = traced;
         if (traced) {
             try {
-                report_milliseconds += judge_techniques(run, *trial, result);
+                report_milliseconds += judge_techniques(run, *trial, techniques, since, result);
             } catch (const LostPiece& lost) { // while the pictures that cells share were written
-                attempt(run, result, [&] { throw lost; });
+                written = attempt(run, result, [&] { throw lost; });
             }
         }
+        if (!written)
+            result.name = planned != nullptr ? planned->name : unique_name(run.scenes, result.name);
         // As it is sent: its pictures are written, and dropped.
         run.scenes.push_back(unpacked<SceneResult>(packed(result)));
     }
     return report_milliseconds;
 }
 
+/// Shows what an earlier run has found, and that it holds for the scene as it is now.
+void go_on_after(const Run& run, const std::string& argument, const DoneScene& done) {
+    const WorkerSetup& setup = run.setup;
+    std::vector<std::string> digests;
+    setup.pieces.step(argument + ": reading again", [&] {
+        Scene scene = load_scene(argument, request_of(setup.options));
+        const std::size_t lights = scene.lights.size();
+        for (std::size_t i = 0; i < lights; ++i) {
+            if (lights > 1 && request_of(setup.options).every_light) scene.light = i;
+            digests.push_back(digest_of(scene));
+        }
+    });
+    for (const SceneResult& result : done.results) {
+        if (std::ranges::find(digests, result.digest) == digests.end()) refuse_changed(argument);
+        announce(setup.console, result, setup.options.output.verbose);
+        for (const Cell& cell : result.cells) announce(setup, result, cell);
+    }
+}
+
 /// Tries a scene as a piece: a later worker does not read it again.
-double done_scene(const Run& run, const std::string& argument) {
+double done_scene(const Run& run, const std::string& argument, const PlannedScene* part) {
+    const WorkerSetup& setup = run.setup;
     const std::size_t before = run.scenes.size();
     const auto results = [&] { return std::span(run.scenes).subspan(before); };
+    const bool is_whole = part == nullptr || part->is_whole;
+    bool by_this_worker = false;
     DoneScene done;
     try {
-        done = run.setup.pieces.piece(argument, [&] {
-            DoneScene scene;
-            scene.report_milliseconds = try_scene(run, argument);
-            if (!results().empty()) {
-                SceneResult& last = run.scenes.back();
-                last.no_longer_provoked = stopped_provoking(run.setup.begun, results());
-                if (!last.no_longer_provoked.empty())
-                    run.setup.console.always(last.name + ": " + no_longer_provoked_words(last));
-            }
-            scene.results.assign(results().begin(), results().end());
-            return scene;
-        });
+        done = setup.pieces.piece(
+            argument,
+            [&] {
+                by_this_worker = true;
+                DoneScene scene;
+                scene.report_milliseconds = try_scene(run, argument, part);
+                if (!results().empty() && is_whole) {
+                    SceneResult& last = run.scenes.back();
+                    last.no_longer_provoked = stopped_provoking(setup.begun, results());
+                    if (!last.no_longer_provoked.empty())
+                        setup.console.always(last.name + ": " + no_longer_provoked_words(last));
+                }
+                scene.results.assign(results().begin(), results().end());
+                return scene;
+            },
+            [](const DoneScene& made) { return is_final(made); });
     } catch (const LostPiece& lost) {
         SceneResult& result = done.results.emplace_back(begin_result(argument));
         attempt(run, result, [&] { throw lost; });
+        result.name =
+            part != nullptr ? part->lights.front().name : unique_name(run.scenes, result.name);
+        by_this_worker = true;
     }
+    if (!by_this_worker && setup.resumed) go_on_after(run, argument, done);
     run.scenes.resize(before);
     for (SceneResult& result : done.results) run.scenes.push_back(std::move(result));
     return done.report_milliseconds;
+}
+
+/// The driver that an earlier run has begun with draws the rest.
+void require_same_driver(const WorkerSetup& setup, const DriverInfo& driver) {
+    const std::string words =
+        fmt::format("{}, {}, Embree {}", driver.renderer, driver.version, embree_version());
+    const std::string begun = setup.pieces.piece("the driver", [&] { return words; });
+    if (begun != words)
+        throw Error(setup.options.output.out,
+                    fmt::format("cannot be gone on with: it was begun with {}, and this is {}",
+                                begun, words),
+                    "leave out --resume, and all is tried anew");
 }
 
 } // namespace
@@ -330,12 +494,19 @@ std::vector<std::string> scenes_to_verify(const VerifyOptions& options) {
 VerifiedScenes try_scenes(const WorkerSetup& setup) {
     const std::unique_ptr<Gpu> gpu = start_gpu(setup.pieces, setup.options.technique.platform);
     VerifiedScenes verified{.gl = gpu->driver(), .embree = embree_version(), .scenes = {}};
+    require_same_driver(setup, verified.gl);
     Run run{setup, *gpu, verified.scenes};
-    const std::vector<std::string> scenes = scenes_to_verify(setup.options);
+    std::vector<PlannedScene> scenes;
+    if (setup.options.shard)
+        scenes = planned_shard(run);
+    else
+        for (const std::string& argument : scenes_to_verify(setup.options))
+            scenes.push_back({.argument = argument, .lights = {}});
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         setup.console.begin_part(
             place_in_run(i, scenes.size(), setup.stopwatch.milliseconds() / 1000));
-        verified.report_milliseconds += done_scene(run, scenes[i]);
+        verified.report_milliseconds +=
+            done_scene(run, scenes[i].argument, setup.options.shard ? &scenes[i] : nullptr);
     }
     setup.console.begin_part("");
     return verified;

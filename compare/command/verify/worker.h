@@ -8,6 +8,8 @@
 #include "compare/command/pieces/supervisor.h"
 #include "compare/command/process/console.h"
 #include "compare/command/process/stopwatch.h"
+#include "compare/command/verify/costs.h"
+#include "compare/command/verify/shard.h"
 #include "compare/report/report.h"
 #include "compare/results/baseline.h"
 
@@ -27,6 +29,9 @@ struct VerifyOptions {
     std::uint64_t witness = 0; ///< pixels that a second exact tracer decides again
     double timeout =
         usual_timeout; ///< seconds for a cell, or for reading or tracing a scene; 0: no limit
+    std::optional<Shard> shard; ///< only this part of the run
+    std::string costs;   ///< an earlier results.json, by whose times shards are cut; or empty
+    bool resume = false; ///< go on with a run that was cut off
 };
 
 /// The scenes asked for, by name or path.
@@ -37,6 +42,8 @@ struct WorkerSetup {
     const VerifyOptions& options;
     const Report& begun; ///< the report before its first scene
     const std::optional<ResultsFile>& baseline;
+    const Costs& costs;
+    bool resumed; ///< an earlier run has done some of the work
     Console& console;
     const Stopwatch& stopwatch; ///< since the first scene began, over all workers
     const ReportFolder& folder;

@@ -1,0 +1,34 @@
+// What a run tries, cell by cell, before it begins: for a part of it, --shard.
+#pragma once
+
+#include "compare/command/pieces/archive.h"
+#include "compare/command/verify/costs.h"
+#include "compare/command/verify/shard.h"
+
+#include <string>
+#include <vector>
+
+namespace shadowproof {
+
+/// A scene under one of its lights.
+struct PlannedLight {
+    std::string name{}; ///< in the results of the whole run
+    std::uint64_t triangles = 0;
+    std::vector<std::string> techniques{};
+    bool tried = true; ///< by this shard, with these techniques
+};
+SHADOWPROOF_SEND_ALL(PlannedLight, name, triangles, techniques, tried)
+
+struct PlannedScene {
+    std::string argument{};
+    std::vector<PlannedLight> lights{}; ///< one without techniques where it cannot be read
+    bool is_whole = true;               ///< this shard tries all of it
+};
+SHADOWPROOF_SEND_ALL(PlannedScene, argument, lights, is_whole)
+
+/// The shard's part of the whole: scenes of which it tries nothing are left out; lights of which it
+/// tries nothing stay, and say so.
+std::vector<PlannedScene> part_of(const std::vector<PlannedScene>& whole, const Shard& shard,
+                                  const Costs& costs);
+
+} // namespace shadowproof
