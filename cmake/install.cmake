@@ -32,13 +32,15 @@ install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shad
 install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
     docs/check.md docs/ci.md docs/claims.md docs/families.md
     docs/house.md docs/how-it-decides.md docs/install.md docs/lighting.md docs/reliability.md
-    docs/drivers.md docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md docs/stress.md
+    docs/drivers.md docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md
+    docs/slurm.md docs/stress.md
     docs/stress-claims.md docs/stress.schema.json docs/techniques.md docs/github-actions.yml
     docs/Containerfile
     docs/manifest.schema.json docs/results.schema.json docs/overview.png docs/cell.png
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(FILES docs/recipes/three.mjs docs/recipes/povray.mjs docs/recipes/ogre.py
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
+install(PROGRAMS docs/recipes/slurm.sh DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/recipes)
 install(FILES docs/results/near_plane.svg docs/results/thin_caster.svg docs/results/idle_casters.svg
     docs/results/walking_figure.svg DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs/results)
 

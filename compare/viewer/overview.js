@@ -184,6 +184,8 @@ function matrix(results, filter) {
   const scenes = scenesInOrder(results).filter((scene) =>
     (scene.error && !filtered) || wanted.some((each) => each.scene === scene));
   const compact = techniques.length > 8;
+  if (results.scenes.length === 0)
+    return element('p', { class: 'quiet' }, 'There was nothing to try in this part of the run.');
   if (scenes.length === 0) return element('p', { class: 'quiet' }, 'No cell is like that.');
   return element('table', { class: compact ? 'matrix compact' : 'matrix' },
     element('thead', {}, element('tr', {}, element('th', { scope: 'col' }, 'Scene'),
@@ -249,7 +251,8 @@ function madeWith(results) {
                 ['Depth, stencil, subpixel bits',
                  gl && `${gl.depth_bits}, ${gl.stencil_bits}, ${gl.subpixel_bits}`],
                 ['Embree', results.embree], ['Baseline', results.baseline?.file],
-                ['Settings', results.arguments?.join(' ')]]);
+                ['Settings', results.arguments?.join(' ')],
+                ['Part of the run', results.shard && `${results.shard.number} of ${results.shard.of}`]]);
 }
 
 /** Columns of a table that its scrolling frame hides at the right. */

@@ -2,10 +2,11 @@
 // refused, and three times what it took beside the program itself is enough.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { evenPng, textured, triangle } from './hostile.mjs';
+import { copyReport } from './copied_report.mjs';
 import { scratch, shadowproof } from './shadowproof.mjs';
 
 const program = 250e6; // program_bytes in scenes/memory_budget.h: the most that it takes by itself
@@ -68,3 +69,20 @@ for (const args of cases)
     const more = shadowproof([...args, '--memory', String(program + 3 * (peak - least))]);
     assert.ok([0, 1].includes(more.code), `took ${peak}: ${more.err}`);
   });
+
+test('merge takes no more for many runs than for few', () => {
+  const one = join(scratch, 'one');
+  assert.equal(shadowproof(['verify', 'near_plane', 'bumpy_sphere', 'many_lights', '--size', '64x64',
+                            '--out', one, '-q']).code, 0);
+  const runs = Array.from({ length: 12 }, (_, i) => join(scratch, `run${i}`));
+  runs.forEach((run, i) => copyReport(one, run, `r${i}-`));
+  const few = peakOf(['merge', ...runs.slice(0, 1), '--out', 'joined', '-q']);
+  const many = peakOf(['merge', ...runs, '--out', 'joined', '-q']);
+  const { scenes } = JSON.parse(readFileSync(join(scratch, 'joined/results.json')));
+  const cells = scenes.flatMap(({ techniques }) => techniques);
+  assert.ok(cells.length > 1000, `${cells.length} cells`);
+  // As values they take ten times as much.
+  const { size } = statSync(join(scratch, 'joined/results.json'));
+  assert.ok(size > 1.2e6, `${size} bytes of results`);
+  assert.ok(many < few + 4e6, `${few} and ${many} bytes`);
+});

@@ -1,9 +1,9 @@
 // Parts of a run for several machines, and a run that goes on where it was cut off: together they
 // write what one run would have written.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync,
-         statSync, writeFileSync } from 'node:fs';
+import { spawn, spawnSync } from 'node:child_process';
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, renameSync,
+         rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
 import { setTimeout as pause } from 'node:timers/promises';
@@ -142,6 +142,30 @@ test('a scene that stops provoking fails, also where shards have split it', () =
   assertSameReport('stopped-joined', 'stopped');
 });
 
+test('a light for which no technique is has no result, and its scene may have others', () => {
+  const changed = join(scratch, 'changed-light');
+  cpSync(bundled, changed, { recursive: true });
+  const file = join(changed, 'many_lights.gltf');
+  const gltf = JSON.parse(readFileSync(file));
+  const { lights } = gltf.extensions.KHR_lights_punctual;
+  assert.equal(lights.length, 3);
+  lights[1].type = 'directional';
+  writeFileSync(file, JSON.stringify(gltf));
+  const run = (...args) => shadowproof([...args, '-q'], { env: { SHADOWPROOF_SCENES: changed } });
+  const words = ['verify', '--technique', 'sun_map', ...size];
+  const whole = run(...words, '--out', 'one-light');
+  assert.equal(whole.code, 0, whole.out + whole.err);
+  const names = cellsOf('one-light');
+  assert.ok(names.length >= 2 && names.some((name) => name.startsWith('many_lights-')), names.join());
+  const parts = [1, 2, 3].map((number) => {
+    const part = run(...words, '--out', `one-light${number}`, '--shard', `${number}/3`);
+    assert.equal(part.code, 0, part.out + part.err);
+    return `one-light${number}`;
+  });
+  assert.equal(run('merge', ...parts, '--out', 'one-light-joined').code, 0);
+  assertSameReport('one-light-joined', 'one-light');
+});
+
 test('shards are cut by the costs of an earlier run', () => {
   const results = resultsOf('few');
   const words = ['near_plane', '--technique', 'zpass,zfail,invert,zp_plus'];
@@ -189,7 +213,8 @@ test('a run that is killed goes on where it was, and ends as if it had not been'
     const out = `cut-${cells}`;
     await cutOff(out, few, cells);
     assert.ok(!existsSync(join(scratch, out)), 'nothing is at its place');
-    const done = filesBelow(join(scratch, `${out}.writing/report`)).filter((file) => file.endsWith('cause.png'));
+    const done = filesBelow(join(scratch, `${out}.writing/report`))
+      .filter((file) => file.endsWith('cause.png'));
     const inodes = done.slice(0, -1).map((file) => inode(`${out}.writing/report`, file));
     const run = shadowproof(['verify', ...few, ...size, '--out', out, '--resume']);
     assert.equal(run.code, 3, run.out + run.err);
@@ -272,4 +297,31 @@ test('a cell that could not run is tried again by the run that goes on', async (
   copyFileSync(join(bundled, 'spot.gltf'), join(scratch, 'late.gltf'));
   verify('late', [...words, '--resume'], { code: 0 });
   assert.equal(cellsOf('late').length, 9);
+});
+
+test('the matrix of docs/github-actions.yml does what it says', () => {
+  const yml = readFileSync(new URL('../../docs/github-actions.yml', import.meta.url), 'utf8');
+  const here = join(scratch, 'runner');
+  mkdirSync(join(here, 'installed/bin'), { recursive: true });
+  writeFileSync(join(here, 'installed/bin/shadowproof'), `#!/bin/sh\nexec "$SHADOWPROOF" "$@" --size 48x48\n`,
+                { mode: 0o755 });
+  writeFileSync(join(here, 'installed/bin/join'), `#!/bin/sh\nexec "$SHADOWPROOF" "$@"\n`, { mode: 0o755 });
+  const [, parts] = yml.match(/^ +part: \[([\d, ]+)\]/m);
+  const [, PARTS] = yml.match(/^ +PARTS: (\d+)$/m);
+  const [, SCENES] = yml.match(/^ +SCENES: (.+)$/m);
+  const [verify] = yml.match(/installed\/bin\/shadowproof verify [^]*?\n(?= {6}#)/);
+  const [merge] = yml.match(/installed\/bin\/shadowproof merge .*/);
+  const bash = (command) => {
+    const run = spawnSync('bash', ['-e', '-c', command],
+                          { cwd: here, encoding: 'utf8', env: { ...process.env, PARTS, SCENES } });
+    assert.equal(run.status, 0, run.stdout + run.stderr);
+  };
+  for (const part of parts.split(', ')) {
+    mkdirSync(join(here, 'shards'), { recursive: true });
+    bash(verify.replace('${{ matrix.part }}', part));
+    renameSync(join(here, 'report'), join(here, `shards/report-${part}`));
+  }
+  bash(merge.replace('shadowproof', 'join')); // which takes no --size
+  assert.equal(shadowproof(['verify', ...SCENES.split(' '), ...size, '--out', 'as-one', '-q']).code, 0);
+  assertSameReport('runner/report', 'as-one');
 });

@@ -191,7 +191,9 @@ Judged check_picture(const CheckWork& work, const TracedScene& traced, const Sce
         work.console.begin_part(fmt::format("picture {} of {}: ", i + 1, count));
     work.console.progress(begun.technique + ": judging");
     try {
-        return work.pieces.piece(begun.technique, [&] {
+        bool by_this_worker = false;
+        Judged done = work.pieces.piece(begun.technique, [&] {
+            by_this_worker = true;
             Judged judged{.cell = begun};
             judge_picture(options, work.inputs, traced, i, pictures, work.console, judged);
             Cell& cell = judged.cell;
@@ -201,6 +203,8 @@ Judged check_picture(const CheckWork& work, const TracedScene& traced, const Sce
             work.folder.add_cell(result, cell, options.view.threads);
             return judged;
         });
+        if (!by_this_worker) work.folder.recall_cell(result, done.cell);
+        return done;
     } catch (const LostPiece& lost) {
         Judged judged{.cell = begun};
         judged.cell.error = lost.what();

@@ -25,6 +25,7 @@ Division division_of(const std::vector<PlannedScene>& whole, const Costs& costs)
     for (std::size_t s = 0; s < whole.size(); ++s)
         for (std::size_t l = 0; l < whole[s].lights.size(); ++l) {
             const PlannedLight& light = whole[s].lights[l];
+            if (!light.tried) continue;
             const std::size_t group = division.group_costs.size();
             division.group_costs.push_back(costs.of_scene(light.name, light.triangles));
             for (std::size_t t = 0; t < std::max<std::size_t>(light.techniques.size(), 1); ++t) {

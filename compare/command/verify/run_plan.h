@@ -15,7 +15,7 @@ struct PlannedLight {
     std::string name{}; ///< in the results of the whole run
     std::uint64_t triangles = 0;
     std::vector<std::string> techniques{};
-    bool tried = true; ///< by this shard, with these techniques
+    bool tried = true; ///< with these techniques; without any where the scene cannot be read
 };
 SHADOWPROOF_SEND_ALL(PlannedLight, name, triangles, techniques, tried)
 
@@ -26,7 +26,7 @@ struct PlannedScene {
 };
 SHADOWPROOF_SEND_ALL(PlannedScene, argument, lights, is_whole)
 
-/// The shard's part of the whole: scenes of which it tries nothing are left out; lights of which it
+/// The shard's part of the whole, of which nothing is left out and nothing done twice: scenes of which it tries nothing are left out; lights of which it
 /// tries nothing stay, and say so.
 std::vector<PlannedScene> part_of(const std::vector<PlannedScene>& whole, const Shard& shard,
                                   const Costs& costs);

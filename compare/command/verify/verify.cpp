@@ -124,9 +124,9 @@ void add_part_flags(CLI::App& command, VerifyOptions& options) {
         ->type_name("FILE")
         ->check(not_empty())
         ->needs(shard);
-    command.add_flag(
-        "--resume", options.resume,
-        "Go on where the same command was cut off, and keep what is done if this one is cut off, too");
+    command.add_flag("--resume", options.resume,
+                     "Go on where the same command was cut off, and keep what is done if this one "
+                     "is cut off, too");
 }
 
 } // namespace

@@ -320,21 +320,24 @@ PlannedScene planned_scene(const Run& run, const std::string& argument,
     };
     try {
         Scene scene = read_scene(run, argument);
-        if (techniques_for(run.setup.options, scene).empty()) return planned;
         const std::size_t lights =
             request_of(run.setup.options).every_light ? scene.lights.size() : 1;
         for (std::size_t i = 0; i < lights; ++i) {
             if (lights > 1) scene.light = i;
+            const auto techniques = techniques_for(run.setup.options, scene);
+            if (techniques.empty()) {
+                planned.lights.emplace_back(PlannedLight{.techniques = {}, .tried = false});
+                continue;
+            }
             PlannedLight& light = add(name_of(scene, lights > 1, before), scene.triangles.size());
-            for (const Technique* technique : techniques_for(run.setup.options, scene))
+            for (const Technique* technique : techniques)
                 light.techniques.emplace_back(technique->name);
         }
+        return planned;
     } catch (const std::bad_alloc&) { // one result says why, in the shard that has it
-        planned.lights.clear();
     } catch (const Error&) {
-        planned.lights.clear();
     }
-    if (planned.lights.empty()) add(unique_name(before, begin_result(argument).name), 0);
+    add(unique_name(before, begin_result(argument).name), 0);
     return planned;
 }
 
@@ -373,18 +376,18 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
         SceneResult result = begin_result(argument);
         std::optional<Trial> trial;
         std::vector<const Technique*> techniques;
-        bool none_suits = false;
+        bool none_suits = false; // when all bundled scenes run: this light is skipped
         const bool traced = attempt(run, result, [&] {
             if (!scene) {
                 scene = read_scene(run, argument);
-                none_suits = techniques_for(setup.options, *scene).empty();
-                if (none_suits) return;
                 if (part == nullptr && request_of(setup.options).every_light)
                     lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
             if (result.one_of_many) scene->light = std::min(i, scene->lights.size() - 1);
             techniques = techniques_for(setup.options, *scene);
+            none_suits = techniques.empty() && planned == nullptr;
+            if (none_suits) return;
             if (planned != nullptr) {
                 techniques = only(std::move(techniques), planned->techniques);
                 if (techniques.size() != planned->techniques.size() || techniques.empty())
@@ -395,8 +398,7 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
                                              : name_of(*scene, result.one_of_many, run.scenes);
             begin_trial(run, *scene, result, trial);
         });
-        // When all bundled scenes run, one that none of the named techniques is for is skipped.
-        if (none_suits) break;
+        if (none_suits) continue;
         bool written = traced;
         if (traced) {
             try {
