@@ -1,8 +1,9 @@
 #include "compare/results/merge.h"
 
 #include "compare/results/baseline.h"
+#include "compare/results/joined_lights.h"
 #include "compare/results/results_check.h"
-#include "compare/verdict.h"
+#include "compare/results/shard_order.h"
 #include "scenes/error.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 namespace shadowproof {
@@ -79,61 +79,13 @@ void check_same_settings(const IndexedResults& first, const IndexedResults& seco
         refuse(first, second, "", *found, remedy);
 }
 
-bool is_shard(const IndexedResults& run) {
-    return run.head.contains("shard");
-}
-
-std::uint64_t number_of(const IndexedResults& run, const char* member = "number") {
-    return run.head.at("shard").at(member).get<std::uint64_t>();
-}
-
-std::string words_of(const IndexedResults& run) {
-    return fmt::format("shard {}/{}", number_of(run), number_of(run, "of"));
-}
-
-/// Puts shards in order, before other runs. Throws Error where they are not all of one run.
-void order_shards(std::vector<IndexedResults>& runs) {
-    std::stable_sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) {
-        if (!is_shard(a) || !is_shard(b)) return is_shard(a) && !is_shard(b);
-        return number_of(a) < number_of(b);
-    });
-    if (!is_shard(runs.front())) return;
-    const IndexedResults& first = runs.front();
-    std::uint64_t expected = 1;
-    for (const IndexedResults& run : runs) {
-        if (!is_shard(run)) break;
-        for (const char* member : {"of", "run"})
-            if (run.head.at("shard").at(member) != first.head.at("shard").at(member))
-                throw Error(run.path.string(),
-                            fmt::format("is {} of another run than {}, {}", words_of(run),
-                                        first.path.string(), words_of(first)),
-                            "join the shards of one command, with the same scenes, techniques and "
-                            "settings");
-        if (number_of(run) < expected)
-            throw Error(run.path.string(),
-                        fmt::format("is {}, which was given already", words_of(run)),
-                        "name each shard once");
-        if (number_of(run) > expected) break;
-        ++expected;
-    }
-    if (const std::uint64_t of = number_of(first, "of"); expected <= of)
-        throw Error(
-            first.path.string(),
-            fmt::format("is {}, and shard {}/{} is not there", words_of(first), expected, of),
-            "name the reports of all shards; one that was cut off goes on with --resume");
-}
-
 /// The joined results while they grow.
 struct Joining {
-    /// Beside a scene of the joined results.
-    struct Beside {
-        bool joined = false;                           ///< with cells of later runs
-        std::map<std::string, std::size_t> tried_by{}; ///< technique: run
-    };
+    using Tried = std::map<std::string, std::size_t>; ///< technique: run
 
     const std::vector<IndexedResults>& runs;
     Merged merged;
-    std::vector<Beside> beside{};
+    std::vector<Tried> tried_by{}; ///< of each scene
     std::set<std::string> folders{};
     std::map<std::string, std::vector<std::size_t>> by_name{};  ///< scenes that could be tried
     std::set<std::pair<std::string, std::string>> unreadable{}; ///< name and message
@@ -195,7 +147,7 @@ void add_cells(Joining& joining, std::size_t index, std::size_t run, std::size_t
     MergedScene& scene = joining.merged.scenes[index];
     const std::vector<IndexedCell>& cells = joining.runs[run].scenes[number].cells;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        const auto [tried, is_new] = joining.beside[index].tried_by.emplace(cells[i].name, run);
+        const auto [tried, is_new] = joining.tried_by[index].emplace(cells[i].name, run);
         if (!is_new)
             throw Error(joining.runs[run].path.string(),
                         fmt::format("has the cell {} of {}, which {} has too", cells[i].name,
@@ -211,8 +163,8 @@ void add_scene(Joining& joining, std::size_t run, std::size_t number) {
     const auto name = scene.at("name").get<std::string>();
     std::vector<MergedScene>& scenes = joining.merged.scenes;
     const auto add = [&] {
-        scenes.push_back({scene, run, number, {}});
-        joining.beside.emplace_back();
+        scenes.push_back({.head = scene, .run = run, .scene = number, .cells = {}});
+        joining.tried_by.emplace_back();
         return scenes.size() - 1;
     };
     if (could_not_run(scene)) {
@@ -224,7 +176,7 @@ void add_scene(Joining& joining, std::size_t run, std::size_t number) {
     if (const auto same = earlier(joining, scene, run)) {
         index = *same;
         check_same_scene(joining, scenes[index], scene, run, fmt::format("/scenes/{}", number));
-        joining.beside[index].joined = true;
+        scenes[index].of_several_runs = true;
         Json& stopped = scenes[index].head.at("no_longer_provoked");
         stopped = joined_causes(stopped, scene.at("no_longer_provoked"));
     } else {
@@ -235,113 +187,12 @@ void add_scene(Joining& joining, std::size_t run, std::size_t number) {
     add_cells(joining, index, run, number);
 }
 
-/// A scene under all of its lights: the results of one file, which follow each other.
-struct Lights {
-    std::span<MergedScene> scenes;
-    std::string bundled; ///< the scene's name, if it is one
-    bool joined = false; ///< of several runs
-};
-
-/// The bundled scene that all cells of a scene are of; empty: none.
-std::string bundled_scene(const MergedScene& scene, const Matrix& matrix) {
-    if (scene.cells.empty()) return {};
-    const std::string& name = scene.cells.front().what.verified;
-    const bool same = std::ranges::all_of(
-        scene.cells, [&](const MergedCell& cell) { return cell.what.verified == name; });
-    const bool known = std::ranges::find(matrix.scenes, name) != matrix.scenes.end();
-    return same && known ? name : std::string();
-}
-
-std::vector<Lights> lights_of(Joining& joining, const Matrix& matrix) {
-    std::vector<Lights> all;
-    std::vector<MergedScene>& scenes = joining.merged.scenes;
-    for (std::size_t begin = 0; begin < scenes.size();) {
-        Lights lights{{}, bundled_scene(scenes[begin], matrix), joining.beside[begin].joined};
-        std::size_t end = begin + 1;
-        for (; !lights.bundled.empty() && end < scenes.size() &&
-               bundled_scene(scenes[end], matrix) == lights.bundled;
-             ++end)
-            lights.joined =
-                lights.joined || joining.beside[end].joined || scenes[end].run != scenes[begin].run;
-        lights.scenes = std::span(scenes).subspan(begin, end - begin);
-        all.push_back(lights);
-        begin = end;
-    }
-    return all;
-}
-
-bool shows(const Lights& lights, Cause cause) {
-    return std::ranges::any_of(lights.scenes, [&](const MergedScene& scene) {
-        return std::ranges::any_of(scene.cells, [&](const MergedCell& cell) {
-            return ((cell.what.causes >> static_cast<unsigned>(cause)) & 1U) != 0;
-        });
-    });
-}
-
-bool is_for(const KnownTechnique& technique, const MergedScene& scene) {
-    return technique.lights.empty() ||
-           std::ranges::find(technique.lights, scene.head.value("light_kind", "")) !=
-               technique.lights.end();
-}
-
-/// Whether all techniques ran on a bundled scene's default picture: only that shows what the scene
-/// stopped provoking. A technique that could not run may be the one that shows it.
-bool is_whole(const Lights& lights, const Json& arguments, const Matrix& matrix) {
-    if (lights.bundled.empty() || !is_default_picture(arguments.get<std::vector<std::string>>()))
-        return false;
-    for (const MergedScene& scene : lights.scenes)
-        if (!scene.head.contains("light_kind")) return false; // of an older version
-    return std::ranges::all_of(lights.scenes, [&](const MergedScene& scene) {
-        return std::ranges::all_of(matrix.techniques, [&](const KnownTechnique& technique) {
-            return !technique.on_every_scene || !is_for(technique, scene) ||
-                   std::ranges::any_of(scene.cells, [&](const MergedCell& cell) {
-                       return cell.what.name == technique.name && !cell.what.could_not_run;
-                   });
-        });
-    });
-}
-
-Json stopped_provoking(const Lights& lights, const Matrix& matrix) {
-    std::vector<Cause> provokes;
-    for (const Json& cause : lights.scenes.front().head.at("provokes"))
-        provokes.push_back(*cause_named(cause.get_ref<const std::string&>()));
-    std::vector<std::vector<Cause>> fails_at;
-    for (const KnownTechnique& technique : matrix.techniques)
-        if (technique.on_every_scene && std::ranges::any_of(lights.scenes, [&](const auto& scene) {
-                return is_for(technique, scene);
-            }))
-            fails_at.push_back(technique.fails_at);
-    Json stopped = Json::array();
-    for (const Cause cause :
-         no_longer_provoked(provokes, fails_at, [&](Cause shown) { return shows(lights, shown); }))
-        stopped.push_back(name_of(cause));
-    return stopped;
-}
-
 /// In the order of the registry: that of the runs may be any.
-void sort_cells(const Lights& lights, const Matrix& matrix) {
+void sort_cells(MergedScene& scene, const Matrix& matrix) {
     const auto place = [&](const MergedCell& cell) {
         return std::ranges::find(matrix.techniques, cell.what.name, &KnownTechnique::name);
     };
-    for (MergedScene& scene : lights.scenes)
-        std::stable_sort(
-            scene.cells.begin(), scene.cells.end(),
-            [&](const MergedCell& a, const MergedCell& b) { return place(a) < place(b); });
-}
-
-void settle_joined(const Lights& lights, const Json& arguments, const Matrix& matrix) {
-    if (is_whole(lights, arguments, matrix)) {
-        lights.scenes.back().head["no_longer_provoked"] = stopped_provoking(lights, matrix);
-        return;
-    }
-    for (MergedScene& scene : lights.scenes) {
-        if (could_not_run(scene.head)) continue;
-        Json still = Json::array();
-        for (const Json& cause : scene.head.at("no_longer_provoked"))
-            if (!shows(lights, *cause_named(cause.get_ref<const std::string&>())))
-                still.push_back(cause);
-        scene.head["no_longer_provoked"] = still;
-    }
+    std::ranges::stable_sort(scene.cells, {}, place);
 }
 
 /// What a run has beside its scenes.
@@ -400,22 +251,21 @@ Merged merge(std::vector<IndexedResults>& runs, const Matrix& matrix) {
         }
         for (std::size_t i = 0; i < runs[run].scenes.size(); ++i) add_scene(joining, run, i);
     }
-    const bool are_shards = std::ranges::all_of(runs, is_shard); // in their run's order
-    for (const Lights& lights : lights_of(joining, matrix)) {
-        if (!lights.joined) continue;
-        if (!are_shards) sort_cells(lights, matrix);
-        settle_joined(lights, results.at("arguments"), matrix);
-    }
+    std::vector<MergedScene>& scenes = joining.merged.scenes;
+    if (!std::ranges::all_of(runs, is_shard)) // which are in their run's order
+        for (MergedScene& scene : scenes)
+            if (scene.of_several_runs) sort_cells(scene, matrix);
+    settle_what_is_provoked(scenes, results.at("arguments"), matrix);
     if (is_shard(runs.front())) end_shards(joining.merged);
-    results["passed"] =
-        results.at("passed") == true && std::ranges::none_of(joining.merged.scenes, fails_the_run);
+    results["passed"] = results.at("passed") == true && std::ranges::none_of(scenes, fails_the_run);
     return std::move(joining.merged);
 }
 
 Merged alone(const IndexedResults& run) {
     Merged merged{run.head, {}};
     for (std::size_t i = 0; i < run.scenes.size(); ++i) {
-        MergedScene& scene = merged.scenes.emplace_back(MergedScene{run.scenes[i].head, 0, i, {}});
+        MergedScene& scene = merged.scenes.emplace_back(
+            MergedScene{.head = run.scenes[i].head, .run = 0, .scene = i, .cells = {}});
         for (std::size_t k = 0; k < run.scenes[i].cells.size(); ++k)
             scene.cells.push_back({0, i, k, run.scenes[i].cells[k]});
     }

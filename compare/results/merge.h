@@ -37,6 +37,7 @@ struct MergedScene {
     std::size_t run = 0;   ///< that brought it
     std::size_t scene = 0; ///< of that run
     std::vector<MergedCell> cells;
+    bool of_several_runs = false; ///< its cells
 };
 
 /// The joined results but for their cells, which are read when they are written: so there may be

@@ -18,7 +18,7 @@ const fault = (words, once) => ({
 });
 
 /** Figures that two runs have in common. Cells that have a picture alike keep it in one of them. */
-const withoutTimes = (cell) => ({ ...cell, ms: 0, saved: null, images: null });
+const withoutTimes = (cell) => ({ ...cell, ms: 0, spent_ms: 0, saved: null, images: null });
 
 /** The bytes of a cell's pictures, wherever they are. */
 const picturesOf = (folder, { images }) => Object.fromEntries(Object.entries(images)

@@ -26,8 +26,8 @@ struct PlannedScene {
 };
 SHADOWPROOF_SEND_ALL(PlannedScene, argument, lights, is_whole)
 
-/// The shard's part of the whole, of which nothing is left out and nothing done twice: scenes of which it tries nothing are left out; lights of which it
-/// tries nothing stay, and say so.
+/// The shard's part of the whole, of which nothing is left out and nothing done twice: scenes of
+/// which it tries nothing are left out; lights of which it tries nothing stay, and say so.
 std::vector<PlannedScene> part_of(const std::vector<PlannedScene>& whole, const Shard& shard,
                                   const Costs& costs);
 

@@ -9,13 +9,13 @@
 #include "compare/command/process/stopwatch.h"
 #include "compare/command/scene_result.h"
 #include "compare/command/start_gpu.h"
-#include "compare/command/verify/run_plan.h"
+#include "compare/command/verify/planning.h"
+#include "compare/command/verify/resumption.h"
 #include "compare/families.h"
 #include "compare/memory.h"
 #include "reference/witness/agreement.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
-#include "scenes/load/digest.h"
 
 #include <fmt/format.h>
 
@@ -27,14 +27,6 @@
 namespace shadowproof {
 
 namespace {
-
-/// A technique that is not for such scenes is left out, unless both are named: then it says so.
-std::vector<const Technique*> techniques_for(const VerifyOptions& options, const Scene& scene) {
-    std::vector<const Technique*> chosen = options.technique.chosen();
-    const bool named = !options.scenes.empty() && !options.technique.techniques.empty();
-    if (!named) std::erase_if(chosen, [&](const Technique* one) { return !suits(*one, scene); });
-    return chosen;
-}
 
 /// State that all scenes of a worker share.
 struct Run {
@@ -79,11 +71,6 @@ bool is_final(const DoneScene& done) {
         return result.error.empty() &&
                std::ranges::all_of(result.cells, &std::string::empty, &Cell::error);
     });
-}
-
-[[noreturn]] void refuse_changed(const std::string& argument) {
-    throw Error(argument, "is another scene than the run that was cut off has tried",
-                "leave out --resume, and all is tried anew");
 }
 
 /// A scene under one of its lights, traced: what its techniques are judged against.
@@ -150,12 +137,6 @@ void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& ce
     setup.console.cell(scene, cell, widths_of(setup.options.technique, scene.name),
                        fails(cell, gate));
     setup.console.cell_details(cell, gate);
-}
-
-/// The name of a scene's result under its chosen light, unique among those before it.
-std::string name_of(const Scene& scene, bool one_of_many, std::span<const SceneResult> before) {
-    const std::string& choice = chosen_light(scene).choice;
-    return unique_name(before, one_of_many ? scene.name + "-" + choice : scene.name);
 }
 
 /// Plans and traces the chosen light of a scene; the truth lies in the result, which has its name.
@@ -289,71 +270,12 @@ bool attempt(const Run& run, SceneResult& result, const Work& work) {
 SceneResult begin_result(const std::string& argument) {
     SceneResult result;
     result.argument = argument;
-    result.name = std::filesystem::path(argument).stem().string();
+    result.name = name_of_file(argument);
     result.file = argument;
     return result;
 }
 
-SceneRequest request_of(const VerifyOptions& options) {
-    SceneRequest request = options.scene.request();
-    // A position that is given is of one light.
-    request.every_light = !request.light && !request.view.light_position;
-    return request;
-}
-
-Scene read_scene(const Run& run, const std::string& argument) {
-    run.progress(argument + ": reading");
-    return run.setup.pieces.step(argument + ": reading", [&] {
-        return load_scene(argument, request_of(run.setup.options));
-    });
-}
-
-/// What the whole run tries of a scene; nothing where no technique is for it. Adds the names of its
-/// results to those before.
-PlannedScene planned_scene(const Run& run, const std::string& argument,
-                           std::vector<SceneResult>& before) {
-    PlannedScene planned{.argument = argument};
-    const auto add = [&](const std::string& name, std::uint64_t triangles) -> PlannedLight& {
-        before.emplace_back().name = name;
-        return planned.lights.emplace_back(
-            PlannedLight{.name = name, .triangles = triangles, .techniques = {}});
-    };
-    try {
-        Scene scene = read_scene(run, argument);
-        const std::size_t lights =
-            request_of(run.setup.options).every_light ? scene.lights.size() : 1;
-        for (std::size_t i = 0; i < lights; ++i) {
-            if (lights > 1) scene.light = i;
-            const auto techniques = techniques_for(run.setup.options, scene);
-            if (techniques.empty()) {
-                planned.lights.emplace_back(PlannedLight{.techniques = {}, .tried = false});
-                continue;
-            }
-            PlannedLight& light = add(name_of(scene, lights > 1, before), scene.triangles.size());
-            for (const Technique* technique : techniques)
-                light.techniques.emplace_back(technique->name);
-        }
-        return planned;
-    } catch (const std::bad_alloc&) { // one result says why, in the shard that has it
-    } catch (const Error&) {
-    }
-    add(unique_name(before, begin_result(argument).name), 0);
-    return planned;
-}
-
-/// The part of the run that this shard has.
-std::vector<PlannedScene> planned_shard(const Run& run) {
-    const WorkerSetup& setup = run.setup;
-    return setup.pieces.piece("planning", [&] {
-        std::vector<PlannedScene> whole;
-        std::vector<SceneResult> names;
-        for (const std::string& argument : scenes_to_verify(setup.options))
-            whole.push_back(planned_scene(run, argument, names));
-        return part_of(whole, *setup.options.shard, setup.costs);
-    });
-}
-
-/// Those that are named, in the order of all.
+/// The techniques that are named, in the order of all.
 std::vector<const Technique*> only(std::vector<const Technique*> all,
                                    const std::vector<std::string>& names) {
     std::erase_if(all, [&](const Technique* one) {
@@ -379,7 +301,7 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
         bool none_suits = false; // when all bundled scenes run: this light is skipped
         const bool traced = attempt(run, result, [&] {
             if (!scene) {
-                scene = read_scene(run, argument);
+                scene = read_scene(setup, argument);
                 if (part == nullptr && request_of(setup.options).every_light)
                     lights = scene->lights.size();
             }
@@ -394,8 +316,9 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
                     throw Error(argument, "has changed since the shards were planned",
                                 "run this shard again");
             }
-            result.name = planned != nullptr ? planned->name
-                                             : name_of(*scene, result.one_of_many, run.scenes);
+            result.name = planned != nullptr
+                              ? planned->name
+                              : name_of_result(*scene, result.one_of_many, run.scenes);
             begin_trial(run, *scene, result, trial);
         });
         if (none_suits) continue;
@@ -415,20 +338,9 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
     return report_milliseconds;
 }
 
-/// Shows what an earlier run has found, and that it holds for the scene as it is now.
-void go_on_after(const Run& run, const std::string& argument, const DoneScene& done) {
-    const WorkerSetup& setup = run.setup;
-    std::vector<std::string> digests;
-    setup.pieces.step(argument + ": reading again", [&] {
-        Scene scene = load_scene(argument, request_of(setup.options));
-        const std::size_t lights = scene.lights.size();
-        for (std::size_t i = 0; i < lights; ++i) {
-            if (lights > 1 && request_of(setup.options).every_light) scene.light = i;
-            digests.push_back(digest_of(scene));
-        }
-    });
+/// Shows what an earlier run has found.
+void announce(const WorkerSetup& setup, const DoneScene& done) {
     for (const SceneResult& result : done.results) {
-        if (std::ranges::find(digests, result.digest) == digests.end()) refuse_changed(argument);
         announce(setup.console, result, setup.options.output.verbose);
         for (const Cell& cell : result.cells) announce(setup, result, cell);
     }
@@ -466,22 +378,13 @@ double done_scene(const Run& run, const std::string& argument, const PlannedScen
             part != nullptr ? part->lights.front().name : unique_name(run.scenes, result.name);
         by_this_worker = true;
     }
-    if (!by_this_worker && setup.resumed) go_on_after(run, argument, done);
+    if (!by_this_worker && setup.resumed) {
+        require_same_scene(setup, argument, done.results);
+        announce(setup, done);
+    }
     run.scenes.resize(before);
     for (SceneResult& result : done.results) run.scenes.push_back(std::move(result));
     return done.report_milliseconds;
-}
-
-/// The driver that an earlier run has begun with draws the rest.
-void require_same_driver(const WorkerSetup& setup, const DriverInfo& driver) {
-    const std::string words =
-        fmt::format("{}, {}, Embree {}", driver.renderer, driver.version, embree_version());
-    const std::string begun = setup.pieces.piece("the driver", [&] { return words; });
-    if (begun != words)
-        throw Error(setup.options.output.out,
-                    fmt::format("cannot be gone on with: it was begun with {}, and this is {}",
-                                begun, words),
-                    "leave out --resume, and all is tried anew");
 }
 
 } // namespace
@@ -500,7 +403,7 @@ VerifiedScenes try_scenes(const WorkerSetup& setup) {
     Run run{setup, *gpu, verified.scenes};
     std::vector<PlannedScene> scenes;
     if (setup.options.shard)
-        scenes = planned_shard(run);
+        scenes = planned_shard(setup);
     else
         for (const std::string& argument : scenes_to_verify(setup.options))
             scenes.push_back({.argument = argument, .lights = {}});
