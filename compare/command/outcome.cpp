@@ -76,6 +76,8 @@ std::string outcome_words(const Report& report) {
     std::string words =
         report.passed ? "passed: " + counted(cells, "cell")
                       : fmt::format("failed: {} of {}", grouped(failing), counted(cells, "cell"));
+    if (report.shard)
+        words += fmt::format(" of part {} of {}", report.shard->number, report.shard->of);
     if (unread > 0) words += fmt::format(", {} that could not be tried", counted(unread, "scene"));
     if (unprovoked > 0)
         words += fmt::format(", {} that stopped provoking", counted(unprovoked, "scene"));

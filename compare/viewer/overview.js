@@ -43,10 +43,12 @@ function banner(results) {
   const cells = allCells(results);
   const agree = cells.filter(({ cell }) => verdictOf(cell) === 'agrees').length;
   const predicted = cells.filter(({ cell }) => verdictOf(cell) === 'fails_as_predicted').length;
+  const { shard } = results;
+  const part = shard ? `Part ${shard.number} of ${shard.of} of a run. ` : '';
   return element('section', { class: `banner ${results.passed ? 'passed' : 'failed'}` },
     element('h1', {}, element('span', { 'aria-hidden': 'true' }, results.passed ? '✓ ' : '✕ '),
             headline(results)),
-    element('p', {}, `${grouped(agree)} agree, ${grouped(predicted)} fail as predicted. ` +
+    element('p', {}, `${part}${grouped(agree)} agree, ${grouped(predicted)} fail as predicted. ` +
                      allGateWords(results)),
     baselineLine(results));
 }
@@ -251,8 +253,7 @@ function madeWith(results) {
                 ['Depth, stencil, subpixel bits',
                  gl && `${gl.depth_bits}, ${gl.stencil_bits}, ${gl.subpixel_bits}`],
                 ['Embree', results.embree], ['Baseline', results.baseline?.file],
-                ['Settings', results.arguments?.join(' ')],
-                ['Part of the run', results.shard && `${results.shard.number} of ${results.shard.of}`]]);
+                ['Settings', results.arguments?.join(' ')]]);
 }
 
 /** Columns of a table that its scrolling frame hides at the right. */

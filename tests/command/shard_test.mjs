@@ -64,7 +64,9 @@ test('shards of any number become the report of one run', () => {
 test('the same cells come to the same shard, and the report of one says which it is', () => {
   const [again] = shards(1, [...scenes], 'again-');
   assert.deepEqual(cellsOf(again), cellsOf('of1-1'));
-  verify('again-of5', [...scenes, '--shard', '3/5'], { code: resultsOf('of5-3').passed ? 0 : 3 });
+  const { out } = verify('again-of5', [...scenes, '--shard', '3/5'],
+                         { code: resultsOf('of5-3').passed ? 0 : 3 });
+  assert.match(out, / of part 3 of 5[,;]/);
   assert.deepEqual(cellsOf('again-of5'), cellsOf('of5-3'));
   const { shard } = resultsOf('again-of5');
   assert.deepEqual([shard.number, shard.of, shard.run],

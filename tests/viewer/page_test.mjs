@@ -42,6 +42,20 @@ test('the matrix has every cell with sign, words and count, scenes in order of t
   assert.equal(await page.locator('.matrix tbody th').last().innerText(), 'ordinary');
 });
 
+test('a part of a run says which it is, also where it has nothing to try', async () => {
+  const copy = copyOfReport(folder, 'part');
+  const results = { ...resultsOf(copy), shard: { number: 2, of: 3, run: '0'.repeat(16) } };
+  const write = () =>
+    writeFileSync(join(copy, 'results.js'), `shadowproof.results(${JSON.stringify(results)});`);
+  write();
+  assert.match(await text((await openReport(copy)).page, '.banner'), /Part 2 of 3 of a run\./);
+  results.scenes = [];
+  write();
+  const { page, said } = await openReport(copy);
+  assert.match(await text(page, 'main'), /There was nothing to try in this part of the run\./);
+  assert.deepEqual(said, []);
+});
+
 test('failures stand first, with the reason; nothing fails without being named', async () => {
   const copy = copyOfReport(folder, 'failing');
   const results = resultsOf(copy);
