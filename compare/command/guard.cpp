@@ -114,11 +114,20 @@ private:
     }
 };
 
-/// The exit code of a child that has ended, with a message if it did not end by itself.
-int code_of(const ChildEnd& end) {
+/// Does the work in a child process, to its end.
+ChildEnd watched(const WatchedWork& work) {
+    ChildProcess child([&](int pipe) { return run_to_exit_code([&] { return work(pipe); }); });
+    Watch(child.pipe()).follow(std::nullopt);
+    return child.wait();
+}
+
+constexpr const char* nothing_written = "nothing was written; report this with the command";
+
+/// The exit code of a child that has ended, with a message if it did not end by itself; `left`:
+/// what there is of its work then.
+int code_of(const ChildEnd& end, const std::string& left = nothing_written) {
     if (end.code) return *end.code;
-    complain("the process that did the work " + words_of(end) +
-             "; nothing was written; report this with the command");
+    complain(fmt::format("the process that did the work {}; {}", words_of(end), left));
     return exit_could_not;
 }
 
@@ -144,16 +153,15 @@ int guarded(const WatchedWork& work, const std::string& report) {
     Unfinished left_behind([&] {
         if (!report.empty()) remove_leftovers(report);
     });
-    ChildProcess child([&](int pipe) { return run_to_exit_code([&] { return work(pipe); }); });
-    Watch(child.pipe()).follow(std::nullopt);
-    const ChildEnd end = child.wait();
+    const ChildEnd end = watched(work);
     if (end.code) left_behind.done();
     return code_of(end);
 }
 
 int guarded_resumable(const WatchedWork& work, const std::string& report) {
-    leave_unfinished("the same command goes on with what is done of " + report);
-    return guarded(work);
+    const std::string words = "the same command goes on with what is done of " + report;
+    leave_unfinished(words);
+    return code_of(watched(work), words);
 }
 
 int guarded_within(double seconds, const std::string& what, const WatchedWork& work) {

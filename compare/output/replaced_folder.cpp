@@ -116,6 +116,14 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
+[[noreturn]] void refuse_left(const fs::path& content, const std::string& what) {
+    throw Error(content.string(),
+                fmt::format("is left of a run that was cut off, and holds {}, not as this program "
+                            "wrote it",
+                            what),
+                "move it away, or name another folder with --out");
+}
+
 /// A foreign folder stands for its contents.
 std::vector<std::string> names_to_say(const std::vector<KeptFile>& kept, bool changed) {
     std::vector<std::string> names;
@@ -172,8 +180,8 @@ void ReplacedFolder::begin_anew() {
     }
 }
 
-/// Whether all that the journal lists is there, and nothing else: files of which it does not know
-/// that they are complete are removed.
+/// Whether all that the journal lists is there. Files of which it does not know that they are
+/// complete are removed. Throws Error where there is anything else, and leaves all of it.
 bool ReplacedFolder::take_over() {
     JournalRecord record = read_journal(work_ / journal_name);
     if (is_there(work_ / "older") || !is_there(content_) || !record.folder ||
@@ -188,7 +196,12 @@ bool ReplacedFolder::take_over() {
             intact.insert(*record.written.find(name));
             return Fate::leave;
         });
-    if (intact.empty() || left.size() != intact.size() || intact != record.written) return false;
+    if (left.size() != intact.size()) {
+        std::vector<std::string> foreign = left;
+        std::erase_if(foreign, [&](const std::string& name) { return intact.contains(name); });
+        refuse_left(content_, listed(foreign));
+    }
+    if (intact.empty() || intact != record.written) return false;
     earlier_ = std::move(record.written);
     journal_ = Journal(work_ / journal_name);
     return true;
@@ -197,11 +210,7 @@ bool ReplacedFolder::take_over() {
 void ReplacedFolder::prepare() {
     const std::vector<std::string> left = empty_work_folder(work_, place_, {});
     if (!left.empty() || is_there(content_))
-        throw Error((work_ / "report").string(),
-                    fmt::format("is left of a run that was cut off, and holds {}, not as this "
-                                "program wrote it",
-                                left.empty() ? "a folder" : listed(left)),
-                    "move it away, or name another folder with --out");
+        refuse_left(content_, left.empty() ? "a folder" : listed(left));
     if (::mkdir(content_.c_str(), 0777) != 0) throw_errno();
     journal_ = Journal(work_ / journal_name, identity_of(content_));
 }

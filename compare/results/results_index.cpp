@@ -83,6 +83,7 @@ private:
     ResultsCheck check_;
     std::string member_{}; ///< of the whole, that is being read
     Json first_ = Json::object();
+    bool in_scenes_ = false; ///< in the list of scenes
     bool in_scene_ = false;
     std::uint64_t begin_ = 0; ///< of the scene that is being read
     gltf::JsonCounts counts_{};
@@ -106,10 +107,13 @@ private:
         count(event);
         if (depth == 1 && event == Event::key) member_ = value.get<std::string>();
         if (depth == 1 && event == Event::value) check_early(value);
-        // Within the list, which is at depth 1 itself.
-        if (member_ != "scenes" || depth != 2) return true;
-        if (event == Event::object_start) begin_scene();
-        if (event == Event::object_end) return end_scene(value), false;
+        if (depth == 1) in_scenes_ = member_ == "scenes" && event == Event::array_start;
+        if (!in_scenes_ || depth != 2) return true;
+        if (event == Event::object_start || event == Event::array_start) begin_scene();
+        if (event == Event::object_end || event == Event::array_end || event == Event::value) {
+            end_scene(value); // which is refused if it is no object
+            return false;
+        }
         return true;
     }
 

@@ -45,14 +45,19 @@ std::string work_cut_off(const VerifyOptions& options) {
     return WorkLog::work_in(ReportFolder::progress_file_of(options.output.out));
 }
 
-void say_what_is_resumed(const ReportFolder& folder, const std::string& cut_off,
-                         const std::string& out, Console& console) {
-    if (folder.goes_on())
-        console.line(fmt::format("note: {}: goes on with the run that was cut off", out));
-    else if (!cut_off.empty())
-        console.line(fmt::format("note: {}: begins anew: nothing that the run before has written "
-                                 "is whole",
-                                 out));
+/// Goes on with what the run before has left, if that says how far it came, and tells.
+void take_up(ReportFolder& folder, const std::string& cut_off, const std::string& out,
+             Console& console) {
+    const auto note = [&](const char* what) {
+        console.line(fmt::format("note: {}: {}", out, what));
+    };
+    if (folder.goes_on() && !cut_off.empty()) return note("goes on with the run that was cut off");
+    if (folder.goes_on()) {
+        note("begins anew: how far the run that was cut off has come is not known");
+        folder.begin_anew();
+    } else if (!cut_off.empty()) {
+        note("begins anew: files of the run that was cut off are missing");
+    }
 }
 
 /// `waited`: milliseconds since the program was started.
@@ -84,8 +89,7 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     const std::string cut_off = work_cut_off(options);
     if (!cut_off.empty()) require_same_process(options.output.out, cut_off, process);
     ReportFolder folder(options.output.out, options.resume ? CutOff::is_kept : CutOff::is_removed);
-    if (cut_off.empty() && folder.goes_on()) folder.begin_anew();
-    if (options.resume) say_what_is_resumed(folder, cut_off, options.output.out, console);
+    take_up(folder, cut_off, options.output.out, console);
     WorkLog log = folder.goes_on() ? WorkLog::gone_on_with(folder.progress_file())
                                    : WorkLog::begun(folder.progress_file(), process);
     const bool resumed = folder.goes_on();

@@ -93,8 +93,22 @@ TEST(ResultsIndex, refuses_what_is_refused_as_a_whole_in_the_same_words) {
     for (std::size_t cut = 0; cut + 1 < text.size(); cut += 7)
         EXPECT_TRUE(compare(text.substr(0, cut))) << cut;
     for (const char* whole :
-         {"", "{}", "[]", "null", "{\"schema\": \"other\"}", "{\"scenes\": [1]}"})
+         {"", "{}", "[]", "null", "{\"schema\": \"other\"}"})
         EXPECT_TRUE(compare(whole)) << whole;
+    const ResultsJson results = ResultsJson::parse(text);
+    for (const char* element : {"1", "null", "[]", "[[{}]]", "{}", "\"x\""})
+        for (const std::size_t at : {std::size_t{0}, results.at("scenes").size()}) {
+            ResultsJson spoiled = results;
+            ResultsJson& scenes = spoiled["scenes"];
+            scenes.insert(scenes.begin() + static_cast<std::ptrdiff_t>(at),
+                          ResultsJson::parse(element));
+            EXPECT_TRUE(compare(spoiled.dump())) << element;
+        }
+    for (const char* scenes : {"{}", "1", "[]", "{\"a\": {\"b\": {}}}"}) {
+        ResultsJson spoiled = results;
+        spoiled["scenes"] = ResultsJson::parse(scenes);
+        EXPECT_TRUE(compare(spoiled.dump())) << scenes;
+    }
     std::string deep = text;
     deep.insert(deep.find("\"digest\""),
                 "\"x\": " + std::string(100, '[') + std::string(100, ']') + ",");
