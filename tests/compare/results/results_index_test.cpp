@@ -92,8 +92,7 @@ TEST(ResultsIndex, refuses_what_is_refused_as_a_whole_in_the_same_words) {
     EXPECT_FALSE(compare(text));
     for (std::size_t cut = 0; cut + 1 < text.size(); cut += 7)
         EXPECT_TRUE(compare(text.substr(0, cut))) << cut;
-    for (const char* whole :
-         {"", "{}", "[]", "null", "{\"schema\": \"other\"}"})
+    for (const char* whole : {"", "{}", "[]", "null", "{\"schema\": \"other\"}"})
         EXPECT_TRUE(compare(whole)) << whole;
     const ResultsJson results = ResultsJson::parse(text);
     for (const char* element : {"1", "null", "[]", "[[{}]]", "{}", "\"x\""})
