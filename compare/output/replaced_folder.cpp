@@ -270,6 +270,7 @@ void ReplacedFolder::add_requested(const std::string& name, std::string_view byt
 
 ReplacedFolder::GrowingFile::GrowingFile(const ReplacedFolder& folder, std::string name)
     : folder_(&folder), name_(std::move(name)) {
+    const auto lock = hold_unfinished();
     try {
         folder.make_room(name_);
         file_ = make_passing_file(folder.work_);
@@ -292,6 +293,7 @@ void ReplacedFolder::GrowingFile::write(std::string_view bytes) {
 }
 
 void ReplacedFolder::GrowingFile::end() {
+    const auto lock = hold_unfinished();
     try {
         folder_->make_whole(name_, fingerprint_.so_far(), file_);
         folder_->journal_.complete(name_);
