@@ -34,6 +34,9 @@ void check_output(const std::string& file, const std::string& out, Output output
     if ((is_results && output != Output::results) || *name == page_name ||
         *name == results_script_name || *name == manifest_name)
         throw Error(file, "is a file of the report itself", "name another file");
+    if (const std::string kind = fs::path(*name).extension(); kind == ".png" || kind == ".js")
+        throw Error(file, "is named as the report's own pictures and data are",
+                    "name another file");
     std::error_code ignored;
     const fs::file_status status = fs::symlink_status(fs::path(out) / *name, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status))

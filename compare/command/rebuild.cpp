@@ -156,6 +156,11 @@ int rebuild_here(const RebuildOptions& options, int watcher) {
         refuse_to_lose(runs.emplace_back(index_results(path, memory)).path, options.out);
     }
     check_output(options.json, options.out, Output::results);
+    const bool inside_out = name_in_report(options.json, options.out).has_value();
+    for (const IndexedResults& run : runs)
+        if (!inside_out && name_in_report(options.json, run.path.parent_path().string()))
+            throw Error(options.json, "lies in a report that is read, and may be one of its files",
+                        "name a file elsewhere");
     ReportFolder folder(options.out);
     console.progress("joining the results");
     const Merged merged =

@@ -25,24 +25,23 @@ public:
     std::uint64_t passed() const { return before_ + at_; }
     std::uint64_t size() const { return size_; }
 
-    /// Bytes `begin` to `end` of the file.
-    std::string slice(std::uint64_t begin, std::uint64_t end) const;
-
     /// Called before each further piece of the file is read; it may throw.
     std::function<void()> before_reading{};
 
 private:
     std::filesystem::path file_;
-    const char* remedy_;
+    JsonRemedies remedies_;
     Descriptor opened_;
     std::uint64_t size_ = 0;
     std::vector<char> buffer_;
     std::size_t at_ = 0;
     std::size_t held_ = 0;
     std::uint64_t before_ = 0; ///< bytes of the file before the buffer
-
-    std::size_t read_at(std::uint64_t offset, char* to, std::size_t most) const;
 };
+
+/// Bytes `begin` to `end` of a file, fewer where it ends. Throws Error naming it.
+std::string json_slice(const std::filesystem::path& file, std::uint64_t begin, std::uint64_t end,
+                       const JsonRemedies& remedies);
 
 /// An input iterator over JsonBytes; the default one is the end.
 class JsonByte {

@@ -180,10 +180,10 @@ void ReplacedFolder::begin_anew() {
     }
 }
 
-/// Whether all that the journal lists is there. Files of which it does not know that they are
-/// complete are removed. Throws Error where there is anything else, and leaves all of it.
+/// Whether all that the journal lists is there. Throws Error where there is anything else, and
+/// leaves all of it.
 bool ReplacedFolder::take_over() {
-    JournalRecord record = read_journal(work_ / journal_name);
+    const JournalRecord record = read_journal(work_ / journal_name);
     if (is_there(work_ / "older") || !is_there(content_) || !record.folder ||
         identity_of(content_) != *record.folder)
         return false;
@@ -191,9 +191,9 @@ bool ReplacedFolder::take_over() {
     Manifest intact;
     const std::vector<std::string> left =
         empty_out(content_, place_, [&](const std::string& name, const fs::path& file) {
-            if (!is_as_listed(record.written, name, file))
-                return is_as_listed(record.begun, name, file) ? Fate::remove : Fate::leave;
-            intact.insert(*record.written.find(name));
+            // One whose end the journal does not have is whole: it has its name only then.
+            if (is_as_listed(record.begun, name, file) || is_as_listed(record.written, name, file))
+                intact.insert(*record.begun.find(name));
             return Fate::leave;
         });
     if (left.size() != intact.size()) {
@@ -201,9 +201,12 @@ bool ReplacedFolder::take_over() {
         std::erase_if(foreign, [&](const std::string& name) { return intact.contains(name); });
         refuse_left(content_, listed(foreign));
     }
-    if (intact.empty() || intact != record.written) return false;
-    earlier_ = std::move(record.written);
+    const auto is_there_still = [&](const auto& written) { return intact.contains(written.first); };
+    if (intact.empty() || !std::ranges::all_of(record.written, is_there_still)) return false;
     journal_ = Journal(work_ / journal_name);
+    for (const auto& [name, fingerprint] : intact)
+        if (!record.written.contains(name)) journal_.complete(name);
+    earlier_ = std::move(intact);
     return true;
 }
 
@@ -219,6 +222,7 @@ void ReplacedFolder::prepare() {
 /// compared with the journal.
 void ReplacedFolder::make_whole(const std::string& name, const Fingerprint& fingerprint,
                                 PassingFile& file) const {
+    if (is_there(content_ / name)) throw std::system_error(EEXIST, std::generic_category());
     journal_.begin(name, fingerprint);
     make_folders_for(content_ / name);
     put_at_place(file, content_ / name);

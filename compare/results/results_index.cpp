@@ -83,7 +83,8 @@ private:
     ResultsCheck check_;
     std::string member_{}; ///< of the whole, that is being read
     Json first_ = Json::object();
-    bool in_scenes_ = false; ///< in the list of scenes
+    bool has_scenes_ = false; ///< the member was begun
+    bool in_scenes_ = false;  ///< in the list of scenes
     bool in_scene_ = false;
     std::uint64_t begin_ = 0; ///< of the scene that is being read
     gltf::JsonCounts counts_{};
@@ -105,7 +106,7 @@ private:
             throw Error(file_, fmt::format("nests deeper than {}", deepest_json),
                         results_remedies.whole);
         count(event);
-        if (depth == 1 && event == Event::key) member_ = value.get<std::string>();
+        if (depth == 1 && event == Event::key) begin_member(value.get<std::string>());
         if (depth == 1 && event == Event::value) check_early(value);
         if (depth == 1) in_scenes_ = member_ == "scenes" && event == Event::array_start;
         if (!in_scenes_ || depth != 2) return true;
@@ -115,6 +116,13 @@ private:
             return false;
         }
         return true;
+    }
+
+    void begin_member(std::string name) {
+        member_ = std::move(name);
+        if (member_ == "scenes" && std::exchange(has_scenes_, true))
+            throw Error(file_, "/scenes stands there twice",
+                        "write the results again with shadowproof verify");
     }
 
     /// What is no results file is refused before its scenes are looked at.
@@ -164,15 +172,16 @@ private:
 IndexedResults index_results(const fs::path& path, MemoryAccount& memory) {
     IndexedResults results;
     results.path = results_path(path);
-    auto bytes = std::make_shared<JsonBytes>(results.path, results_remedies);
-    Reader reader(results.path, *bytes, memory);
+    JsonBytes bytes(results.path, results_remedies);
+    Reader reader(results.path, bytes, memory);
     results.head = reader.read();
     results.scenes = std::move(reader.scenes);
-    results.scene = [bytes, ranges = std::move(reader.ranges),
-                     file = results.path.string()](std::size_t index) {
+    // Not kept open: there may be more files than a process may open.
+    results.scene = [file = results.path, ranges = std::move(reader.ranges)](std::size_t index) {
         const Range& range = ranges.at(index);
-        Json scene = parse_json(bytes->slice(range.begin, range.end), file, results_remedies);
-        ResultsCheck(file).next(scene); // it may have changed
+        Json scene = parse_json(json_slice(file, range.begin, range.end, results_remedies),
+                                file.string(), results_remedies);
+        ResultsCheck(file.string()).next(scene); // it may have changed
         return scene;
     };
     return results;

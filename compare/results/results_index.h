@@ -33,7 +33,8 @@ struct IndexedResults {
     std::function<ResultsJson(std::size_t)> scene;
 };
 
-/// Reads a file, as read_results does, with the same checks and errors. It stays open for `scene`.
+/// Reads a file, as read_results does, with the same checks and errors. It must stay as it is for
+/// `scene`.
 /// What is kept is charged to the account, and each scene is required of it while it is read.
 IndexedResults index_results(const std::filesystem::path& path, MemoryAccount& memory);
 

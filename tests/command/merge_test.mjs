@@ -1,9 +1,11 @@
 // Shards joined, and reports made again: as if one run had done it all, and refused by name where
 // that cannot be.
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { cpSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
+import { copyReport } from './copied_report.mjs';
 import { assertSameReport, filesBelow, isForPointLights, scratch, shadowproof }
   from './shadowproof.mjs';
 
@@ -206,4 +208,25 @@ test('a report is never made over the results that it is made from, unless whole
   const run = shadowproof(['report', '--from', 'in-place', '--out', 'in-place']);
   assert.equal(run.code, 0, run.err);
   assert.deepEqual(filesBelow(join(scratch, 'in-place')), filesBelow(join(scratch, 'near')));
+});
+
+test('the results are not written among the files that are read, nor under names of a report’s own', () => {
+  for (const [file, words] of [['near/near_plane/truth.png', /lies in a report that is read/],
+                               ['near/results.json', /lies in a report that is read/],
+                               ['apart/near_plane/truth.png', /own pictures and data/]]) {
+    const before = filesBelow(join(scratch, 'near'));
+    const run = shadowproof(['merge', 'near', 'ordinary', '--out', 'apart', '--json', file]);
+    assert.equal(run.code, 3, file);
+    assert.match(run.err, words);
+    assert.deepEqual(filesBelow(join(scratch, 'near')), before);
+  }
+});
+
+test('more reports are joined than a process may open files', () => {
+  verify('one', 'near_plane', '--technique', 'zpass', ...size);
+  for (let i = 0; i < 60; ++i) copyReport(join(scratch, 'one'), join(scratch, `many/${i}`), `r${i}-`);
+  const run = spawnSync('bash', ['-c', `ulimit -n 40 && exec "$SHADOWPROOF" merge ${Array.from({ length: 60 },
+    (_, i) => `many/${i}`).join(' ')} --out many-joined -q`], { cwd: scratch, encoding: 'utf8' });
+  assert.equal(run.status, 0, run.stderr);
+  assert.equal(resultsOf('many-joined').scenes.length, 60);
 });

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn, spawnSync } from 'node:child_process';
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, readdirSync, renameSync,
-         rmSync, statSync, writeFileSync } from 'node:fs';
+         rmSync, statSync, truncateSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
 import { setTimeout as pause } from 'node:timers/promises';
@@ -119,6 +119,21 @@ test('what is said of a baseline is what one run would say', () => {
   const { notes } = resultsOf('compared').baseline;
   for (const note of ['far_plane was not tried now', 'zpass on near_plane was not tried now', 'spot is new'])
     assert.ok(notes.includes(note), notes.join('\n'));
+});
+
+test('parts that were planned of different scenes are of different runs', () => {
+  const words = ['late.gltf', 'near_plane', 'sun', '--technique', 'zpass,zfail,invert'];
+  const codes = [3, 0, 0];
+  const parts = codes.map((code, i) => {
+    verify(`planned${i + 1}`, [...words, '--shard', `${i + 1}/3`], { code });
+    return `planned${i + 1}`;
+  });
+  copyFileSync(join(bundled, 'ordinary.gltf'), join(scratch, 'late.gltf'));
+  verify('planned1', [...words, '--shard', '1/3'], { code: 0 });
+  const run = shadowproof(['merge', ...parts, '--out', 'refused', '-q']);
+  assert.equal(run.code, 3, run.out);
+  assert.match(run.err, /planned2[^\n]*: is shard 2\/3 of another run than planned1/);
+  rmSync(join(scratch, 'late.gltf'));
 });
 
 test('a scene that stops provoking fails, also where shards have split it', () => {
@@ -268,6 +283,46 @@ test('what is not the same run is refused, and keeps what was done', async () =>
   copyFileSync(join(bundled, 'spot.gltf'), join(scratch, 'mine.gltf'));
   verify('other', [...words, '--resume'], { code: 0 });
   assert.equal(cellsOf('other').length, 6);
+});
+
+test('a run that goes on notices what a scene declares, and which lights it has', async () => {
+  const file = join(scratch, 'declared.gltf');
+  copyFileSync(join(bundled, 'near_plane.gltf'), file);
+  const words = ['declared.gltf', 'sun', '--technique', 'zpass,zfail,invert'];
+  const goesOn = (more = []) => {
+    const run = shadowproof(['verify', ...words, ...more, ...size, '--out', 'declared', '--resume', '-q']);
+    assert.equal(run.code, 3, run.out);
+    return run.err;
+  };
+  for (const cells of [2, 4]) { // in the middle of the scene, and behind it
+    rmSync(join(scratch, 'declared.writing'), { recursive: true, force: true });
+    await cutOff('declared', words, cells);
+    const gltf = JSON.parse(readFileSync(join(bundled, 'near_plane.gltf')));
+    gltf.extras.shadowproof.provokes = [];
+    writeFileSync(file, JSON.stringify(gltf));
+    assert.match(goesOn(), /declared\.gltf: is another scene than the run that was cut off has tried/);
+    copyFileSync(join(bundled, 'near_plane.gltf'), file);
+  }
+  verify('declared', [...words, '--resume'], { code: 0 });
+  copyFileSync(join(bundled, 'many_lights.gltf'), file);
+  await cutOff('declared', [...words, '--shard', '1/1'], 2);
+  copyFileSync(join(bundled, 'ordinary.gltf'), file);
+  assert.match(goesOn(['--shard', '1/1']), /declared\.gltf: is another scene than/);
+});
+
+test('where the journal lost its end, whole files are taken over, or missed', async () => {
+  const words = ['near_plane', 'sun', '--technique', 'zpass,zfail,invert'];
+  verify('entire', words, { code: 0 });
+  for (const bytes of [1, 5, 40]) {
+    await cutOff('short', words, 4);
+    const journal = join(scratch, 'short.writing/journal');
+    truncateSync(journal, statSync(journal).size - bytes);
+    const run = shadowproof(['verify', ...words, ...size, '--out', 'short', '--resume', '-q']);
+    if (run.code === 0) assertSameReport('short', 'entire');
+    else assert.match(run.err, /not as this program wrote it; move it away/);
+    rmSync(join(scratch, 'short'), { recursive: true, force: true });
+    rmSync(join(scratch, 'short.writing'), { recursive: true, force: true });
+  }
 });
 
 test('files that were spoiled since make it begin anew, and foreign ones are not touched', async () => {

@@ -3,6 +3,9 @@
 #include "compare/command/scene_result.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
+#include "scenes/load/digest.h"
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <new>
@@ -27,6 +30,12 @@ std::vector<const Technique*> techniques_for(const VerifyOptions& options, const
     const bool named = !options.scenes.empty() && !options.technique.techniques.empty();
     if (!named) std::erase_if(chosen, [&](const Technique* one) { return !suits(*one, scene); });
     return chosen;
+}
+
+std::string content_of(const Scene& scene) {
+    std::string content = digest_of(scene);
+    for (const Cause cause : scene.provokes) content += fmt::format(" {}", name_of(cause));
+    return content;
 }
 
 std::string name_of_file(const std::string& argument) {
@@ -63,6 +72,7 @@ PlannedScene planned_scene(const WorkerSetup& setup, const std::string& argument
             }
             PlannedLight& light =
                 add(name_of_result(scene, lights > 1, before), scene.triangles.size());
+            light.content = content_of(scene);
             for (const Technique* technique : techniques)
                 light.techniques.emplace_back(technique->name);
         }
@@ -76,13 +86,14 @@ PlannedScene planned_scene(const WorkerSetup& setup, const std::string& argument
 
 } // namespace
 
-std::vector<PlannedScene> planned_shard(const WorkerSetup& setup) {
+PlannedShard planned_shard(const WorkerSetup& setup) {
     return setup.pieces.piece("planning", [&] {
         std::vector<PlannedScene> whole;
         std::vector<SceneResult> names;
         for (const std::string& argument : scenes_to_verify(setup.options))
             whole.push_back(planned_scene(setup, argument, names));
-        return part_of(whole, *setup.options.shard, setup.costs);
+        return PlannedShard{part_of(whole, *setup.options.shard, setup.costs),
+                            plan_name(whole, setup.costs)};
     });
 }
 

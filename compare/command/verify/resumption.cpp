@@ -3,7 +3,6 @@
 #include "compare/command/verify/planning.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
-#include "scenes/load/digest.h"
 
 #include <fmt/format.h>
 
@@ -25,18 +24,32 @@ void require_same_driver(const WorkerSetup& setup, const DriverInfo& driver) {
 
 void require_same_scene(const WorkerSetup& setup, const std::string& argument,
                         std::span<const SceneResult> results) {
-    std::vector<std::string> digests; // under each of its lights
+    std::vector<std::string> contents; // under each of its lights
     setup.pieces.step(argument + ": reading again", [&] {
         const SceneRequest request = request_of(setup.options);
         Scene scene = load_scene(argument, request);
         const std::size_t lights = request.every_light ? scene.lights.size() : 1;
         for (std::size_t i = 0; i < lights; ++i) {
             if (lights > 1) scene.light = i;
-            digests.push_back(digest_of(scene));
+            contents.push_back(content_of(scene));
         }
     });
-    for (const SceneResult& result : results)
-        if (std::ranges::find(digests, result.digest) == digests.end()) refuse_changed(argument);
+    for (const SceneResult& result : results) {
+        std::string content = result.digest;
+        for (const std::string& cause : result.provokes) content += " " + cause;
+        if (std::ranges::find(contents, content) == contents.end()) refuse_changed(argument);
+    }
+}
+
+void recall(const WorkerSetup& setup, const SceneResult& scene, const Cell& cell) {
+    try {
+        setup.folder.recall_cell(scene, cell);
+    } catch (const Error&) {
+        throw Error(setup.options.output.out,
+                    fmt::format("cannot be gone on with: files of {} on {} are missing",
+                                cell.technique, scene.name),
+                    "leave out --resume, and all is tried anew");
+    }
 }
 
 void refuse_changed(const std::string& argument) {

@@ -16,7 +16,11 @@ void require_same_driver(const WorkerSetup& setup, const DriverInfo& driver);
 void require_same_scene(const WorkerSetup& setup, const std::string& argument,
                         std::span<const SceneResult> results);
 
-/// Throws that Error.
+/// Takes over a cell that an earlier process has written. Throws Error where files of it are
+/// missing.
+void recall(const WorkerSetup& setup, const SceneResult& scene, const Cell& cell);
+
+/// Throws the Error of require_same_scene.
 [[noreturn]] void refuse_changed(const std::string& argument);
 
 } // namespace shadowproof

@@ -47,7 +47,8 @@ ResultsJson run_identity(const VerifyOptions& options, const std::vector<std::st
     return identity;
 }
 
-std::string run_name(const ResultsJson& identity) {
+std::string run_name(ResultsJson identity, const std::string& plan) {
+    identity["plan"] = plan;
     return fingerprint_of(std::string_view(results_text(identity))).xxh3.substr(0, 16);
 }
 
@@ -64,12 +65,17 @@ void require_same_process(const std::string& out, const std::string& cut_off,
     const ResultsJson was = ResultsJson::parse(cut_off, nullptr, false);
     const ResultsJson is = ResultsJson::parse(now);
     std::string what = "not by the same command";
-    for (const auto& [member, value] : is.items())
-        if (was.is_object() && was.value(member, ResultsJson()) != value) {
-            what = fmt::format("with other {} ({}, and now {})", member,
-                               shown(was.value(member, ResultsJson("none"))), shown(value));
-            break;
-        }
+    for (const char* member :
+         {"scenes", "techniques", "settings", "shard", "witness", "baseline", "costs", "program"}) {
+        const ResultsJson before =
+            was.is_object() ? was.value(member, ResultsJson()) : ResultsJson();
+        const ResultsJson now_is = is.value(member, ResultsJson());
+        if (before == now_is) continue;
+        what = fmt::format("with other {} ({}, and now {})", member,
+                           before.is_null() ? "none" : shown(before),
+                           now_is.is_null() ? "none" : shown(now_is));
+        break;
+    }
     throw Error(out, "cannot be gone on with: the run that was cut off was begun " + what,
                 "leave out --resume, and all is tried anew");
 }

@@ -13,8 +13,9 @@ namespace shadowproof {
 /// `arguments`: the settings as in Report. Throws Error where a file that it reads cannot be read.
 ResultsJson run_identity(const VerifyOptions& options, const std::vector<std::string>& arguments);
 
-/// The identity in a few characters.
-std::string run_name(const ResultsJson& identity);
+/// The identity in a few characters, with what was planned (plan_name): the same for shards that
+/// were cut of the same whole.
+std::string run_name(ResultsJson identity, const std::string& plan);
 
 /// The identity of one process of a run: with its shard, and the program itself, whose results
 /// another build could not read.

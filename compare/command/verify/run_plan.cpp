@@ -1,5 +1,9 @@
 #include "compare/command/verify/run_plan.h"
 
+#include "compare/output/manifest.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -72,6 +76,24 @@ std::vector<PlannedScene> part_of(const std::vector<PlannedScene>& whole, const 
                             [](const PlannedLight& light) { return light.tried; });
     });
     return part;
+}
+
+std::string plan_name(const std::vector<PlannedScene>& whole, const Costs& costs) {
+    std::string text;
+    const auto add = [&](const std::string& word) { text += word + '\0'; };
+    for (const PlannedScene& scene : whole) {
+        add(scene.argument);
+        for (const PlannedLight& light : scene.lights) {
+            add(light.name);
+            add(light.content);
+            add(fmt::format("{}", costs.of_scene(light.name, light.triangles)));
+            for (const std::string& technique : light.techniques) {
+                add(technique);
+                add(fmt::format("{}", costs.of_cell(light.name, technique, light.triangles)));
+            }
+        }
+    }
+    return fingerprint_of(std::string_view(text)).xxh3.substr(0, 16);
 }
 
 } // namespace shadowproof

@@ -13,7 +13,8 @@ constexpr std::size_t most_shards = 1'000'000;
 std::optional<std::size_t> parse_count(std::string_view text) {
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(text.begin(), text.end(), count);
-    if (error != std::errc() || end != text.end() || count < 1 || count > most_shards)
+    if (error != std::errc() || end != text.end() || count < 1 || count > most_shards ||
+        text.front() == '0')
         return std::nullopt;
     return count;
 }

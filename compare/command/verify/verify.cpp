@@ -82,7 +82,7 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
     if (options.shard)
         report.shard = ReportShard{.number = options.shard->number,
                                    .of = options.shard->of,
-                                   .run = run_name(identity),
+                                   .run = {},
                                    .baseline = baseline ? outline_of(baseline->json).dump() : ""};
     const Costs costs = options.shard ? known_costs(options, memory) : Costs();
     const std::string process = process_identity(identity, options);
@@ -98,6 +98,7 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
             return try_scenes(
                 {options, report, baseline, costs, resumed, console, stopwatch, folder, pieces});
         });
+    if (report.shard) report.shard->run = run_name(identity, verified.plan);
     report.gl = verified.gl;
     report.embree = verified.embree;
     report.scenes = std::move(verified.scenes);

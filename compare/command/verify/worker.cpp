@@ -40,11 +40,11 @@ struct Run {
 
 /// A scene whose truth is written.
 struct WrittenScene {
-    std::string digest{};
+    std::string content{}; ///< content_of the scene
     double milliseconds = 0;
 };
 
-SHADOWPROOF_SEND_ALL(WrittenScene, digest, milliseconds)
+SHADOWPROOF_SEND_ALL(WrittenScene, content, milliseconds)
 
 /// A cell, judged and written.
 struct DoneCell {
@@ -213,7 +213,7 @@ DoneCell done_cell(const Run& run, const Trial& trial, const SceneResult& result
                 return judge_and_write();
             },
             [](const DoneCell& made) { return is_final(made); });
-        if (!by_this_worker) setup.folder.recall_cell(result, done.cell);
+        if (!by_this_worker) recall(setup, result, done.cell);
         return done;
     } catch (const LostPiece& lost) {
         DoneCell done;
@@ -235,9 +235,9 @@ double judge_techniques(const Run& run, const Trial& trial,
     const WrittenScene written = setup.pieces.piece(result.name + ": writing", [&] {
         const Stopwatch writing;
         setup.folder.add_scene(result);
-        return WrittenScene{result.digest, writing.milliseconds()};
+        return WrittenScene{content_of(trial.scene), writing.milliseconds()};
     });
-    if (written.digest != result.digest) refuse_changed(result.argument);
+    if (written.content != content_of(trial.scene)) refuse_changed(result.argument);
     result.spent_milliseconds = since.milliseconds();
     double report_milliseconds = written.milliseconds;
     for (const Technique* technique : techniques) {
@@ -284,6 +284,11 @@ std::vector<const Technique*> only(std::vector<const Technique*> all,
     return all;
 }
 
+[[noreturn]] void refuse_replanned(const std::string& argument) {
+    throw Error(argument, "is another scene than when the parts of the run were planned",
+                "run all parts again, without --resume");
+}
+
 /// A scene with several lights is judged under each of them, with one result for each, unless one
 /// was chosen. The results are the last of the run. `part`: what a shard tries; null: all.
 double try_scene(const Run& run, const std::string& argument, const PlannedScene* part) {
@@ -306,15 +311,18 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
                     lights = scene->lights.size();
             }
             result.one_of_many = lights > 1;
-            if (result.one_of_many) scene->light = std::min(i, scene->lights.size() - 1);
+            if (planned != nullptr && request_of(setup.options).every_light &&
+                lights != scene->lights.size())
+                refuse_replanned(argument);
+            if (result.one_of_many) scene->light = i;
             techniques = techniques_for(setup.options, *scene);
             none_suits = techniques.empty() && planned == nullptr;
             if (none_suits) return;
             if (planned != nullptr) {
                 techniques = only(std::move(techniques), planned->techniques);
-                if (techniques.size() != planned->techniques.size() || techniques.empty())
-                    throw Error(argument, "has changed since the shards were planned",
-                                "run this shard again");
+                if (content_of(*scene) != planned->content ||
+                    techniques.size() != planned->techniques.size())
+                    refuse_replanned(argument);
             }
             result.name = planned != nullptr
                               ? planned->name
@@ -338,9 +346,10 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
     return report_milliseconds;
 }
 
-/// Shows what an earlier run has found.
+/// Shows what an earlier run has found, of which all files must be there.
 void announce(const WorkerSetup& setup, const DoneScene& done) {
     for (const SceneResult& result : done.results) {
+        for (const Cell& cell : result.cells) recall(setup, result, cell);
         announce(setup.console, result, setup.options.output.verbose);
         for (const Cell& cell : result.cells) announce(setup, result, cell);
     }
@@ -402,9 +411,11 @@ VerifiedScenes try_scenes(const WorkerSetup& setup) {
     require_same_driver(setup, verified.gl);
     Run run{setup, *gpu, verified.scenes};
     std::vector<PlannedScene> scenes;
-    if (setup.options.shard)
-        scenes = planned_shard(setup);
-    else
+    if (setup.options.shard) {
+        PlannedShard shard = planned_shard(setup);
+        scenes = std::move(shard.scenes);
+        verified.plan = shard.plan;
+    } else
         for (const std::string& argument : scenes_to_verify(setup.options))
             scenes.push_back({.argument = argument, .lights = {}});
     for (std::size_t i = 0; i < scenes.size(); ++i) {

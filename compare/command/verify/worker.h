@@ -55,9 +55,10 @@ struct VerifiedScenes {
     std::string embree{};
     std::vector<SceneResult> scenes{};
     double report_milliseconds = 0; ///< as in Report
+    std::string plan{};             ///< of a shard: the name of the whole run's
 };
 
-SHADOWPROOF_SEND_ALL(VerifiedScenes, gl, embree, scenes, report_milliseconds)
+SHADOWPROOF_SEND_ALL(VerifiedScenes, gl, embree, scenes, report_milliseconds, plan)
 
 /// Tries all scenes: each is a piece, and so is each cell. Throws where the run cannot go on.
 VerifiedScenes try_scenes(const WorkerSetup& setup);

@@ -114,6 +114,16 @@ TEST(ResultsIndex, refuses_what_is_refused_as_a_whole_in_the_same_words) {
     EXPECT_TRUE(compare(deep));
 }
 
+TEST(ResultsIndex, scenes_that_stand_there_twice_are_refused) {
+    const Scratch scratch;
+    std::string text = whole_text();
+    text.insert(text.find("\"scenes\""), "\"scenes\": [], ");
+    const fs::path file = scratch.file(text);
+    MemoryAccount memory;
+    EXPECT_NE(error_of([&] { index_results(file, memory); }).find("/scenes stands there twice"),
+              std::string::npos);
+}
+
 TEST(ResultsIndex, a_scene_that_is_too_large_for_memory_is_refused_while_it_is_read) {
     const Scratch scratch;
     std::string text = whole_text();
