@@ -196,8 +196,9 @@ test('shards are cut by the costs of an earlier run', () => {
                                         ['near_plane invert', 'near_plane zp_plus']]);
   assert.ok(results.scenes[0].techniques.every((cell) => cell.spent_ms > 0));
   assert.equal(shadowproof(['verify', 'near_plane', '--costs', 'costs.json']).code, 2);
-  assert.match(shadowproof(['verify', 'near_plane', '--shard', '1/2', '--costs', 'torn.gltf']).err,
-               /torn\.gltf: is cut off/);
+  for (const [file, words] of [['torn.gltf', /torn\.gltf: is cut off/],
+                               ['nowhere', /nowhere: there is no such file; name a results\.json/]])
+    assert.match(shadowproof(['verify', 'near_plane', '--shard', '1/2', '--costs', file]).err, words);
 });
 
 /** Verifies, and kills the whole program as a power cut would, when so many cells are done. */

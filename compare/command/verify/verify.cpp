@@ -78,13 +78,13 @@ int verify(const VerifyOptions& options, double waited, int watcher) {
         if (allowance.cause == Cause::edge)
             console.line("note: --allow edge changes nothing: edge pixels never fail");
     Report report = begin_report(options);
+    const Costs costs = options.shard ? known_costs(options, memory) : Costs();
     const ResultsJson identity = run_identity(options, report.arguments);
     if (options.shard)
         report.shard = ReportShard{.number = options.shard->number,
                                    .of = options.shard->of,
                                    .run = {},
                                    .baseline = baseline ? outline_of(baseline->json).dump() : ""};
-    const Costs costs = options.shard ? known_costs(options, memory) : Costs();
     const std::string process = process_identity(identity, options);
     const std::string cut_off = work_cut_off(options);
     if (!cut_off.empty()) require_same_process(options.output.out, cut_off, process);
