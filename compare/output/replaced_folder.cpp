@@ -191,9 +191,12 @@ bool ReplacedFolder::take_over() {
     Manifest intact;
     const std::vector<std::string> left =
         empty_out(content_, place_, [&](const std::string& name, const fs::path& file) {
+            // It is made when all else is there.
+            if (name == manifest_name && is_as_listed(record.begun, name, file))
+                return Fate::remove;
             // One whose end the journal does not have is whole: it has its name only then.
-            if (is_as_listed(record.begun, name, file) || is_as_listed(record.written, name, file))
-                intact.insert(*record.begun.find(name));
+            for (const Manifest* listed : {&record.written, &record.begun})
+                if (is_as_listed(*listed, name, file)) intact.insert(*listed->find(name));
             return Fate::leave;
         });
     if (left.size() != intact.size()) {
