@@ -8,7 +8,7 @@ namespace shadowproof {
 
 Work add_merge(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("merge", "One report of several runs: shards by scene or technique");
+        app.add_subcommand("merge", "One report of several runs: the shards of one, or others");
     const auto options = std::make_shared<RebuildOptions>();
     options->what = Rebuilt::several;
     command

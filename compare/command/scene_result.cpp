@@ -11,6 +11,20 @@
 
 namespace shadowproof {
 
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Cause>& causes) {
+    std::vector<std::string> names;
+    for (const Cause cause : causes) names.emplace_back(name_of(cause));
+    return names;
+}
+
+std::string content_of(const std::string& digest, const std::vector<std::string>& provokes) {
+    return fmt::format("{} {}", digest, fmt::join(provokes, " "));
+}
+
+} // namespace
+
 void describe(SceneResult& result, const Scene& scene) {
     result.light = chosen_light(scene);
     // A bundled scene is the same wherever it is installed, and so is its report.
@@ -22,8 +36,16 @@ void describe(SceneResult& result, const Scene& scene) {
     result.camera = scene.camera;
     result.far = finite_far(scene);
     result.meshes = scene.meshes;
-    for (const Cause cause : scene.provokes) result.provokes.emplace_back(name_of(cause));
+    result.provokes = names_of(scene.provokes);
     result.notes = scene.notes;
+}
+
+std::string content_of(const Scene& scene) {
+    return content_of(digest_of(scene), names_of(scene.provokes));
+}
+
+std::string content_of(const SceneResult& result) {
+    return content_of(result.digest, result.provokes);
 }
 
 std::string unique_name(std::span<const SceneResult> before, const std::string& wanted) {

@@ -12,6 +12,11 @@ namespace shadowproof {
 /// name nor its truth.
 void describe(SceneResult& result, const Scene& scene);
 
+/// What of a scene under its chosen light decides about its results: the truth's digest, and what
+/// the scene declares to provoke. The second is of a scene that was described.
+std::string content_of(const Scene& scene);
+std::string content_of(const SceneResult& result);
+
 /// A scene's name in the report, after others. Two files may have one stem: the second is "stem-2",
 /// in the results and in the report.
 std::string unique_name(std::span<const SceneResult> before, const std::string& wanted);

@@ -60,7 +60,7 @@ public:
         bytes_->advance();
         return *this;
     }
-    JsonByte operator++(int) { return ++*this; }
+    void operator++(int) { ++*this; }
     bool operator==(const JsonByte& other) const { return is_end() == other.is_end(); }
 
 private:

@@ -1,6 +1,7 @@
 #include "compare/report/growing_results.h"
 
 #include "compare/report/report.h"
+#include "compare/report/report_data.h"
 
 #include <fmt/format.h>
 
@@ -63,10 +64,7 @@ void GrowingResults::write_members(bool behind_scenes) {
 
 void GrowingResults::add(const ResultsJson& scene) {
     write((empty_ ? "\n  " : ",\n  ") + text_of(scene, 2));
-    ResultsJson without_maps = scene;
-    if (without_maps.contains("techniques"))
-        for (ResultsJson& cell : without_maps["techniques"]) cell.erase("cause_map");
-    script_.write((empty_ ? "" : ",") + without_maps.dump());
+    script_.write((empty_ ? "" : ",") + without_cause_maps(scene).dump());
     empty_ = false;
 }
 

@@ -98,11 +98,14 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
 
 std::string results_script(const std::string& results_json) {
     Json results = Json::parse(results_json);
-    for (Json& scene : results["scenes"]) {
-        if (!scene.contains("techniques")) continue;
-        for (Json& cell : scene["techniques"]) cell.erase("cause_map");
-    }
+    for (Json& scene : results["scenes"]) scene = without_cause_maps(std::move(scene));
     return "shadowproof.results(" + results.dump() + ");\n";
+}
+
+Json without_cause_maps(Json scene) {
+    if (scene.contains("techniques"))
+        for (Json& cell : scene["techniques"]) cell.erase("cause_map");
+    return scene;
 }
 
 std::string packed_cause_map(const Comparison& comparison, Memo* memo) {

@@ -4,6 +4,7 @@
 
 #include "compare/report/report.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace shadowproof {
@@ -20,6 +21,8 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo);
 /// results.js: the results as a script, without the cause maps, which the cells' data hold. Besides
 /// results.json the only file with times.
 std::string results_script(const std::string& results_json);
+/// A scene of the results as it stands there.
+nlohmann::ordered_json without_cause_maps(nlohmann::ordered_json scene);
 
 /// The cause map as it stands in results.json: packed, one byte per pixel.
 std::string packed_cause_map(const Comparison& comparison, Memo* memo = nullptr);

@@ -3,9 +3,6 @@
 #include "compare/command/scene_result.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
-#include "scenes/load/digest.h"
-
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <new>
@@ -30,12 +27,6 @@ std::vector<const Technique*> techniques_for(const VerifyOptions& options, const
     const bool named = !options.scenes.empty() && !options.technique.techniques.empty();
     if (!named) std::erase_if(chosen, [&](const Technique* one) { return !suits(*one, scene); });
     return chosen;
-}
-
-std::string content_of(const Scene& scene) {
-    std::string content = digest_of(scene);
-    for (const Cause cause : scene.provokes) content += fmt::format(" {}", name_of(cause));
-    return content;
 }
 
 std::string name_of_file(const std::string& argument) {

@@ -26,10 +26,6 @@ std::string name_of_file(const std::string& argument);
 std::string name_of_result(const Scene& scene, bool one_of_many,
                            std::span<const SceneResult> before);
 
-/// What of a scene under its chosen light decides about its results: the truth's digest, and what
-/// the scene declares to provoke.
-std::string content_of(const Scene& scene);
-
 struct PlannedShard {
     std::vector<PlannedScene> scenes{};
     std::string plan{}; ///< the name of the whole run's

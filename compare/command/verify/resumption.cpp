@@ -1,5 +1,6 @@
 #include "compare/command/verify/resumption.h"
 
+#include "compare/command/scene_result.h"
 #include "compare/command/verify/planning.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
@@ -34,11 +35,9 @@ void require_same_scene(const WorkerSetup& setup, const std::string& argument,
             contents.push_back(content_of(scene));
         }
     });
-    for (const SceneResult& result : results) {
-        std::string content = result.digest;
-        for (const std::string& cause : result.provokes) content += " " + cause;
-        if (std::ranges::find(contents, content) == contents.end()) refuse_changed(argument);
-    }
+    for (const SceneResult& result : results)
+        if (std::ranges::find(contents, content_of(result)) == contents.end())
+            refuse_changed(argument);
 }
 
 void recall(const WorkerSetup& setup, const SceneResult& scene, const Cell& cell) {

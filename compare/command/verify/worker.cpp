@@ -139,13 +139,17 @@ void announce(const WorkerSetup& setup, const SceneResult& scene, const Cell& ce
     setup.console.cell_details(cell, gate);
 }
 
-/// Plans and traces the chosen light of a scene; the truth lies in the result, which has its name.
-void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
-                 std::optional<Trial>& trial) {
-    const VerifyOptions& options = run.setup.options;
+/// Throws Error where the scene needs more memory than there is.
+void describe_admitted(const VerifyOptions& options, const Scene& scene, SceneResult& result) {
     require_scene(options.scene.memory, scene, Workload::comparison);
     require_memory(options.scene.memory, options.technique.asked);
     describe(result, scene);
+}
+
+/// Plans and traces the chosen light of a scene that was described; the truth lies in the result.
+void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
+                 std::optional<Trial>& trial) {
+    const VerifyOptions& options = run.setup.options;
     Plan plan = make_plan(scene);
     plan.asked = options.technique.asked;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
@@ -235,9 +239,9 @@ double judge_techniques(const Run& run, const Trial& trial,
     const WrittenScene written = setup.pieces.piece(result.name + ": writing", [&] {
         const Stopwatch writing;
         setup.folder.add_scene(result);
-        return WrittenScene{content_of(trial.scene), writing.milliseconds()};
+        return WrittenScene{content_of(result), writing.milliseconds()};
     });
-    if (written.content != content_of(trial.scene)) refuse_changed(result.argument);
+    if (written.content != content_of(result)) refuse_changed(result.argument);
     result.spent_milliseconds = since.milliseconds();
     double report_milliseconds = written.milliseconds;
     for (const Technique* technique : techniques) {
@@ -320,13 +324,14 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
             if (none_suits) return;
             if (planned != nullptr) {
                 techniques = only(std::move(techniques), planned->techniques);
-                if (content_of(*scene) != planned->content ||
-                    techniques.size() != planned->techniques.size())
-                    refuse_replanned(argument);
+                if (techniques.size() != planned->techniques.size()) refuse_replanned(argument);
             }
             result.name = planned != nullptr
                               ? planned->name
                               : name_of_result(*scene, result.one_of_many, run.scenes);
+            describe_admitted(setup.options, *scene, result);
+            if (planned != nullptr && planned->content != content_of(result))
+                refuse_replanned(argument);
             begin_trial(run, *scene, result, trial);
         });
         if (none_suits) continue;

@@ -1,34 +1,23 @@
 // A log of work that was cut off at any byte gives back all whole records before it.
 #include "compare/command/pieces/work_log.h"
 #include "scenes/error.h"
+#include "tests/scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
 namespace shadowproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of this test alone, gone with it.
 struct Scratch {
-    fs::path path = fs::temp_directory_path() / ("shadowproof-log-" + std::to_string(getpid()));
-    Scratch() { fs::remove(path); }
-    ~Scratch() { fs::remove(path); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
+    test::ScratchFolder folder{"log"};
+    fs::path path = folder.path / "progress";
 
-    std::string bytes() const {
-        std::ifstream stream(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
-    void put(const std::string& bytes) const {
-        std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-    }
+    std::string bytes() const { return test::text_in(path); }
+    void put(const std::string& bytes) const { test::put_text(path, bytes); }
 };
 
 Message done(const std::string& bytes) {

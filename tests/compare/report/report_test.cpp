@@ -3,12 +3,10 @@
 #include "compare/report/report_page.h"
 #include "scenes/error.h"
 #include "tests/compare/handmade_report.h"
+#include "tests/scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -27,25 +25,15 @@ void write_report(Report report, const fs::path& folder) {
     pages.finish(report);
 }
 
-/// A folder of this test alone, gone with it.
-struct Scratch {
-    fs::path path = fs::temp_directory_path() / ("shadowproof-report-" + std::to_string(getpid()));
-    Scratch() { fs::create_directories(path); }
-    ~Scratch() { fs::remove_all(path); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
+struct Scratch : test::ScratchFolder {
+    Scratch() : ScratchFolder("report") {}
 };
-
-std::string bytes_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::map<std::string, std::string> files_of(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
         if (entry.is_regular_file())
-            files[fs::relative(entry.path(), folder).string()] = bytes_of(entry.path());
+            files[fs::relative(entry.path(), folder).string()] = test::text_in(entry.path());
     return files;
 }
 
@@ -193,12 +181,13 @@ TEST(ReportFolder, times_stand_in_the_results_and_nowhere_else) {
 TEST(ReportFolder, results_js_hands_over_what_results_json_says_but_for_the_cause_maps) {
     const Scratch scratch;
     write_report(handmade_report(), scratch.path / "report");
-    auto results = nlohmann::ordered_json::parse(bytes_of(scratch.path / "report/results.json"));
+    auto results =
+        nlohmann::ordered_json::parse(test::text_in(scratch.path / "report/results.json"));
     std::size_t maps = 0;
     for (auto& scene : results.at("scenes"))
         for (auto& cell : scene.at("techniques")) maps += cell.erase("cause_map");
     EXPECT_GT(maps, 0U);
-    EXPECT_EQ(bytes_of(scratch.path / "report/results.js"),
+    EXPECT_EQ(test::text_in(scratch.path / "report/results.js"),
               "shadowproof.results(" + results.dump() + ");\n");
 }
 
@@ -215,7 +204,7 @@ TEST(ReportFolder, two_writings_have_the_same_bytes) {
 TEST(ReportFolder, every_picture_that_results_name_is_there) {
     const Scratch scratch;
     write_report(handmade_report(), scratch.path / "report");
-    const auto json = nlohmann::json::parse(bytes_of(scratch.path / "report/results.json"));
+    const auto json = nlohmann::json::parse(test::text_in(scratch.path / "report/results.json"));
     for (const auto& scene : json["scenes"]) {
         EXPECT_TRUE(fs::exists(scratch.path / "report" / scene["images"]["truth"]));
         for (const auto& image : scene["techniques"][0]["images"])
@@ -239,10 +228,10 @@ TEST(ReportFolder, a_folder_that_is_no_report_is_left_alone) {
     fs::create_directories(scratch.path / "holiday");
     std::ofstream(scratch.path / "holiday/results.json") << "{\"schema\":\"mine\"}";
     EXPECT_THROW(write_report(handmade_report(), scratch.path / "holiday"), Error);
-    EXPECT_EQ(bytes_of(scratch.path / "holiday/results.json"), "{\"schema\":\"mine\"}");
+    EXPECT_EQ(test::text_in(scratch.path / "holiday/results.json"), "{\"schema\":\"mine\"}");
     std::ofstream(scratch.path / "file") << "text";
     EXPECT_THROW(write_report(handmade_report(), scratch.path / "file"), Error);
-    EXPECT_EQ(bytes_of(scratch.path / "file"), "text");
+    EXPECT_EQ(test::text_in(scratch.path / "file"), "text");
 }
 
 TEST(ReportFolder, one_that_is_dropped_leaves_the_older_report_and_nothing_else) {

@@ -5,36 +5,24 @@
 #include "compare/results/results_index.h"
 #include "scenes/error.h"
 #include "tests/compare/handmade_report.h"
+#include "tests/scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
+#include <functional>
 
 namespace shadowproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of this test alone, gone with it.
-struct Scratch {
-    fs::path path = fs::temp_directory_path() / ("shadowproof-index-" + std::to_string(getpid()));
-    Scratch() { fs::create_directories(path); }
-    ~Scratch() { fs::remove_all(path); }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-
+struct Scratch : test::ScratchFolder {
+    Scratch() : ScratchFolder("index") {}
     fs::path file(const std::string& text) const {
-        std::ofstream(path / "results.json", std::ios::binary | std::ios::trunc) << text;
+        test::put_text(path / "results.json", text);
         return path / "results.json";
     }
 };
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::string error_of(const std::function<void()>& work) {
     try {
@@ -153,9 +141,10 @@ TEST(GrowingResults, have_the_bytes_of_those_that_are_written_at_once) {
             results.end();
             folder.finish();
         }
-        EXPECT_EQ(text_of(scratch.path / "report/results.json"), results_text(whole));
-        EXPECT_EQ(text_of(scratch.path / "report/again.json"), results_text(whole));
-        EXPECT_EQ(text_of(scratch.path / "report/results.js"), results_script(results_text(whole)));
+        EXPECT_EQ(test::text_in(scratch.path / "report/results.json"), results_text(whole));
+        EXPECT_EQ(test::text_in(scratch.path / "report/again.json"), results_text(whole));
+        EXPECT_EQ(test::text_in(scratch.path / "report/results.js"),
+                  results_script(results_text(whole)));
     }
 }
 
