@@ -21,16 +21,6 @@ constexpr double v = float_roundoff;
 
 using PictureTriangle = std::array<PicturePoint, 3>;
 
-/// The triangles that are set up: a fan over what clipping leaves.
-std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
-                                    const CoveredPixel& pixel) {
-    const std::vector<PicturePoint> polygon = clipped_polygon(camera, corners, pixel.drawing);
-    std::vector<PictureTriangle> fan;
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-        fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
-    return fan;
-}
-
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -236,10 +226,19 @@ std::array<glm::dvec4, 3> far_corners(const Scene& casters, const std::vector<gl
 std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
                                     const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
-    return set_up(scene.camera, {at(0), at(1), at(2)}, pixel);
+    return set_up(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
 }
 
 } // namespace
+
+std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
+                                    const Drawing& drawing) {
+    const std::vector<PicturePoint> polygon = clipped_polygon(camera, corners, drawing);
+    std::vector<PictureTriangle> fan;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+        fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    return fan;
+}
 
 double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     return largest_error(scene.camera, set_up(scene, triangle, pixel), pixel);
@@ -265,6 +264,16 @@ bool may_be_flipped(const PictureTriangle& triangle, double reach) {
             move(triangle[k]) * glm::length(other.place - one.place) + move(one) * move(other);
     }
     return !(std::abs(area) > change); // or no number
+}
+
+// A, as error_from has it, is off by 3 v of its terms and v of itself, whichever corner is first:
+// no term is larger than the product of the triangle's extents.
+bool may_have_no_area(const PictureTriangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    const glm::dvec2 extent = glm::max(glm::max(a.place, b.place), c.place) -
+                              glm::min(glm::min(a.place, b.place), c.place);
+    const double area = twice_area(triangle);
+    return area <= v * (6 * extent.x * extent.y + area);
 }
 
 bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
@@ -323,7 +332,7 @@ double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& face, const CoveredPixel& pixel) {
     std::vector<PictureTriangle> triangles;
     const auto add = [&](const std::array<glm::dvec4, 3>& corners) {
-        for (const PictureTriangle& triangle : set_up(casters.camera, corners, pixel))
+        for (const PictureTriangle& triangle : set_up(casters.camera, corners, pixel.drawing))
             triangles.push_back(triangle);
     };
     if (face.part == Crossing::Part::light_cap) {

@@ -42,6 +42,16 @@ bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPix
 /// Whether the same may reverse the winding of a triangle of the picture.
 bool may_be_flipped(const std::array<PicturePoint, 3>& triangle, double reach);
 
+/// The triangles that are set up of one with homogeneous world points (p, w): a fan over what
+/// clipping leaves.
+std::vector<std::array<PicturePoint, 3>>
+set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners, const Drawing& drawing);
+
+/// Whether set-up, whose floats are not snapped, may find no area in a triangle whose corners lie
+/// where they should. Then 1 / A is infinite, and the depth no number or any: also where that of
+/// all corners is the same, as 0 / 0 is none.
+bool may_have_no_area(const std::array<PicturePoint, 3>& triangle);
+
 /// The largest error for a triangle of the picture, over all pixels within `reach` of it.
 double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double reach);
 

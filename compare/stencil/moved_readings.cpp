@@ -1,6 +1,8 @@
 #include "compare/stencil/pixel_readings.h"
 #include "reference/predict/prediction.h"
 
+#include <algorithm>
+
 namespace shadowproof {
 
 void add_moved(const Counting& counting, std::int64_t least, std::int64_t most, bool by_depth,
@@ -20,14 +22,17 @@ void add_moved(const Counting& counting, std::int64_t least, std::int64_t most, 
 
 void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
-    const std::int64_t most = pixel.volumes().counted.edge_on_sides(pixel.around().corners);
+    const std::int64_t edge_on = pixel.volumes().counted.edge_on_sides(pixel.around().corners);
+    // Those seen edge-on are slivers, too.
+    const std::int64_t most = std::max(edge_on, pixel.slivers_of_any_depth().sides);
     add_moved(pixel.counting(), -most, most, false, readings);
 }
 
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
     const StepRange steps = pixel.steps_of_slivers();
-    add_moved(pixel.counting(), steps.least, steps.most, false, readings);
+    const std::int64_t caps = pixel.slivers_of_any_depth().caps;
+    add_moved(pixel.counting(), steps.least - caps, steps.most + caps, false, readings);
 }
 
 } // namespace shadowproof

@@ -273,4 +273,9 @@ StepRange PixelFaces::steps_of_slivers() const {
     return steps;
 }
 
+Slivers::Number PixelFaces::slivers_of_any_depth() const {
+    return volumes_.slivers != nullptr ? volumes_.slivers->at(depths_.covered_pixel())
+                                       : Slivers::Number{};
+}
+
 } // namespace shadowproof

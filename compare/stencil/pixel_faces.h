@@ -6,6 +6,7 @@
 
 #include "compare/driver/neighbourhood.h"
 #include "compare/stencil/face_depths.h"
+#include "compare/stencil/slivers.h"
 #include "reference/predict/prediction.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
@@ -28,7 +29,8 @@ struct PixelVolumes {
     std::span<const FlatVolume> flat{}; ///< see Volumes::flat
     std::int32_t counted_at_eye = 0;    ///< shadow depths of the eye
     std::int32_t ideal_at_eye = 0;
-    const Volumes* masked = nullptr; ///< these, where the scene has masks
+    const Volumes* masked = nullptr;  ///< these, where the scene has masks
+    const Slivers* slivers = nullptr; ///< of the counted ones; null: not asked for
 };
 
 /// What the pixel shows if it is covered as one ray is.
@@ -95,6 +97,8 @@ public:
     /// By how much light caps that are slivers in the picture may change the count, where their
     /// surfaces are not seen.
     StepRange steps_of_slivers() const;
+    /// How many other faces are slivers there, of any depth.
+    Slivers::Number slivers_of_any_depth() const;
 
     const PixelVolumes& volumes() const { return volumes_; }
     const Counting& counting() const { return frame_.counted->counting; }

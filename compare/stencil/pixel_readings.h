@@ -25,12 +25,12 @@ void add_mixed_samples(const PixelFaces& pixel, std::span<const RayTruth> truth,
 void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
                 std::vector<Reading>& readings);
 
-/// Each reading that is there, with sides that are seen edge-on: no sample's ray meets these, but
-/// snapping may make slivers of them that face either way.
+/// Each reading that is there, with sides that are seen edge-on, or over an edge that points at the
+/// light: no sample's ray meets these, but snapping may make slivers of them that face either way.
 void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings);
 
-/// Each reading that is there, with light caps that are slivers, which snapping may flip, or whose
-/// surface may come out behind what is shown.
+/// Each reading that is there, with caps that are slivers: light caps, which snapping may flip, or
+/// whose surface may come out behind what is shown, and dark caps, which may be drawn at any depth.
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings);
 
 /// Each reading that is there, with from `least` to `most` more faces in front of the surface.

@@ -51,8 +51,9 @@ std::array<glm::dvec3, 4> corners_around(const Camera& camera, const Region& reg
 
 /// Finds what may be drawn at a pixel: what is true in a neighbourhood, the pixel's own or one
 /// across a coarse outline. The ledgers must hold its rays.
-Finding find_in_band(const CountedClaim& judged, PixelPlace p, const Neighbourhood& around,
-                     RegionLedger& counted, RegionLedger& ideal, std::span<const RayTruth> truth) {
+Finding find_in_band(const CountedClaim& judged, const Slivers& slivers, PixelPlace p,
+                     const Neighbourhood& around, RegionLedger& counted, RegionLedger& ideal,
+                     std::span<const RayTruth> truth) {
     const Volumes& volumes = judged.prediction.volumes();
     const PixelVolumes here{counted,
                             volumes.casters(),
@@ -61,7 +62,8 @@ Finding find_in_band(const CountedClaim& judged, PixelPlace p, const Neighbourho
                             volumes.flat(),
                             judged.prediction.depths().at_eye,
                             judged.prediction.ideal_depths().at_eye,
-                            has_masks(judged.traced.scene()) ? &volumes : nullptr};
+                            has_masks(judged.traced.scene()) ? &volumes : nullptr,
+                            &slivers};
     const PixelBand band =
         find_band(judged.tracer(), here, judged.frame, judged.traced.far(),
                   judged.frame.triangle.at(p.x, p.y), around, truth,
@@ -82,7 +84,8 @@ public:
           claim_{{traced, frame},
                  prediction_,
                  receiving_triangles(traced.scene()),
-                 sufficient_depths(traced.scene(), frame.depth_model)} {}
+                 sufficient_depths(traced.scene(), frame.depth_model)},
+          slivers_(traced.scene(), prediction_.volumes(), frame, traced.far()) {}
 
     std::string_view evidence() const override { return "counter"; }
 
@@ -116,8 +119,8 @@ public:
             RegionLedger ideal_here(ideal, around[i].corners);
             const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
             truths = truths.subspan(truth.size());
-            region.findings[i] =
-                find_in_band(claim_, region.places[i], around[i], counted_here, ideal_here, truth);
+            region.findings[i] = find_in_band(claim_, slivers_, region.places[i], around[i],
+                                              counted_here, ideal_here, truth);
             excuse_where_displaced(region.places[i], region.findings[i]);
         }
     }
@@ -126,7 +129,7 @@ public:
                         std::span<const RayTruth> truth) const override {
         RegionLedger counted = prediction_.volumes().ledger(around.corners);
         RegionLedger ideal = prediction_.volumes().ideal_ledger(around.corners);
-        Finding finding = find_in_band(claim_, p, around, counted, ideal, truth);
+        Finding finding = find_in_band(claim_, slivers_, p, around, counted, ideal, truth);
         excuse_where_displaced(p, finding);
         return finding;
     }
@@ -174,6 +177,7 @@ public:
 private:
     Prediction prediction_;
     CountedClaim claim_;
+    Slivers slivers_;
     mutable std::once_flag outlines_made_;
     mutable std::optional<CoarseOutlines> outlines_; ///< made when they are first asked for
 

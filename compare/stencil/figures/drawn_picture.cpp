@@ -53,10 +53,13 @@ glm::dvec4 PicturedFaces::at_infinity(const glm::dvec3& point) const {
     return {light_.w * point - glm::dvec3(light_), 0};
 }
 
-double PicturedFaces::margin_by_size(std::size_t number) const {
+std::array<glm::dvec4, 3> PicturedFaces::corners(std::size_t number) const {
     const glm::uvec3& corners = picture_.faces.faces[number].corners;
-    return shadowproof::margin_by_size(making_,
-                                       {place(corners.x), place(corners.y), place(corners.z)});
+    return {place(corners.x), place(corners.y), place(corners.z)};
+}
+
+double PicturedFaces::margin_by_size(std::size_t number) const {
+    return shadowproof::margin_by_size(making_, corners(number));
 }
 
 PicturedFace PicturedFaces::volume_face(const DrawnFace& drawn) const {

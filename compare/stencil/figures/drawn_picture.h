@@ -7,6 +7,7 @@
 #include "scenes/image.h"
 #include "scenes/scene.h"
 
+#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -41,6 +42,8 @@ public:
         return number < faces.size() ? volume_face(faces[number])
                                      : layer(picture_.faces.near_layers[number - faces.size()]);
     }
+    /// Homogeneous world points (p, w) of a volume's face.
+    std::array<glm::dvec4, 3> corners(std::size_t number) const;
     /// Of a volume's face: see driver/pictured_face.h.
     double margin_by_size(std::size_t number) const;
 

@@ -1,10 +1,12 @@
 // Set-up of faces that a border of the picture cuts: which thin triangles are left depends on the
 // order of corners in which a face is drawn.
 #include "compare/driver/setup_error.h"
+#include "tests/dice.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace shadowproof {
 namespace {
@@ -49,6 +51,47 @@ TEST_F(CutFace, of_a_light_cap_is_drawn_as_the_triangle_was_before_it_was_flippe
 TEST_F(CutFace, of_a_dark_cap_is_drawn_from_the_other_side) {
     const std::vector<glm::vec3> far = drawn({}).positions;
     EXPECT_EQ(error_of_cap(Crossing::Part::dark_cap, false, &far), error_of({2, 1, 0}));
+}
+
+/// The driver's own arithmetic, over thin triangles of floats, finds no area in some: each of those
+/// is told.
+TEST(SetUp, that_finds_no_area_is_foreseen) {
+    Dice dice(1);
+    int without = 0;
+    for (int i = 0; i < 200'000; ++i) {
+        std::array<PicturePoint, 3> triangle;
+        std::array<glm::vec2, 3> place;
+        const double x = dice.between(0, 500);
+        const double slope = dice.between(-2, 2);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double along = dice.between(0, 30);
+            const double off = dice.between(-1, 1) * std::pow(2, -20 - int(dice.below(20)));
+            place[k] = glm::vec2(x + along, 300 + slope * along + off);
+            triangle[k].place = glm::dvec2(place[k]);
+        }
+        const glm::vec2 d01 = place[0] - place[1];
+        const glm::vec2 d20 = place[2] - place[0];
+        const volatile float one = d01.x * d20.y; // rounded by itself
+        const volatile float other = d20.x * d01.y;
+        if (one - other != 0) continue;
+        ++without;
+        EXPECT_TRUE(may_have_no_area(triangle)) << i;
+    }
+    EXPECT_GT(without, 100);
+}
+
+/// A thousandth of a pixel is an area.
+TEST(SetUp, finds_an_area_where_there_is_one) {
+    const auto with_height = [](double height) {
+        std::array<PicturePoint, 3> triangle;
+        triangle[1].place = {10, 10};
+        triangle[2].place = {5, 5 + height};
+        return triangle;
+    };
+    EXPECT_TRUE(may_have_no_area(with_height(0)));
+    EXPECT_TRUE(may_have_no_area(with_height(1e-6)));
+    EXPECT_FALSE(may_have_no_area(with_height(1e-5)));
+    EXPECT_FALSE(may_have_no_area(with_height(1e-3)));
 }
 
 } // namespace

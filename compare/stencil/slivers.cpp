@@ -1,0 +1,63 @@
+#include "compare/stencil/slivers.h"
+
+#include "compare/stencil/figures/drawn_picture.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace shadowproof {
+
+namespace {
+
+/// Where corners may be drawn further aside than snapping moves them, the face is coarse, and
+/// judged as such (coarse_counts).
+bool is_fine(const std::array<PicturePoint, 3>& part, double half_step) {
+    return std::ranges::all_of(
+        part, [&](const PicturePoint& corner) { return corner.place_error <= half_step; });
+}
+
+} // namespace
+
+// The two triangles of a side do not overlap, or have opposite signs, wherever they are drawn: with
+// one of them counted and the other not, it still counts once.
+std::vector<Slivers::Sliver> Slivers::find() const {
+    const DrawnFaces drawn =
+        drawn_faces(volumes_, frame_.counted->counting, frame_.counted->volume_faces);
+    const Scene& casters = volumes_.drawn_casters();
+    const DrawnPicture picture{casters, volumes_.far_ends(), drawn, frame_, far_};
+    const PicturedFaces pictured(picture);
+    const PictureMaking making = making_of(picture);
+    std::vector<Sliver> found;
+    Sliver sliver;
+    for (std::size_t i = 0; i < drawn.faces.size(); ++i) {
+        const DrawnFace& face = drawn.faces[i];
+        const bool is_second_of_side = face.other_corner && !face.first_of_side;
+        if (!is_second_of_side) sliver = {face.part == DrawnFace::Part::side, face.copies};
+        const bool is_surface =
+            face.part == DrawnFace::Part::light_cap && face.triangle < scene_.triangles.size();
+        if (!is_surface)
+            for (const std::array<PicturePoint, 3>& part :
+                 set_up(casters.camera, pictured.corners(i), making.drawing))
+                if (is_fine(part, making.half_step) && may_have_no_area(part))
+                    sliver.parts.push_back(part);
+        const bool is_whole = !face.other_corner || is_second_of_side;
+        if (is_whole && !sliver.parts.empty()) found.push_back(std::move(sliver));
+    }
+    return found;
+}
+
+Slivers::Number Slivers::at(const CoveredPixel& pixel) const {
+    std::call_once(found_, [&] { slivers_ = find(); });
+    Number number;
+    if (slivers_.empty()) return number;
+    const glm::dvec2 place = project(scene_.camera, scene_.camera.eye + pixel.direction);
+    for (const Sliver& sliver : slivers_)
+        if (std::ranges::any_of(sliver.parts, [&](const std::array<PicturePoint, 3>& part) {
+                return may_hold({part.begin(), part.end()}, place,
+                                std::numbers::sqrt2 * pixel.reach);
+            }))
+            (sliver.is_side ? number.sides : number.caps) += sliver.copies;
+    return number;
+}
+
+} // namespace shadowproof
