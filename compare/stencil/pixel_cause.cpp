@@ -104,11 +104,8 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
         return {Cause::edge, {}};
 
     const std::uint32_t shown = judged.frame.triangle.at(p.x, p.y);
-    // The truth of the surface shown, where it is seen next to the centre.
     const auto seen = std::find_if(truth.begin(), truth.end(),
                                    [&](const RayTruth& t) { return t.triangle == shown; });
-    const Visibility truth_of_shown =
-        seen != truth.end() ? seen->visibility : judged.truth().visibility.at(p.x, p.y);
     std::optional<PixelCause> algorithmic;
     bool precision = false;
     bool mended_exactly = false; // without rounding, whatever else would mend it
@@ -125,6 +122,10 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
             by_depth = by_depth && reading.by_depth;
             continue;
         }
+        // The truth of the surface shown, where it is seen next to the centre; through a gap it is
+        // seen on no ray.
+        const Visibility truth_of_shown =
+            seen != truth.end() ? seen->visibility : claim_by(reading.ideal);
         if (!algorithmic)
             algorithmic = cause_of_reading(judged, reading, shown, around, truth_of_shown);
         if (!algorithmic && reading.by_rounding &&

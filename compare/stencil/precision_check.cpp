@@ -67,11 +67,12 @@ public:
         });
     }
 
-    /// Whether a face meets the surface shown, or a clipping plane, within a pixel; or rounding may
-    /// displace the line in which both meet by more than a pixel.
+    /// Whether a face, be it of a flat volume, meets the surface shown, or a clipping plane, within
+    /// a pixel; or rounding may displace the line in which both meet by more than a pixel.
     bool may_reorder_a_face() const {
         return any_sample([&](const Sample& sample) {
-            return std::ranges::any_of(
+            return pixel_.flat_volumes_around(sample) > 0 ||
+                   std::ranges::any_of(
                        sample.crossings,
                        [&](const Crossing& face) { return meets_clip(face, sample.direction); }) ||
                    std::ranges::any_of(pixel_.candidates(sample, pixel_.clip_depths().front()),

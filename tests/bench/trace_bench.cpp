@@ -59,6 +59,7 @@ BENCHMARK(exact_over_float)
     ->ArgNames({"triangles", "width", "height"})
     ->ArgsProduct({{10'000, 100'000, 1'000'000}, {512}, {512}})
     ->ArgsProduct({{10'000, 100'000, 1'000'000}, {1920}, {1080}})
+    ->ArgsProduct({{1'000'000, 10'000'000}, {3840}, {2160}})
     ->Unit(benchmark::kMillisecond)
     ->Iterations(9)
     ->UseManualTime();

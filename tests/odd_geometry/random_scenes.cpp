@@ -146,11 +146,11 @@ std::string add_light(Scene& scene, Dice& dice) {
     return "a spot " + place.words;
 }
 
-std::string set_camera(Scene& scene, Dice& dice, bool on_casters) {
+std::string set_camera(Scene& scene, Dice& dice, const Oddities& oddities) {
     Camera& camera = scene.camera;
-    camera.width = 24;
-    camera.height = 20;
-    const Place eye = odd_place(scene, dice, 6, on_casters);
+    camera.width = 24 * oddities.scale;
+    camera.height = 20 * oddities.scale;
+    const Place eye = odd_place(scene, dice, 6, oddities.eyes_on_casters);
     if (dice.one_in(4)) { // level, as a sun at noon is hard on it
         camera.eye = eye.at;
         camera.forward = {0, 0, -1};
@@ -181,7 +181,7 @@ Scene random_scene(Dice& dice, const Oddities& oddities) {
     const std::string_view on_quarters =
         oddities.bodies_on_quarters ? "all on quarters, " : "soups on quarters, ";
     scene.name = fmt::format("{}{}{}; {}", bodies, lattice ? on_quarters : "", light,
-                             set_camera(scene, dice, oddities.eyes_on_casters));
+                             set_camera(scene, dice, oddities));
     return scene;
 }
 

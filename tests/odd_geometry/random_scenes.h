@@ -11,10 +11,11 @@ namespace shadowproof::tests {
 struct Oddities {
     bool eyes_on_casters = false; ///< on vertices, edges and faces, or an ulp from there
     bool bodies_on_quarters =
-        false; ///< as soups are: the light may lie in the planes of many faces
+        false;     ///< as soups are: the light may lie in the planes of many faces
+    int scale = 1; ///< of the picture: so many times 24x20 pixels
 };
 
-/// Its name says in words what it is. 24x20 pixels; it declares nothing.
+/// Its name says in words what it is. It declares nothing.
 Scene random_scene(Dice& dice, const Oddities& oddities);
 
 } // namespace shadowproof::tests

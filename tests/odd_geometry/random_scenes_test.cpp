@@ -17,6 +17,7 @@ namespace {
 
 constexpr Oddities from_casters{.eyes_on_casters = true};
 constexpr Oddities on_quarters{.eyes_on_casters = true, .bodies_on_quarters = true};
+constexpr Oddities larger{.scale = 6};
 
 void try_random_scenes(const Oddities& oddities, std::uint64_t count) {
     Gpu gpu(GlPlatform::osmesa);
@@ -54,6 +55,11 @@ TEST(OddGeometry, random_scenes_seen_from_casters_are_refused_or_explained_to_th
 
 TEST(OddGeometry, random_bodies_on_quarters_are_refused_or_explained_to_the_last_pixel) {
     try_random_scenes(on_quarters, 250);
+}
+
+/// More pixels meet more of what is rare.
+TEST(OddGeometry, random_scenes_in_larger_pictures_are_refused_or_explained_to_the_last_pixel) {
+    try_random_scenes(larger, 60);
 }
 
 Scene scene_of_seed(std::uint64_t seed, const Oddities& oddities) {
@@ -194,6 +200,28 @@ TEST(OddGeometry, a_dark_cap_without_area_is_drawn_at_any_depth) {
 TEST(OddGeometry, a_side_over_an_edge_that_points_at_the_light_is_drawn_at_any_depth) {
     try_kept({2868}, {});
     expect_free(2868, "zfail_clamp", {20, 9}, {254, 255, 0, 1, 2}, {3, 4, 252, 253}, {21, 10});
+}
+
+/// What is seen through a gap between a surface and the background is seen on no ray: whether it is
+/// truly lit follows from its own shadow depth, not from the background.
+TEST(OddGeometry, what_shows_through_a_gap_is_judged_by_its_own_truth) {
+    const TracedScene traced(scene_of_seed(20121, larger));
+    expect_cause(traced, "zfail_no_light_cap", {51, 61}, Cause::cap, {2, 255});
+    expect_cause(traced, "zfail_saturate", {51, 61}, Cause::counter, {2, 255});
+}
+
+/// The lamp lies in the plane of a prism's end, whose volumes of finite length lie in that plane,
+/// too, and are empty: no depth suffices to tell their faces from the end.
+TEST(OddGeometry, a_flat_volume_in_the_surface_excuses_precision_at_any_depth) {
+    const TracedScene traced(scene_of_seed(21112, larger));
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("zfail_truncated"), traced.scene, traced.plan, gpu);
+    const Comparison comparison = compared(traced, frame);
+    EXPECT_EQ(pixels_of(comparison, Cause::precision), 29U);
+    EXPECT_EQ(comparison.too_near, 0U);
+    EXPECT_FALSE(is_caught(traced, frame, {77, 43}, 0));
+    for (const std::uint32_t counter : {3U, 252U})
+        EXPECT_TRUE(is_caught(traced, frame, {77, 43}, counter)) << counter;
 }
 
 /// Seen from the ray's plane, a triangle is met or not, even beyond the ray's end.
