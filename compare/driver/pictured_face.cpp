@@ -297,13 +297,17 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
     return face;
 }
 
+Drawing drawing_of_layers(Drawing drawing) {
+    drawing.near = 0;
+    drawing.far = infinity;
+    return drawing;
+}
+
 PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewCorner>& most,
                             const std::vector<ViewCorner>& least) {
     PicturedFace face;
     face.in_front = true;
-    Drawing drawing = making.drawing;
-    drawing.near = 0; // it lies in the near plane, and is not clipped there
-    drawing.far = infinity;
+    const Drawing drawing = drawing_of_layers(making.drawing);
     if (!std::all_of(most.begin(), most.end(), has_direction)) {
         face.possible = ConvexRegion::everywhere();
         face.margin = infinity;

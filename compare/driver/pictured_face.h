@@ -103,6 +103,10 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
 /// light.
 double margin_by_size(const PictureMaking& making, const std::array<glm::dvec4, 3>& corners);
 
+/// How layers in front of everything are drawn: they lie in the near plane, and are not clipped
+/// there.
+Drawing drawing_of_layers(Drawing drawing);
+
 /// A layer in front of everything. `most`, `least`: what clipping leaves of it.
 PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewCorner>& most,
                             const std::vector<ViewCorner>& least);

@@ -233,7 +233,10 @@ std::vector<PictureTriangle> set_up(const Scene& scene, std::uint32_t triangle,
 
 std::vector<PictureTriangle> set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners,
                                     const Drawing& drawing) {
-    const std::vector<PicturePoint> polygon = clipped_polygon(camera, corners, drawing);
+    return fan_of(clipped_polygon(camera, corners, drawing));
+}
+
+std::vector<PictureTriangle> fan_of(const std::vector<PicturePoint>& polygon) {
     std::vector<PictureTriangle> fan;
     for (std::size_t i = 2; i < polygon.size(); ++i)
         fan.push_back({polygon[0], polygon[i - 1], polygon[i]});

@@ -47,6 +47,9 @@ bool may_be_flipped(const std::array<PicturePoint, 3>& triangle, double reach);
 std::vector<std::array<PicturePoint, 3>>
 set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners, const Drawing& drawing);
 
+/// The same of what clipping has left.
+std::vector<std::array<PicturePoint, 3>> fan_of(const std::vector<PicturePoint>& polygon);
+
 /// Whether set-up, whose floats are not snapped, may find no area in a triangle whose corners lie
 /// where they should. Then 1 / A is infinite, and the depth no number or any: also where that of
 /// all corners is the same, as 0 / 0 is none.

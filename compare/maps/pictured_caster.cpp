@@ -52,14 +52,6 @@ PicturePoint pictured(const Camera& camera, const ViewCorner& corner) {
     return point;
 }
 
-/// The triangles that a polygon is drawn as: a fan.
-std::vector<std::array<PicturePoint, 3>> fan_of(const std::vector<PicturePoint>& polygon) {
-    std::vector<std::array<PicturePoint, 3>> fan;
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-        fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
-    return fan;
-}
-
 } // namespace
 
 std::vector<PicturePoint> pictured_in_parallel(const Scene& scene, const Camera& camera,

@@ -31,8 +31,9 @@ void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings) 
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings) {
     sort_out(readings);
     const StepRange steps = pixel.steps_of_slivers();
-    const std::int64_t caps = pixel.slivers_of_any_depth().caps;
-    add_moved(pixel.counting(), steps.least - caps, steps.most + caps, false, readings);
+    const Slivers::Number others = pixel.slivers_of_any_depth();
+    add_moved(pixel.counting(), steps.least - others.caps, steps.most + others.caps + others.layers,
+              false, readings);
 }
 
 } // namespace shadowproof

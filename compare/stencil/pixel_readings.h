@@ -30,7 +30,8 @@ void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
 void add_edge_on_sides(const PixelFaces& pixel, std::vector<Reading>& readings);
 
 /// Each reading that is there, with caps that are slivers: light caps, which snapping may flip, or
-/// whose surface may come out behind what is shown, and dark caps, which may be drawn at any depth.
+/// whose surface may come out behind what is shown; dark caps, which may be drawn at any depth; and
+/// layers in the near plane.
 void add_slivers(const PixelFaces& pixel, std::vector<Reading>& readings);
 
 /// Each reading that is there, with from `least` to `most` more faces in front of the surface.

@@ -9,9 +9,11 @@ namespace shadowproof {
 
 namespace {
 
+using Triangle = std::array<PicturePoint, 3>;
+
 /// Where corners may be drawn further aside than snapping moves them, the face is coarse, and
 /// judged as such (coarse_counts).
-bool is_fine(const std::array<PicturePoint, 3>& part, double half_step) {
+bool is_fine(const Triangle& part, double half_step) {
     return std::ranges::all_of(
         part, [&](const PicturePoint& corner) { return corner.place_error <= half_step; });
 }
@@ -28,20 +30,35 @@ std::vector<Slivers::Sliver> Slivers::find() const {
     const PicturedFaces pictured(picture);
     const PictureMaking making = making_of(picture);
     std::vector<Sliver> found;
-    Sliver sliver;
+    const auto add_parts = [&](const std::vector<Triangle>& parts, const auto& is_sliver,
+                               Sliver& sliver) {
+        for (const Triangle& part : parts)
+            if (is_fine(part, making.half_step) && is_sliver(part)) sliver.parts.push_back(part);
+    };
+    Sliver sliver{&Number::sides};
     for (std::size_t i = 0; i < drawn.faces.size(); ++i) {
         const DrawnFace& face = drawn.faces[i];
         const bool is_second_of_side = face.other_corner && !face.first_of_side;
-        if (!is_second_of_side) sliver = {face.part == DrawnFace::Part::side, face.copies};
+        if (!is_second_of_side)
+            sliver = {face.part == DrawnFace::Part::side ? &Number::sides : &Number::caps,
+                      face.copies};
         const bool is_surface =
             face.part == DrawnFace::Part::light_cap && face.triangle < scene_.triangles.size();
         if (!is_surface)
-            for (const std::array<PicturePoint, 3>& part :
-                 set_up(casters.camera, pictured.corners(i), making.drawing))
-                if (is_fine(part, making.half_step) && may_have_no_area(part))
-                    sliver.parts.push_back(part);
+            add_parts(set_up(casters.camera, pictured.corners(i), making.drawing), may_have_no_area,
+                      sliver);
         const bool is_whole = !face.other_corner || is_second_of_side;
         if (is_whole && !sliver.parts.empty()) found.push_back(std::move(sliver));
+    }
+    const Drawing drawing = drawing_of_layers(making.drawing);
+    for (const NearLayer& layer : drawn.near_layers) {
+        const auto corners = pictured.corners(layer, PlaneCut::nominal);
+        if (!corners) continue;
+        sliver = {&Number::layers};
+        add_parts(
+            fan_of(clipped_polygon(casters.camera, *corners, drawing, PlaneCut::nominal)),
+            [&](const Triangle& part) { return may_be_flipped(part, making.half_step); }, sliver);
+        if (!sliver.parts.empty()) found.push_back(std::move(sliver));
     }
     return found;
 }
@@ -52,11 +69,11 @@ Slivers::Number Slivers::at(const CoveredPixel& pixel) const {
     if (slivers_.empty()) return number;
     const glm::dvec2 place = project(scene_.camera, scene_.camera.eye + pixel.direction);
     for (const Sliver& sliver : slivers_)
-        if (std::ranges::any_of(sliver.parts, [&](const std::array<PicturePoint, 3>& part) {
+        if (std::ranges::any_of(sliver.parts, [&](const Triangle& part) {
                 return may_hold({part.begin(), part.end()}, place,
                                 std::numbers::sqrt2 * pixel.reach);
             }))
-            (sliver.is_side ? number.sides : number.caps) += sliver.copies;
+            number.*sliver.kind += sliver.copies;
     return number;
 }
 

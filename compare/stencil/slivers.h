@@ -1,7 +1,8 @@
-// Faces of volumes in which floats may find no area: a side over an edge that points at the light,
-// a dark cap at infinity of a triangle that the light sees edge-on. Snapping may make them cover a
-// pixel all the same, either way round, and their depth there may be anything, also where that of
-// all corners is the same: the driver divides by the area.
+// Faces of volumes that are slivers in the picture, and that no ray meets: snapping may make them
+// cover a pixel all the same, either way round. Those in which floats may find no area: a side over
+// an edge that points at the light, a dark cap at infinity of a triangle that the light sees
+// edge-on. Their depth there may be anything, also where that of all corners is the same: the
+// driver divides by the area. And layers in the near plane that snapping may flip.
 #pragma once
 
 #include "compare/driver/setup_error.h"
@@ -21,8 +22,9 @@ class Slivers {
 public:
     /// How many may be drawn at a pixel.
     struct Number {
-        std::int64_t sides = 0; ///< each counts once at most
-        std::int64_t caps = 0;  ///< without light caps of what is seen
+        std::int64_t sides = 0;  ///< each counts once at most
+        std::int64_t caps = 0;   ///< without light caps of what is seen
+        std::int64_t layers = 0; ///< with which the counter begins, each counted if it is drawn
     };
 
     /// Keeps references to all. `volumes`: those that the frame's technique counts; `far`: the far
@@ -34,7 +36,7 @@ public:
 
 private:
     struct Sliver {
-        bool is_side = false;
+        std::int64_t Number::*kind; ///< as what it counts
         std::uint32_t copies = 1;
         std::vector<std::array<PicturePoint, 3>> parts{}; ///< triangles that are set up
     };

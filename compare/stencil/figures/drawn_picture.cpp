@@ -81,16 +81,20 @@ PicturedFace PicturedFaces::volume_face(const DrawnFace& drawn) const {
 // The place of a layer is not predicted for a light in the near plane, nor for a caster that
 // touches the light: there the counter, which is judged at every pixel, begins with what was
 // drawn.
-PicturedFace PicturedFaces::layer(const NearLayer& layer) const {
+std::optional<std::vector<ViewCorner>> PicturedFaces::corners(const NearLayer& layer,
+                                                              PlaneCut cut) const {
     const NearDrawing drawn{picture_.frame.counted->volume_faces.near_plane, casters_near_light_};
     const bool is_capped = drawn.near_plane == NearPlane::capped;
     if (light_in_near_plane_ || layer.touches_light ||
         (is_capped && is_flat_from_light(picture_.casters, layer.triangle)))
-        return pictured_anywhere();
-    const auto left = [&](PlaneCut cut) {
-        return near_layer(picture_.casters, layer.triangle, drawn, cut);
-    };
-    return pictured_layer(making_, left(PlaneCut::most), left(PlaneCut::least));
+        return std::nullopt;
+    return near_layer(picture_.casters, layer.triangle, drawn, cut);
+}
+
+PicturedFace PicturedFaces::layer(const NearLayer& layer) const {
+    const auto most = corners(layer, PlaneCut::most);
+    if (!most) return pictured_anywhere();
+    return pictured_layer(making_, *most, *corners(layer, PlaneCut::least));
 }
 
 } // namespace shadowproof

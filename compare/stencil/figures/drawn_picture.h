@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 namespace shadowproof {
@@ -44,6 +45,8 @@ public:
     }
     /// Homogeneous world points (p, w) of a volume's face.
     std::array<glm::dvec4, 3> corners(std::size_t number) const;
+    /// What is left of a near plane's layer where that cuts; none if its place is not predicted.
+    std::optional<std::vector<ViewCorner>> corners(const NearLayer& layer, PlaneCut cut) const;
     /// Of a volume's face: see driver/pictured_face.h.
     double margin_by_size(std::size_t number) const;
 
