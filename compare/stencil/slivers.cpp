@@ -50,6 +50,8 @@ std::vector<Slivers::Sliver> Slivers::find() const {
         const bool is_whole = !face.other_corner || is_second_of_side;
         if (is_whole && !sliver.parts.empty()) found.push_back(std::move(sliver));
     }
+    // What is cut in doubles is closed, and its slivers are faces like others.
+    if (frame_.counted->volume_faces.near_plane != NearPlane::from_light) return found;
     const Drawing drawing = drawing_of_layers(making.drawing);
     for (const NearLayer& layer : drawn.near_layers) {
         const auto corners = pictured.corners(layer, PlaneCut::nominal);

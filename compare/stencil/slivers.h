@@ -2,7 +2,8 @@
 // cover a pixel all the same, either way round. Those in which floats may find no area: a side over
 // an edge that points at the light, a dark cap at infinity of a triangle that the light sees
 // edge-on. Their depth there may be anything, also where that of all corners is the same: the
-// driver divides by the area. And layers in the near plane that snapping may flip.
+// driver divides by the area. And layers in the near plane, drawn from the light, that snapping may
+// flip.
 #pragma once
 
 #include "compare/driver/setup_error.h"
