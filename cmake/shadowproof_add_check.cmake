@@ -5,10 +5,11 @@
 #       SCENE scene...                # .gltf, .glb or .md2, relative to the current source folder,
 #                                     # or names of bundled scenes; one, if there is a PICTURE
 #       RENDERER word...              # makes a picture of each scene: a program and its arguments,
-#                                     # with {scene}, {view}, {out} and perhaps {unlit} among them
+#                                     # with {scene}, {view}, {out} and perhaps {unlit}, {unshadowed}
 #       | PICTURE image...            # that is there when the test runs, relative to the current
 #                                     # build folder
-#       [UNLIT image | MASK image]    # of a PICTURE, likewise
+#       [UNLIT image] [UNSHADOWED image] | [MASK image]
+#                                     # of a PICTURE, likewise
 #       [RENDERER_NAME name]          # in the report: NAME
 #       [SIZE WIDTHxHEIGHT]           # of the renderer's pictures: 512x512
 #       [CAMERA name] [LIGHT name]    # names or indices in the file; the first
@@ -37,7 +38,7 @@ function(shadowproof_quoted result)
 endfunction()
 
 function(shadowproof_add_check)
-    set(values NAME UNLIT MASK RENDERER_NAME SIZE CAMERA LIGHT TIME GATE BASELINE OUT)
+    set(values NAME UNLIT UNSHADOWED MASK RENDERER_NAME SIZE CAMERA LIGHT TIME GATE BASELINE OUT)
     set(lists SCENE RENDERER PICTURE ALLOW)
     set(required NAME SCENE)
     cmake_parse_arguments(PARSE_ARGV 0 given "" "${values}" "${lists}")
@@ -63,7 +64,7 @@ function(shadowproof_add_check)
         cmake_path(ABSOLUTE_PATH picture BASE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
         list(APPEND arguments ${picture})
     endforeach()
-    foreach(argument UNLIT MASK)
+    foreach(argument UNLIT UNSHADOWED MASK)
         if(DEFINED given_${argument})
             cmake_path(ABSOLUTE_PATH given_${argument} BASE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
             string(TOLOWER ${argument} flag)

@@ -69,6 +69,7 @@ struct Mesh {
     std::uint32_t material = 0; ///< index into Scene::materials
     bool casts = true;          ///< casts shadows
     bool receives = true;       ///< shows shadows: otherwise its lit sides are lit throughout
+    bool textured = false;      ///< a texture, or colours of its vertices, may vary over it
 };
 
 struct Light {
@@ -156,10 +157,12 @@ struct Scene {
     std::vector<TextureImage> textures; ///< what such a scene's materials need
     std::vector<AlphaMask> masks;       ///< empty where no material of a mesh has one
     std::vector<glm::vec2> mask_at;     ///< texture coordinates, one per position; empty likewise
-    glm::dvec3 ambient{0, 0, 0};        ///< extras.shadowproof.ambient, linear
-    bool inverse_square = false;        ///< extras.shadowproof.inverseSquare: the light's intensity
-                                        ///< and distance count
-    Highlight highlight{};              ///< extras.shadowproof.highlight
+    std::vector<glm::vec3> normals; ///< the file's, one per position: unit, world space, 0 where
+                                    ///< it has none; empty unless asked for (SceneRequest)
+    glm::dvec3 ambient{0, 0, 0};    ///< extras.shadowproof.ambient, linear
+    bool inverse_square = false;    ///< extras.shadowproof.inverseSquare: the light's intensity
+                                    ///< and distance count
+    Highlight highlight{};          ///< extras.shadowproof.highlight
     std::optional<CubeFaces<glm::vec3>> environment; ///< what such a scene's surfaces reflect, all
                                                      ///< around in world axes, linear: the same
                                                      ///< texels go to OpenGL

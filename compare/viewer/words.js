@@ -66,7 +66,7 @@ function reasonOf(cell) {
 
 /** A word of a shell's command, with quoted parts. */
 const shellWord = String.raw`(?:'[^']*'|\\.|[^\s'\\])+`;
-const ofNoPixel = ['mask', 'unlit', 'renderer', 'name', 'gate', 'allow', 'baseline', 'junit', 'json', 'out'];
+const ofNoPixel = ['mask', 'unlit', 'unshadowed', 'renderer', 'name', 'gate', 'allow', 'baseline', 'junit', 'json', 'out'];
 
 /**
  * The same settings and technique, for one pixel. Gates and files do not concern it, nor do a

@@ -3,6 +3,12 @@
 //
 //   shadowproof check my.glb --renderer 'node three.mjs {scene} {view} {out} {unlit}' --name three
 //
+// With MATERIALS=file surfaces are shaded as the file has them, textures, highlights and smooth
+// normals included. A picture without shadows says then what light adds at each pixel:
+//
+//   MATERIALS=file shadowproof check my.glb --name three \
+//     --renderer 'node three.mjs {scene} {view} {out} {unlit} {unshadowed}'
+//
 // Needs `npm install three playwright-core` in the current folder (or the one that MODULES names),
 // and Chromium (CHROMIUM names it). MAP_SIZE, BIAS and NORMAL_BIAS are those of the light's shadow,
 // and HALF_SIDE is half the square that a directional light's map holds; what is not given is
@@ -11,16 +17,18 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { basename, dirname, join, resolve } from 'node:path';
 
-const [scene, viewFile, out, unlit] = process.argv.slice(2);
+const [scene, viewFile, out, unlit, unshadowed] = process.argv.slice(2);
 const require = createRequire(join(resolve(process.env.MODULES ?? '.'), 'recipe.js'));
 const { chromium } = require('playwright-core');
 const three = dirname(dirname(require.resolve('three')));
 const view = JSON.parse(readFileSync(viewFile, 'utf8'));
 const shadow = { mapSize: process.env.MAP_SIZE, bias: process.env.BIAS,
                  normalBias: process.env.NORMAL_BIAS, halfSide: process.env.HALF_SIDE };
+const ownMaterials = process.env.MATERIALS === 'file';
 
-/** Runs in the page: renders with the light on, and with it off; two pictures as data URLs. */
-async function render({ view, shadow, file }) {
+/** Runs in the page: renders with the light on, with it off, and with it on but without shadows;
+ * three pictures as data URLs. */
+async function render({ view, shadow, ownMaterials, file }) {
   const THREE = await import('three');
   const { GLTFLoader } = await import('three/addons/loaders/GLTFLoader.js');
   const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
@@ -34,6 +42,8 @@ async function render({ view, shadow, file }) {
   scene.traverse((object) => {
     if (object.isLight) fileLights.push(object);
     if (!object.isMesh) return;
+    object.castShadow = object.receiveShadow = true;
+    if (ownMaterials) return;
     // Flat: the file may have no normals, and smooth ones are dark where faces are not averted.
     // An alpha mask is kept, and read at its full size, as the truth reads it.
     const { side, alphaTest, map } = object.material;
@@ -43,7 +53,6 @@ async function render({ view, shadow, file }) {
     // Without normals, three.js's shadows are looked up nowhere.
     object.geometry = object.geometry.toNonIndexed();
     object.geometry.computeVertexNormals();
-    object.castShadow = object.receiveShadow = true;
   });
   for (const light of fileLights) light.parent.remove(light);
   const { kind, outer_cone_degrees } = view.light;
@@ -79,8 +88,10 @@ async function render({ view, shadow, file }) {
     return renderer.domElement.toDataURL('image/png');
   };
   const on = picture();
-  light.intensity = 0; // not `visible = false`, after which other shaders are used
-  return [on, picture()];
+  light.shadow.intensity = 0; // not `castShadow = false`, after which other shaders are used
+  const withoutShadows = picture();
+  light.intensity = 0; // not `visible = false`, likewise
+  return [on, picture(), withoutShadows];
 }
 
 const page = `<!doctype html><script type="importmap">
@@ -104,8 +115,8 @@ try {
   });
   await tab.goto('http://recipe.invalid/');
   const pictures = await tab.evaluate(render, {
-    view, shadow, file: `/scene/${encodeURIComponent(basename(scene))}` });
-  for (const [i, file] of [out, unlit].entries())
+    view, shadow, ownMaterials, file: `/scene/${encodeURIComponent(basename(scene))}` });
+  for (const [i, file] of [out, unlit, unshadowed].entries())
     if (file) writeFileSync(file, Buffer.from(pictures[i].split(',')[1], 'base64'));
 } finally {
   await browser.close();

@@ -160,6 +160,7 @@ Scene load_scene(const std::string& name_or_path, const SceneRequest& request) {
     override_view(request.view, scene);
     admit(scene);
     if (!request.stress) return scene;
+    scene.normals.clear(); // of other triangles than the stressed ones
     scene = stressed(std::move(scene), *request.stress);
     admit(scene);
     return scene;

@@ -67,7 +67,7 @@ int check(const CheckOptions& options, const std::filesystem::path& rendered, do
     MemoryAccount memory(options.view.memory);
     std::vector<std::string> inputs = options.pictures;
     inputs.insert(inputs.end(), options.scenes.begin(), options.scenes.end());
-    inputs.insert(inputs.end(), {options.mask, options.unlit});
+    inputs.insert(inputs.end(), {options.mask, options.unlit, options.unshadowed});
     check_outputs(options.output, inputs);
     std::optional<ResultsFile> baseline;
     if (!options.gate.baseline.empty()) baseline = read_results(options.gate.baseline, &memory);
@@ -80,10 +80,13 @@ int check(const CheckOptions& options, const std::filesystem::path& rendered, do
     for (const std::string& scene : options.scenes) {
         console.begin_part(place_in_run(report.scenes.size(), options.scenes.size(),
                                         stopwatch.milliseconds() / 1000));
-        report.scenes.push_back(
-            options.renderer.empty()
-                ? judged_scene(run, {scene, options.pictures, options.mask, options.unlit, {}})
-                : rendered_scene(run, scene));
+        report.scenes.push_back(options.renderer.empty() ? judged_scene(run, {scene,
+                                                                              options.pictures,
+                                                                              options.mask,
+                                                                              options.unlit,
+                                                                              options.unshadowed,
+                                                                              {}})
+                                                         : rendered_scene(run, scene));
     }
     console.begin_part("");
     report.embree = embree_version(); // starts Embree: no worker is started any more
@@ -105,6 +108,14 @@ void add_picture_flags(CLI::App& command, CheckOptions& options) {
         ->type_name("IMAGE")
         ->check(not_empty())
         ->excludes(mask);
+    command
+        .add_option("--unshadowed", options.unshadowed,
+                    "The same view with the light, but without its shadows: what is darker than it "
+                    "is shadowed. With --unlit as well each pixel tells by itself what light adds, "
+                    "however surfaces are shaded")
+        ->type_name("IMAGE")
+        ->check(not_empty())
+        ->excludes(mask);
 }
 
 void add_renderer_flags(CLI::App& command, CheckOptions& options) {
@@ -121,7 +132,7 @@ void add_renderer_flags(CLI::App& command, CheckOptions& options) {
             },
             "A program that makes the picture of each scene, run without a shell: {scene} is the "
             "scene's file, {view} its view as export-view prints it, {out} the .png to write, "
-            "{unlit} another one without the light")
+            "{unlit} another one without the light, {unshadowed} one without shadows")
         ->type_name("COMMAND");
     command.add_option("--name", options.name, "The renderer's name in the report (renderer)")
         ->type_name("NAME")
@@ -142,10 +153,11 @@ void check_together(CheckOptions& options) {
             throw CLI::ValidationError("--name", "is of a --renderer; pictures have the names of "
                                                  "their files");
     } else {
-        if (!options.mask.empty() || !options.unlit.empty())
+        if (!options.mask.empty() || !options.unlit.empty() || !options.unshadowed.empty())
             throw CLI::ValidationError(
                 "--renderer", "makes its own pictures; put {unlit} where it writes the one without "
-                              "the light, and leave --mask and --unlit out");
+                              "the light, {unshadowed} for one without shadows, and leave --mask, "
+                              "--unlit and --unshadowed out");
         if (options.view.stress)
             throw CLI::ValidationError("--stress",
                                        "changes the scene, which a --renderer reads from its file");
@@ -155,8 +167,9 @@ void check_together(CheckOptions& options) {
                               options.pictures.end());
         options.pictures.clear();
     }
-    for (const auto& [flag, file] :
-         {std::pair("--mask", &options.mask), {"--unlit", &options.unlit}})
+    for (const auto& [flag, file] : {std::pair("--mask", &options.mask),
+                                     {"--unlit", &options.unlit},
+                                     {"--unshadowed", &options.unshadowed}})
         if (!file->empty() && options.pictures.size() > 1)
             throw CLI::ValidationError(flag, "is of one picture; check the others by themselves");
 }

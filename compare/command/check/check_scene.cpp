@@ -10,8 +10,8 @@
 #include "compare/memory.h"
 #include "compare/picture/alignment.h"
 #include "compare/picture/diagnosis.h"
+#include "compare/picture/reading/shadow_classes.h"
 #include "compare/picture/regions.h"
-#include "compare/picture/shadow_classes.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
 
@@ -95,6 +95,8 @@ Cell begin_cell(const CheckOptions& options, const SceneInputs& inputs, std::siz
         if (!inputs.mask.empty()) cell.command.insert(cell.command.end(), {"--mask", inputs.mask});
         if (!inputs.unlit.empty())
             cell.command.insert(cell.command.end(), {"--unlit", inputs.unlit});
+        if (!inputs.unshadowed.empty())
+            cell.command.insert(cell.command.end(), {"--unshadowed", inputs.unshadowed});
     } else {
         cell.summary = "the picture that " + options.name + " made: " + options.renderer;
         cell.command.insert(cell.command.end(), {"--renderer", options.renderer});
@@ -118,6 +120,10 @@ struct Judged {
 
 SHADOWPROOF_SEND_ALL(Judged, cell, said, rest, controls)
 
+PictureFiles files_of(const SceneInputs& inputs, std::size_t i) {
+    return {inputs.pictures[i], inputs.mask, inputs.unlit, inputs.unshadowed};
+}
+
 /// Nothing wrong is no agreement where most pixels are undecidable. `wrong`: 1 where a pixel is.
 void require_decided(const Frame& frame, const Image<std::uint8_t>& wrong,
                      const SceneInputs& inputs, std::size_t i) {
@@ -131,7 +137,7 @@ void require_decided(const Frame& frame, const Image<std::uint8_t>& wrong,
     throw Error(inputs.pictures[i],
                 fmt::format("tells light from shadow at {} of {} pixels that face the light",
                             grouped(decided), grouped(decided + undecidable)),
-                advice_on_undecidable(!inputs.unlit.empty()));
+                advice_on_undecidable(files_of(inputs, i)));
 }
 
 /// No wrong pixel of a picture is excused.
@@ -147,8 +153,8 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
                             "render it from the scene's camera, or tell where it was seen from by "
                             "--camera-matrix and --fov; --no-alignment judges it as it is");
         }
-        cell.frame = read_shadows(traced, {inputs.pictures[i], inputs.mask, inputs.unlit},
-                                  pictures.pictures[i], pictures.twin);
+        cell.frame =
+            read_shadows(traced, files_of(inputs, i), pictures.pictures[i], pictures.twins);
         const std::unique_ptr<Judge> family = judge_of(traced, cell.frame);
         cell.comparison = classify(traced, cell.frame, *family);
         cell.verdict = judge(traced.scene(), {}, {}, cell.comparison);
@@ -217,7 +223,7 @@ void announce(const CheckWork& work, const Scene& scene) {
     work.console.heading(scene.name);
     work.console.notes(scene.notes, work.options.output.verbose);
     std::vector<std::string> inputs = work.inputs.pictures;
-    inputs.insert(inputs.end(), {work.inputs.mask, work.inputs.unlit});
+    inputs.insert(inputs.end(), {work.inputs.mask, work.inputs.unlit, work.inputs.unshadowed});
     for (const std::string& file : inputs)
         if (const std::string kind = extension_of(file); kind == ".jpg" || kind == ".jpeg")
             work.console.line(fmt::format("  note: {}: JPEG loses what tells light from shadow at "
@@ -239,7 +245,9 @@ SceneResult check_scene(const CheckWork& work) {
     view.size_given = true;
     console.progress(work.inputs.scene + ": reading");
     const Scene scene = work.pieces.step(work.inputs.scene + ": reading", [&] {
-        return load_scene(work.inputs.scene, view.request());
+        SceneRequest request = view.request();
+        request.normals = true; // engines shade by them
+        return load_scene(work.inputs.scene, request);
     });
     require_scene(budget, scene, Workload::comparison);
     SceneResult result;

@@ -16,6 +16,7 @@ struct CheckOptions {
     std::vector<std::string> pictures;
     std::string mask; ///< empty: none
     std::string unlit;
+    std::string unshadowed;
     std::string renderer; ///< the command that makes a picture of each scene; empty: none
     std::string name;     ///< of the renderer's cells
     SceneOptions view;
@@ -42,6 +43,7 @@ struct SceneInputs {
     std::vector<std::string> pictures;
     std::string mask; ///< empty: none
     std::string unlit;
+    std::string unshadowed;
     std::filesystem::path work{}; ///< folder of the renderer's files; messages omit it, because the
                                   ///< report names its copies by the rest of the path
 };

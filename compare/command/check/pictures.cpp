@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace shadowproof {
 
 namespace {
@@ -45,9 +47,12 @@ Pictures read_pictures(const CheckOptions& options, const SceneInputs& inputs,
     const auto [width, height] = all.size;
     for (std::size_t i = 0; i < all.pictures.size(); ++i)
         require_size(judged_file(inputs, i), all.pictures[i], width, height);
-    if (inputs.unlit.empty()) return all;
-    all.twin = read_one(inputs.unlit);
-    require_size(inputs.unlit, *all.twin, width, height);
+    for (const auto& [file, twin] : {std::pair(&inputs.unlit, &all.twins.unlit),
+                                     {&inputs.unshadowed, &all.twins.unshadowed}}) {
+        if (file->empty()) continue;
+        *twin = read_one(*file);
+        require_size(*file, **twin, width, height);
+    }
     return all;
 }
 

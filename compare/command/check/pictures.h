@@ -3,18 +3,18 @@
 
 #include "compare/command/check/options.h"
 #include "compare/command/process/console.h"
+#include "compare/picture/reading/observed_colors.h"
 #include "scenes/load/picture/picture.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace shadowproof {
 
-/// The pictures that are judged, and the one without the light.
+/// The pictures that are judged, and others of the same view.
 struct Pictures {
     std::vector<Picture> pictures{};
-    std::optional<Picture> twin{};
+    Twins twins{};
     PictureSize size{};
 };
 

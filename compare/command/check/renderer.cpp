@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -107,12 +108,12 @@ void require_end(const CheckOptions& options, const std::string& scene, const Pr
 }
 
 /// A picture that a renderer wrote; it is looked at only if it is a file of some size.
-void take_picture(const std::string& scene, const fs::path& file, const char* placeholder,
+void take_picture(const std::string& scene, const fs::path& file, const std::string& placeholder,
                   const fs::path& work, const fs::path& log, const ReportFolder& folder) {
     std::error_code failure;
     if (!fs::is_regular_file(file, failure) || fs::file_size(file, failure) == 0)
         throw Error(scene,
-                    fmt::format("the renderer ended well, but wrote no {} ({})", placeholder,
+                    fmt::format("the renderer ended well, but wrote no {{{}}} ({})", placeholder,
                                 last_words(log)),
                     "write a picture, .png, under the name that stands there");
     folder.add_file(fs::relative(file, work).generic_string(), bytes_of(file));
@@ -131,10 +132,12 @@ void require_command(const std::string& command) {
     for (const std::string& word : split_words(command))
         replaced(word, [&](const std::string& name) {
             writes = writes || name == "out";
-            if (name != "scene" && name != "view" && name != "out" && name != "unlit")
-                throw std::invalid_argument(fmt::format(
-                    "{{{}}} is not known; there are {{scene}}, {{view}}, {{out}} and {{unlit}}",
-                    name));
+            if (name != "scene" && name != "view" && name != "out" && name != "unlit" &&
+                name != "unshadowed")
+                throw std::invalid_argument(
+                    fmt::format("{{{}}} is not known; there are {{scene}}, {{view}}, {{out}}, "
+                                "{{unlit}} and {{unshadowed}}",
+                                name));
             return name;
         });
     if (!writes)
@@ -151,24 +154,29 @@ SceneInputs render_scene(const CheckOptions& options, const std::string& scene,
     const std::map<std::string, fs::path> values{{"scene", view.file},
                                                  {"view", pictures / "view.json"},
                                                  {"out", pictures / (options.name + ".png")},
-                                                 {"unlit", pictures / "unlit.png"}};
+                                                 {"unlit", pictures / "unlit.png"},
+                                                 {"unshadowed", pictures / "unshadowed.png"}};
     write_file(values.at("view"), view.json);
-    bool with_twin = false;
+    std::set<std::string> asked;
     std::vector<std::string> words = split_words(options.renderer);
     for (std::string& word : words)
         word = replaced(word, [&](const std::string& placeholder) {
-            with_twin = with_twin || placeholder == "unlit";
+            asked.insert(placeholder);
             return values.at(placeholder).string();
         });
     const fs::path log = work / "said";
     console.progress(scene + ": rendering");
     require_end(options, scene, run_program(words, log, options.timeout), log);
-    take_picture(scene, values.at("out"), "{out}", work, log, folder);
-    if (with_twin) take_picture(scene, values.at("unlit"), "{unlit}", work, log, folder);
+    const auto taken = [&](const std::string& placeholder) -> std::string {
+        if (!asked.contains(placeholder)) return {};
+        take_picture(scene, values.at(placeholder), placeholder, work, log, folder);
+        return values.at(placeholder).string();
+    };
     return {.scene = scene,
-            .pictures = {values.at("out").string()},
+            .pictures = {taken("out")},
             .mask = {},
-            .unlit = with_twin ? values.at("unlit").string() : std::string(),
+            .unlit = taken("unlit"),
+            .unshadowed = taken("unshadowed"),
             .work = work};
 }
 

@@ -24,7 +24,8 @@ private:
 };
 
 /// Throws std::invalid_argument, with a sentence, where the command names no {out}, another
-/// placeholder than {scene}, {view}, {out} and {unlit}, or has a quote that does not end.
+/// placeholder than {scene}, {view}, {out}, {unlit} and {unshadowed}, or has a quote that does not
+/// end.
 void require_command(const std::string& command);
 
 /// Has the renderer make its pictures of a scene, and adds them to the report as

@@ -27,6 +27,7 @@ void add_default_floor(Scene& scene) {
         scene.positions.emplace_back(sphere.centre.x + half * corner.x, height,
                                      sphere.centre.z + half * corner.y);
     if (has_masks(scene)) scene.mask_at.resize(scene.positions.size());
+    if (!scene.normals.empty()) scene.normals.resize(scene.positions.size());
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
     scene.triangles.emplace_back(first, first + 1, first + 2);
     scene.triangles.emplace_back(first, first + 2, first + 3);

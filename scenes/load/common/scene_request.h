@@ -32,6 +32,7 @@ struct SceneRequest {
     int height = 512;                  ///< pixels
     bool camera_aspect = false;     ///< the picture is as wide as the camera's aspect ratio says,
                                     ///< where it says one, rather than `width`
+    bool normals = false;           ///< whether Scene::normals are wanted
     ViewOverride view{};            ///< applied once the file is read, before the stress
     std::optional<Stress> stress{}; ///< applied once the scene is read
     MemoryBudget memory{};          ///< of the run: files that need more to be read are refused

@@ -83,7 +83,7 @@ Scene load_gltf(const std::filesystem::path& file, const SceneRequest& request) 
     AccessorReader reader(document);
     pose_nodes(reader, request.time, graph, scene.notes);
     place_nodes(graph);
-    bake_meshes(reader, graph, scene);
+    bake_meshes(reader, graph, request.normals, scene);
     scene.camera = choose_camera(document, graph, request, scene);
     choose_light(document, graph, request, scene);
     if (request.floor && scene.default_framing) add_default_floor(scene);

@@ -87,22 +87,29 @@ std::vector<glm::vec3> world_positions(const Placement& placement, const Part& p
     return world;
 }
 
-/// Bytes per vertex of a primitive while it is baked: world positions, coordinates in a mask, their
-/// order, which of them are used. And per triangle: indices, one triangle for each where it is a
-/// strip.
+/// Bytes per vertex of a primitive while it is baked: world positions, normals, coordinates in a
+/// mask, their order, which of them are used. And per triangle: indices, one triangle for each
+/// where it is a strip.
 constexpr std::uint64_t baking_vertex =
-    sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(std::uint32_t);
+    2 * sizeof(glm::vec3) + sizeof(glm::vec2) + 2 * sizeof(std::uint32_t);
 constexpr std::uint64_t baking_index = sizeof(std::uint32_t) + sizeof(glm::uvec3);
 /// Bytes kept in the scene per vertex or triangle, three times as much while its vector grows.
-constexpr std::uint64_t baked_vertex = 3 * (sizeof(glm::vec3) + sizeof(glm::vec2));
+constexpr std::uint64_t baked_vertex = 3 * (2 * sizeof(glm::vec3) + sizeof(glm::vec2));
 /// Bytes per mesh without its name, and for a note about it.
 constexpr std::uint64_t baked_mesh = 3 * sizeof(Mesh) + 256;
 
-/// Appends `triangles` over `positions` with the vertices that are used, in order of index.
-/// `mask_at`: their coordinates in an alpha mask, empty where there is none.
-void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
-            const std::vector<glm::vec3>& positions, const std::vector<glm::vec2>& mask_at,
+/// A primitive's vertices, in world space.
+struct Vertices {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec2> mask_at; ///< in an alpha mask; empty where there is none
+    std::optional<std::vector<glm::vec3>>
+        normals; ///< where they are wanted; empty: none in the file
+};
+
+/// Appends `triangles` with the vertices that are used, in order of index.
+void append(Scene& scene, MemoryAccount& memory, const Place& primitive, const Vertices& vertices,
             const std::vector<glm::uvec3>& triangles) {
+    const auto& [positions, mask_at, normals] = vertices;
     std::vector<std::uint32_t> baked(positions.size(), 0);
     for (const glm::uvec3& triangle : triangles)
         for (int k = 0; k < 3; ++k) baked[triangle[k]] = 1;
@@ -121,6 +128,7 @@ void append(Scene& scene, MemoryAccount& memory, const Place& primitive,
         scene.positions.push_back(positions[i]);
         if (has_masks(scene))
             scene.mask_at.push_back(mask_at.empty() ? glm::vec2(0, 0) : mask_at[i]);
+        if (normals) scene.normals.push_back(normals->empty() ? glm::vec3(0) : (*normals)[i]);
     }
     for (const glm::uvec3& triangle : triangles)
         scene.triangles.emplace_back(baked[triangle.x], baked[triangle.y], baked[triangle.z]);
@@ -164,8 +172,19 @@ void note_vertex_alpha(const Document& document, const Part& part, std::uint32_t
                               "/attributes/COLOR_0: its alpha is not evaluated");
 }
 
+/// Whether a renderer that evaluates the material has colours that vary over the primitive.
+bool is_textured(const Document& document, const Part& part) {
+    if (part.primitive.attributes.count("COLOR_0") != 0) return true;
+    if (part.primitive.material < 0) return false;
+    const tinygltf::Material& material =
+        document.model.materials[as_index(part.primitive.material)];
+    return material.pbrMetallicRoughness.baseColorTexture.index >= 0 ||
+           material.emissiveTexture.index >= 0 ||
+           material.extensions.contains("KHR_materials_pbrSpecularGlossiness");
+}
+
 void bake_primitive(AccessorReader& reader, const Placement& placement, const Part& part,
-                    const Materials& materials, Scene& scene) {
+                    const Materials& materials, bool normals, Scene& scene) {
     // Each mesh costs time however small it is: it may be placed in the scene many times.
     reader.charge(part.place, 1 + placement.weights.size());
     reader.memory().keep({baked_mesh + placement.name.size(), part.place.where(), "its name",
@@ -189,35 +208,37 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
                                                                 : scene.materials.size() - 1);
     note_vertex_alpha(reader.document(), part, material, scene);
     if (materials.left_out[material]) return;
-    std::vector<glm::vec2> mask_at;
+    Vertices vertices;
     if (scene.materials[material].mask != no_mask)
-        mask_at = texture_coordinates(reader, part, placement.weights, local.count,
-                                      materials.sets[material].mask, "an alpha mask");
+        vertices.mask_at = texture_coordinates(reader, part, placement.weights, local.count,
+                                               materials.sets[material].mask, "an alpha mask");
     const MemoryHold baking = hold_for_baking(reader, part, local.count);
-    const std::vector<glm::vec3> positions = world_positions(placement, part, local, influences);
-    const std::vector<std::uint32_t> indices = vertex_order(reader, part, positions.size());
+    vertices.positions = world_positions(placement, part, local, influences);
+    const std::vector<std::uint32_t> indices = vertex_order(reader, part, local.count);
     std::vector<glm::uvec3> triangles = assemble(mode, indices);
     note_leftover(scene, part.place, indices.size(), triangles.size(), mode);
     const bool mirrored = is_mirrored(placement);
+    const PosedPart posed{
+        part,           placement.weights, local,   triangles, placement.world_from_mesh,
+        placement.skin, influences,        mirrored};
     if (materials.bump_lit)
-        append_surfaces(reader,
-                        {part, placement.weights, local, triangles, placement.world_from_mesh,
-                         placement.skin, influences, mirrored},
-                        scene.materials[material], materials.sets[material], scene);
+        append_surfaces(reader, posed, scene.materials[material], materials.sets[material], scene);
+    if (normals) vertices.normals = world_normals(reader, posed);
     if (mirrored)
         for (glm::uvec3& triangle : triangles) std::swap(triangle.y, triangle.z);
     const auto first = static_cast<std::uint32_t>(scene.triangles.size());
     const auto count = static_cast<std::uint32_t>(triangles.size());
-    append(scene, reader.memory(), part.place, positions, mask_at, triangles);
+    append(scene, reader.memory(), part.place, vertices, triangles);
     if (count > 0)
         scene.meshes.push_back({placement.name, first, count, material,
                                 placement.node.casts.value_or(true),
-                                placement.node.receives.value_or(true)});
+                                placement.node.receives.value_or(true),
+                                is_textured(reader.document(), part)});
 }
 
 } // namespace
 
-void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
+void bake_meshes(AccessorReader& reader, const NodeGraph& graph, bool normals, Scene& scene) {
     const Materials materials = read_materials(reader.document(), graph, scene);
     for (const std::size_t node : graph.in_scene) {
         if (!has_visible_mesh(reader.document(), graph, node)) continue;
@@ -230,7 +251,7 @@ void bake_meshes(AccessorReader& reader, const NodeGraph& graph, Scene& scene) {
             for (std::size_t i = 0; i < placement.mesh.primitives.size(); ++i)
                 bake_primitive(reader, placement,
                                {placement.place / "primitives" / i, placement.mesh.primitives[i]},
-                               materials, scene);
+                               materials, normals, scene);
         }
     }
     const bool some_left_out =

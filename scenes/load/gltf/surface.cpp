@@ -190,6 +190,20 @@ std::vector<glm::vec2> texture_coordinates(AccessorReader& reader, const Part& p
     return at;
 }
 
+std::vector<glm::vec3> world_normals(AccessorReader& reader, const PosedPart& posed) {
+    if (!has_attribute(posed.part, normals)) return {};
+    const Elements given =
+        read_morphed(reader, posed.part, normals, posed.weights, posed.positions.count);
+    Placing placing(posed);
+    std::vector<glm::vec3> world;
+    world.reserve(posed.positions.count);
+    for (std::size_t i = 0; i < posed.positions.count; ++i) {
+        placing.set_vertex(i);
+        world.emplace_back(unit_or(placing.normal(given.vec3(i)), {0, 0, 0}));
+    }
+    return world;
+}
+
 void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Material& material,
                      const CoordinateSets& sets, Scene& scene) {
     if (scene.surfaces.size() / 3 + posed.triangles.size() > limits.surfaces)

@@ -36,6 +36,10 @@ struct PosedPart {
 void append_surfaces(AccessorReader& reader, const PosedPart& posed, const Material& material,
                      const CoordinateSets& sets, Scene& scene);
 
+/// The normals of all vertices, likewise in world space; empty without NORMAL. 0 where one has no
+/// length.
+std::vector<glm::vec3> world_normals(AccessorReader& reader, const PosedPart& posed);
+
 /// The coordinates of a texture at all vertices of a primitive, morphed, transformed and rounded to
 /// float. `what`: whose texture it is, for messages. Refused: a texture without its coordinates.
 std::vector<glm::vec2> texture_coordinates(AccessorReader& reader, const Part& part,

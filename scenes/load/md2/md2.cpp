@@ -164,7 +164,9 @@ Scene load_md2(const std::filesystem::path& file, const SceneRequest& request) {
         scene.triangles.emplace_back(triangle.corners[0].vertex, triangle.corners[2].vertex,
                                      triangle.corners[1].vertex);
     dress(model, memory, scene);
-    scene.meshes.push_back({scene.name, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0});
+    scene.meshes.push_back({.name = scene.name,
+                            .triangle_count = static_cast<std::uint32_t>(scene.triangles.size()),
+                            .textured = true});
     if (scene.materials[0].bump != Bump::none) append_surfaces(model, positions, memory, scene);
     scene.camera = default_camera(request, scene);
     add_default_light(scene);

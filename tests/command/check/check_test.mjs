@@ -45,12 +45,14 @@ function litSquare(truth) {
 }
 
 for (const scene of ['ordinary', 'near_plane', 'sun', 'spot', 'overlapping'])
-  test(`a right picture of ${scene} agrees: alone, with its twin, and as a mask`, () => {
+  test(`a right picture of ${scene} agrees: alone, with its twins, and as a mask`, () => {
     const truth = truthOf(scene);
     const alone = picture('alone.png', truth, (value) => shade[value]);
     const off = picture('off.png', truth, (value) => (value ? 60 : 20));
+    const bare = picture('bare.png', truth, (value) => (value ? 190 : 20));
     const mask = picture('mask.png', truth, (value) => (value === lit ? 255 : 0));
-    for (const more of [[], ['--unlit', off], ['--mask', mask]]) {
+    for (const more of [[], ['--unlit', off], ['--unshadowed', bare],
+                        ['--unlit', off, '--unshadowed', bare], ['--mask', mask]]) {
       const { code, out, err, cells: [cell] } = checked(scene, alone, ...more);
       assert.equal(code, 0, out + err);
       assert.equal(cell.family, 'picture');
@@ -92,6 +94,30 @@ test('a square of lit pixels that is dark is counted, and named by its first pix
   assert.match(out, new RegExp('square +ordinary +unexplained +64 of 40,000 \\(unexplained 64\\) ' +
                                ` +first \\(${left},${top}\\)`));
   assert.match(out, /reproduce: shadowproof check ordinary square\.png --unlit off\.png --size 200x200\n/);
+});
+
+test('with both twins a pixel tells by itself what light adds, however surfaces are shaded', () => {
+  const truth = truthOf('ordinary');
+  const [left, top] = litSquare(truth);
+  // Values that no surface has: each pixel's light is its own.
+  const noise = (x, y) => ((x * 7919 + y * 104729) % 97) / 97;
+  const dark = (x, y) => 30 + 60 * noise(x, y);
+  const bright = (x, y) => dark(x, y) + 20 + 100 * noise(y + 5, x);
+  const round = (shaded) => (_, x, y) => Math.round(shaded(x, y));
+  const off = picture('off.png', truth, round(dark));
+  const bare = picture('bare.png', truth, round(bright));
+  const both = ['--unlit', off, '--unshadowed', bare];
+  const shown = (wrong) => picture('noisy.png', truth, (value, x, y) =>
+    Math.round((value === lit && !wrong(x, y) ? bright : dark)(x, y)));
+  const right = checked('ordinary', shown(() => false), ...both, '--no-alignment');
+  assert.equal(right.code, 0, right.out + right.err);
+  assert.equal(right.cells[0].undecidable, 0);
+  const square = shown((x, y) => x >= left && x < left + 8 && y >= top && y < top + 8);
+  const faulty = checked('ordinary', square, ...both, '--no-alignment');
+  assert.equal(faulty.code, 1);
+  assert.equal(faulty.cells[0].falsely_shadowed, 64);
+  assert.equal(faulty.cells[0].falsely_lit, 0);
+  assert.match(faulty.out, /reproduce: shadowproof check ordinary noisy\.png --unlit off\.png --unshadowed bare\.png /);
 });
 
 const claimOf = (scene, technique, ...settings) => {

@@ -99,10 +99,10 @@ test('a command that cannot be right is wrong usage', () => {
     assert.match(run.err, words);
   };
   refused(/writes no picture; put \{out\} where/, '--renderer', 'blender {scene}');
-  refused(/\{lit\} is not known; there are \{scene\}, \{view\}, \{out\} and \{unlit\}/,
+  refused(/\{lit\} is not known; there are \{scene\}, \{view\}, \{out\}, \{unlit\} and \{unshadowed\}/,
           '--renderer', 'blender {lit} {out}');
   refused(/a quote, ', does not end/, '--renderer', "blender '{out}");
-  refused(/leave --mask and --unlit out/, '--renderer', 'blender {out}', '--unlit', 'off.png');
+  refused(/leave --mask, --unlit and --unshadowed out/, '--renderer', 'blender {out}', '--unlit', 'off.png');
   refused(/--stress: changes the scene/, '--renderer', 'blender {out}', '--stress', 'scale=2');
   refused(/--name: '\.\.\/x' is no name/, '--renderer', 'blender {out}', '--name', '../x');
   refused(/IMAGE, or --renderer that makes one is required/);

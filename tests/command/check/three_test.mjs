@@ -2,7 +2,7 @@
 // are wrong near outlines, and the finer they are, the less; what is wrong is named.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { scratch, shadowproof } from '../shadowproof.mjs';
@@ -10,9 +10,9 @@ import { scratch, shadowproof } from '../shadowproof.mjs';
 const script = fileURLToPath(new URL('../../../docs/recipes/three.mjs', import.meta.url));
 const modules = fileURLToPath(new URL('../..', import.meta.url));
 
-function checked(scene, env = {}) {
+function checked(scene, env = {}, twins = '{unlit}') {
   const run = shadowproof(['check', scene, '--name', 'three', '--out', 'checked', '--renderer',
-    `${process.execPath} '${script}' {scene} {view} {out} {unlit}`], { env: { MODULES: modules, ...env } });
+    `${process.execPath} '${script}' {scene} {view} {out} ${twins}`], { env: { MODULES: modules, ...env } });
   assert.ok(run.code <= 1, run.out + run.err);
   const { scenes: [{ techniques: [cell] }] } =
     JSON.parse(readFileSync(join(scratch, 'checked/results.json'), 'utf8'));
@@ -66,3 +66,14 @@ test('no pixel is wrong on a round surface that the light grazes', () => {
 test('a coarser map of three.js is worse', () => {
   assert.ok(checked('ordinary', { MAP_SIZE: '128' }).wrong > 2 * checked('ordinary').wrong);
 });
+
+// Smooth normals, bump maps, textures and highlights are the engine's own; so are its shadow maps.
+for (const scene of ['ordinary', 'spot', 'coarse_curve', 'bumpy_torus',
+                     join(modules, 'node_modules/@webxr-input-profiles/assets/dist/profiles/htc-vive/none.glb')])
+  test(`with both twins, ${basename(scene)} may be shaded as the file has it`, () => {
+    const { cell, wrong } = checked(scene, { MATERIALS: 'file', MAP_SIZE: '2048', NORMAL_BIAS: '0.01' },
+                                    '{unlit} {unshadowed}');
+    assert.ok(wrong < 0.003 * cell.pixels, `${wrong} of ${cell.pixels}`);
+    assert.ok(existsSync(join(scratch, 'checked/rendered', scene.endsWith('.glb') ? 'none' : scene,
+                              'unshadowed.png')));
+  });

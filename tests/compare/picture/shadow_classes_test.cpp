@@ -1,6 +1,7 @@
 // What is read from a picture is what it shows, however its renderer lights surfaces.
 #include "compare/picture/predict.h"
-#include "compare/picture/shadow_classes.h"
+#include "compare/picture/reading/shading_normals.h"
+#include "compare/picture/reading/shadow_classes.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/error.h"
 #include "tests/compare/traced_bundled.h"
@@ -8,10 +9,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -20,9 +23,11 @@ namespace {
 
 /// What a renderer knows of a point that the light faces.
 struct Point {
-    double sine = 0;     ///< of the angle at which the light falls
-    double distance = 1; ///< from the light, over the nearest point's; 1 where it is directional
-    double albedo = 1;   ///< of a texture with dark and light texels, each as large as a pixel
+    double sine = 0;        ///< of the angle at which the light falls
+    double distance = 1;    ///< from the light, over the nearest point's; 1 where it is directional
+    double smooth_sine = 0; ///< the same by normals that are smooth across triangles, at least 0
+    double on_half = 0;     ///< cosine of that normal and the way half between light and eye
+    double albedo = 1;      ///< of a texture with dark and light texels, each as large as a pixel
 };
 
 double srgb(double linear) {
@@ -52,6 +57,15 @@ const std::vector<Style>& styles() {
         {"toon", [](const Point& p) { return p.sine > 0.5 ? 0.6 : 0.3; }},
         {"falling_off", [](const Point& p) { return 0.8 * p.sine / (p.distance * p.distance); }},
         {"over_exposed", [](const Point& p) { return 3 * p.sine; }},
+        {"smooth", [](const Point& p) { return 0.5 * p.smooth_sine; }},
+        {"shiny",
+         [](const Point& p) {
+             return p.smooth_sine > 0 ? 0.3 * p.smooth_sine + 0.6 * std::pow(p.on_half, 32) : 0;
+         }},
+        {"metal",
+         [](const Point& p) { return p.smooth_sine > 0 ? 0.8 * std::pow(p.on_half, 12) : 0; }},
+        // As bumps that nobody knows make it.
+        {"rough", [](const Point& p) { return 0.5 * p.sine * p.albedo * p.albedo; }},
     };
     return all;
 }
@@ -61,6 +75,9 @@ Image<Point> points_of(const TracedScene& traced) {
     const Scene& scene = traced.scene();
     const Image<std::uint32_t>& seen = traced.truth().triangle;
     const glm::dvec4 light = homogeneous(chosen_light(scene));
+    std::vector<std::uint32_t> triangles(scene.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), 0U);
+    const ShadingNormals normals(scene, triangles);
     Image<Point> points(seen.width, seen.height);
     double nearest = std::numeric_limits<double>::infinity();
     for (int y = 0; y < seen.height; ++y)
@@ -71,6 +88,15 @@ Image<Point> points_of(const TracedScene& traced) {
             const glm::dvec3 way = glm::dvec3(light) - light.w * point;
             Point& made = points.at(x, y);
             made.sine = sine_to_light(scene, triangle, point);
+            const glm::dvec3 flat = normals.at(NormalsBy::faces, triangle, point);
+            const glm::dvec3 normal =
+                (glm::dot(flat, way) < 0 ? -1.0 : 1.0) *
+                glm::normalize(normals.at(NormalsBy::vertices, triangle, point));
+            const glm::dvec3 to_light = glm::normalize(way);
+            made.smooth_sine = std::max(0.0, glm::dot(normal, to_light));
+            made.on_half = std::max(
+                0.0, glm::dot(normal,
+                              glm::normalize(to_light + glm::normalize(scene.camera.eye - point))));
             made.distance = light.w > 0 ? glm::length(way) : 1;
             made.albedo = 0.05 + 0.95 * ((x * 7919 + y * 104729) % 97) / 97.0;
             nearest = std::min(nearest, made.distance);
@@ -108,16 +134,36 @@ struct Read {
     std::size_t decided = 0; ///< 0: the picture was refused
 };
 
-/// What is read of `classes`, with the unlit twin or alone.
+Image<Visibility> with_shadows_off(const TracedScene& traced) {
+    Image<Visibility> classes = traced.truth().visibility;
+    for (std::size_t i = 0; i < classes.pixels.size(); ++i)
+        if (may_be_lit(traced, i)) classes.pixels[i] = Visibility::lit;
+    return classes;
+}
+
+/// The pictures that a renderer gives.
+enum class Given : std::uint8_t { alone, unlit, unshadowed, both };
+constexpr std::array all_given{Given::alone, Given::unlit, Given::unshadowed, Given::both};
+
+const char* words_of(Given given) {
+    constexpr std::array words{", alone", ", with its unlit twin", ", with its unshadowed twin",
+                               ", with both twins"};
+    return words[static_cast<std::size_t>(given)];
+}
+
+/// What is read of `classes`.
 Read read(const TracedScene& traced, const Style& style, const Image<Point>& points,
-          const Image<Visibility>& classes, bool with_twin, double leaks = 0) {
-    std::optional<Picture> twin;
-    if (with_twin) twin = rendered(style, with_light_off(traced), points);
+          const Image<Visibility>& classes, Given given, double leaks = 0) {
+    Twins twins;
+    if (given == Given::unlit || given == Given::both)
+        twins.unlit = rendered(style, with_light_off(traced), points);
+    if (given == Given::unshadowed || given == Given::both)
+        twins.unshadowed = rendered(style, with_shadows_off(traced), points);
     Frame frame;
     Read read;
     try {
-        frame = read_shadows(traced, {"mine.png", "", ""}, rendered(style, classes, points, leaks),
-                             twin);
+        frame = read_shadows(traced, {"mine.png", "", "", ""},
+                             rendered(style, classes, points, leaks), twins);
     } catch (const Error&) {
         return read;
     }
@@ -145,12 +191,13 @@ class FaultyPictureOf : public PictureOf {};
 
 TEST_P(PictureOf, a_right_renderer_shows_no_wrong_pixel) {
     for (const Style& style : styles())
-        for (const bool with_twin : {true, false}) {
-            if ((style.textured && !with_twin) || is_blinding(style)) continue;
-            const Read found = read(traced, style, points, traced.truth().visibility, with_twin);
-            EXPECT_EQ(found.wrong, 0U) << style.name << (with_twin ? ", a pair" : ", alone");
-            // Alone, it need not show what shadows look like; and the light may but graze.
-            if (with_twin && GetParam() != "grazing_light") {
+        for (const Given given : all_given) {
+            if ((style.textured && given == Given::alone) || is_blinding(style)) continue;
+            const Read found = read(traced, style, points, traced.truth().visibility, given);
+            EXPECT_EQ(found.wrong, 0U) << style.name << words_of(given);
+            // Alone, it need not show what shadows look like; the light may but graze; and without
+            // the light or without shadows, both may be the same.
+            if (given == Given::unlit && GetParam() != "grazing_light") {
                 EXPECT_GT(found.decided, 0U) << style.name;
             }
         }
@@ -171,30 +218,31 @@ TEST_P(FaultyPictureOf, is_seen_to_be_falsely_dark) {
     const std::string lambert = "diffuse";
     for (const Style& style : styles()) {
         if (is_blinding(style)) continue;
-        const Read right = read(traced, style, points, traced.truth().visibility, true);
-        for (const double leaks : {0.0, 0.05}) {
-            if (leaks > 0 && style.name != lambert) continue;
-            const Read found = read(traced, style, points, classes, true, leaks);
-            // Of surfaces that are dim as a whole the picture does not tell it.
-            EXPECT_LE(found.wrong, leaks > 0 ? dark / 8 : 0) << style.name << ", " << leaks;
-            EXPECT_GE(found.decided + dark / 4, right.decided) << style.name;
+        for (const Given given : {Given::unlit, Given::both}) {
+            const Read right = read(traced, style, points, traced.truth().visibility, given);
+            for (const double leaks : {0.0, 0.05}) {
+                if (leaks > 0 && style.name != lambert) continue;
+                const Read found = read(traced, style, points, classes, given, leaks);
+                // Of surfaces that are dim as a whole the picture does not tell it.
+                EXPECT_LE(found.wrong, leaks > 0 ? dark / 8 : 0)
+                    << style.name << ", " << leaks << words_of(given);
+                EXPECT_GE(found.decided + dark / 4, right.decided) << style.name << words_of(given);
+            }
         }
     }
 }
 
 // Unless the picture alone is refused, as it shows no shadow.
 TEST_P(FaultyPictureOf, is_seen_to_lack_shadows) {
-    Image<Visibility> classes = traced.truth().visibility;
-    for (std::size_t i = 0; i < classes.pixels.size(); ++i)
-        if (may_be_lit(traced, i)) classes.pixels[i] = Visibility::lit;
+    const Image<Visibility> classes = with_shadows_off(traced);
     for (const Style& style : styles()) {
         if (is_blinding(style)) continue;
-        for (const bool with_twin : {true, false})
-            if (with_twin || !style.textured) {
-                const Read found = read(traced, style, points, classes, with_twin);
-                EXPECT_EQ(found.wrong, 0U) << style.name << (with_twin ? "" : ", alone");
-                if (with_twin) {
-                    EXPECT_GT(found.decided, 0U) << style.name;
+        for (const Given given : all_given)
+            if (given != Given::alone || !style.textured) {
+                const Read found = read(traced, style, points, classes, given);
+                EXPECT_EQ(found.wrong, 0U) << style.name << words_of(given);
+                if (given == Given::unlit || given == Given::both) {
+                    EXPECT_GT(found.decided, 0U) << style.name << words_of(given);
                 }
             }
     }

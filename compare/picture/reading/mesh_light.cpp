@@ -1,0 +1,419 @@
+#include "compare/picture/reading/mesh_light.h"
+
+#include "compare/picture/surface_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr std::size_t enough = 16; // not a few pixels of an outline
+
+/// Light falls off with the square of distance, and a picture's curve may show that more steeply.
+constexpr double most_fall_off = 4;
+
+/// One of twenty pixels may be otherwise than its surface.
+constexpr double unusual = 0.05;
+
+/// What a share of the values do not reach.
+template <class T>
+T quantile(std::vector<T> values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+template <class T>
+T median(std::vector<T> values) {
+    return quantile(std::move(values), 0.5);
+}
+
+std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
+    if (colors.empty()) return std::nullopt;
+    Typical found;
+    std::vector<double> values(colors.size());
+    for (int k = 0; k < 3; ++k) {
+        std::transform(colors.begin(), colors.end(), values.begin(),
+                       [&](const glm::dvec3& color) { return color[k]; });
+        found.color[k] = median(values);
+    }
+    std::transform(colors.begin(), colors.end(), values.begin(),
+                   [&](const glm::dvec3& color) { return glm::distance(color, found.color); });
+    found.scatter = median(values);
+    return found;
+}
+
+double brightness(const glm::dvec3& color) {
+    return color.x + color.y + color.z;
+}
+
+/// Pixels that face the light at about one angle.
+using AngleGroup = std::vector<const Observed*>;
+using AngleGroups = std::array<AngleGroup, angle_groups>;
+
+template <class Keep>
+std::vector<glm::dvec3> values_of(const AngleGroup& group, const Keep& keep) {
+    std::vector<glm::dvec3> values;
+    for (const Observed* pixel : group)
+        if (keep(*pixel)) values.push_back(pixel->value);
+    return values;
+}
+
+struct TwoGroups {
+    AngleGroup dark;
+    AngleGroup bright;
+};
+
+std::size_t highlight_group(const Lie& lie) {
+    const int group = static_cast<int>(lie.off_half * highlight_groups);
+    return static_cast<std::size_t>(std::clamp(group, 0, highlight_groups - 1));
+}
+
+/// The two groups into which colours fall by their brightness (2-means); nothing where they are
+/// one. Of colours that are spread evenly, the groups' means lie twice as far apart as the colours
+/// of both lie from their medians; groups that are two lie twice as far again.
+std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
+    if (all.size() < 2 * enough) return std::nullopt;
+    const auto [least, greatest] =
+        std::minmax_element(all.begin(), all.end(), [](const Observed* a, const Observed* b) {
+            return brightness(a->value) < brightness(b->value);
+        });
+    double between = 0.5 * (brightness((*least)->value) + brightness((*greatest)->value));
+    TwoGroups groups;
+    constexpr int rounds = 8;
+    for (int round = 0; round < rounds; ++round) {
+        groups = {};
+        for (const Observed* pixel : all)
+            (brightness(pixel->value) < between ? groups.dark : groups.bright).push_back(pixel);
+        if (groups.dark.size() < enough || groups.bright.size() < enough) return std::nullopt;
+        const auto mean = [](const AngleGroup& group) {
+            double sum = 0;
+            for (const Observed* pixel : group) sum += brightness(pixel->value);
+            return sum / static_cast<double>(group.size());
+        };
+        between = 0.5 * (mean(groups.dark) + mean(groups.bright));
+    }
+    const auto any = [](const Observed&) { return true; };
+    const Typical low = *typical(values_of(groups.dark, any));
+    const Typical high = *typical(values_of(groups.bright, any));
+    const double apart = glm::distance(low.color, high.color);
+    if (apart <= 4 * (low.scatter + high.scatter) || apart <= fewest_steps * step)
+        return std::nullopt;
+    return groups;
+}
+
+/// The sine that a share of the pixels do not reach.
+double sine_at(const AngleGroup& pixels, std::size_t normals, double share) {
+    std::vector<float> sines;
+    for (const Observed* pixel : pixels) sines.push_back(pixel->lies[normals].sine);
+    return quantile(std::move(sines), share);
+}
+
+/// The darker of two groups of pixels, but where the light only falls on it at a lower angle.
+std::vector<glm::dvec3> darker_group(const AngleGroup& group, std::size_t normals, double step) {
+    const std::optional<TwoGroups> two = two_groups(group, step);
+    if (!two || sine_at(two->dark, normals, 0.5) < sine_at(two->bright, normals, 0.25)) return {};
+    return values_of(two->dark, [](const Observed&) { return true; });
+}
+
+/// The typical colour of pixels certainly in shadow, of the angles at which the picture shows them
+/// darker than lit ones.
+std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double step) {
+    std::vector<glm::dvec3> all;
+    for (const AngleGroup& group : groups) {
+        const auto dark = values_of(
+            group, [](const Observed& pixel) { return pixel.certainly == Visibility::shadowed; });
+        const auto bright = values_of(
+            group, [](const Observed& pixel) { return pixel.certainly == Visibility::lit; });
+        if (dark.size() < enough || bright.size() < enough) continue;
+        const Typical shadow = *typical(dark);
+        const glm::dvec3 lit = typical(bright)->color;
+        if (brightness(lit) > brightness(shadow.color) &&
+            glm::distance(lit, shadow.color) > fewest_steps * step + 4 * shadow.scatter)
+            all.insert(all.end(), dark.begin(), dark.end());
+    }
+    return typical(all);
+}
+
+std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
+                                 const std::vector<glm::dvec3>& averted, std::size_t normals,
+                                 double step) {
+    if (averted.size() >= enough) return typical(averted);
+    if (const auto shadow = true_shadow(groups, step)) return shadow;
+    std::vector<glm::dvec3> dark;
+    for (const AngleGroup& group : groups)
+        for (const glm::dvec3& value : darker_group(group, normals, step)) dark.push_back(value);
+    return typical(dark);
+}
+
+} // namespace
+
+double MeshLight::above_shadow(const glm::dvec3& value) const {
+    const double apart = glm::distance(value, shadow->color);
+    return brightness(value) < brightness(shadow->color) ? -apart : apart;
+}
+
+double MeshLight::least_difference(double step) const {
+    return fewest_steps * step + 4 * shadow->scatter;
+}
+
+LightAt MeshLight::light_at(const Observed& pixel) const {
+    const Lie& lie = pixel.lies[normals];
+    const LightByAngle& own = in_highlight[highlight_group(lie)];
+    const LightByAngle& known = own.empty() ? light : own;
+    const double sine = lie.sine;
+    if (known.empty() || !(sine > 0)) return {};
+    LightAt below;
+    LightAt at = known.back();
+    for (const LightAt& above : known) {
+        if (sine < above.sine) {
+            const double way = (sine - below.sine) / (above.sine - below.sine);
+            at.typical = glm::mix(below.typical, above.typical, way);
+            at.least = glm::mix(below.least, above.least, way);
+            break;
+        }
+        below = above;
+    }
+    const double weaker = std::pow(pixel.distance, -fall_off);
+    return {sine, at.typical * weaker, at.least * weaker};
+}
+
+std::optional<double> MeshLight::lit_share(const Observed& pixel) const {
+    if (!shadow) return std::nullopt;
+    const LightAt lit = light_at(pixel);
+    const double least_told = least_difference(pixel.step);
+    const double above = above_shadow(pixel.value);
+    const double share = above / lit.typical;
+    if (lit.typical > least_told && share >= 0.5) return share;
+    if (lit.least > least_told && above < 0.5 * lit.least) return share;
+    return std::nullopt;
+}
+
+namespace {
+
+/// Pixels at about one angle that tell what light adds.
+struct LitAtAngle {
+    AngleGroup lit;
+    double dark_sine =
+        0; ///< the angle's, where nearly all that is truly lit shows no light; else 0
+};
+
+/// What is certainly lit, where that is enough; else what is clearly brighter than shadow. Of two
+/// groups of these the brighter. What differs in nothing from the picture without light is no lit
+/// one; but what is dim for being lit little, rather than for a shadow, is seen to be no shadow,
+/// and textures are as dark as they are.
+LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
+                    bool are_differences) {
+    AngleGroup truly_lit;
+    AngleGroup certain;
+    AngleGroup brighter;
+    for (const Observed* const pixel : all) {
+        const double above = mesh.above_shadow(pixel->value);
+        const double least_told = mesh.least_difference(pixel->step);
+        if (above > least_told) brighter.push_back(pixel);
+        if (pixel->certainly != Visibility::lit) continue;
+        truly_lit.push_back(pixel);
+        if (!are_differences || above > least_told / fewest_steps) certain.push_back(pixel);
+    }
+    if (truly_lit.size() >= enough &&
+        static_cast<double>(certain.size()) < unusual * static_cast<double>(truly_lit.size()))
+        return {{}, sine_at(truly_lit, mesh.normals, 0.5)};
+    const AngleGroup& lit = certain.size() < enough ? brighter : certain;
+    const std::optional<TwoGroups> two = two_groups(lit, step);
+    return {two ? two->bright : lit, 0};
+}
+
+/// With which power of the distance light gets weaker, by least squares of logarithms: at about one
+/// angle, light depends on what is left of the angle and on distance. From 0 to most_fall_off.
+double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
+    // The logarithms' sums of products: sine (s), distance (d), light (l).
+    double ss = 0;
+    double sd = 0;
+    double dd = 0;
+    double sl = 0;
+    double dl = 0;
+    for (const LitAtAngle& angle : angles) {
+        if (angle.lit.size() < enough) continue;
+        std::vector<double> light;
+        std::vector<double> sine;
+        std::vector<double> distance;
+        for (const Observed* const pixel : angle.lit) {
+            if (!(pixel->distance > 0)) continue;
+            light.push_back(std::log(mesh.above_shadow(pixel->value)));
+            sine.push_back(std::log(pixel->lies[mesh.normals].sine));
+            distance.push_back(std::log(pixel->distance));
+        }
+        if (light.empty()) continue;
+        const double typical_light = median(light);
+        const double typical_sine = median(sine);
+        const double typical_distance = median(distance);
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            const double s = sine[i] - typical_sine;
+            const double d = distance[i] - typical_distance;
+            ss += s * s;
+            sd += s * d;
+            dd += d * d;
+            sl += s * (light[i] - typical_light);
+            dl += d * (light[i] - typical_light);
+        }
+    }
+    const double slope = (ss * dl - sd * sl) / (ss * dd - sd * sd);
+    return std::isfinite(slope) ? std::clamp(-slope, 0.0, most_fall_off) : 0;
+}
+
+LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
+    std::vector<double> added;
+    std::vector<double> per_sine;
+    for (const Observed* const pixel : lit) {
+        added.push_back(mesh.above_shadow(pixel->value) * std::pow(pixel->distance, mesh.fall_off));
+        per_sine.push_back(added.back() / pixel->lies[mesh.normals].sine);
+    }
+    LightAt at;
+    at.sine = sine_at(lit, mesh.normals, 0.5);
+    at.typical = median(std::move(added));
+    if (!(at.typical > 0)) return at;
+    // Of a normal distribution of logarithms, one of twenty lies beyond 1.6 deviations, and one of
+    // two thousand beyond twice that.
+    const double usual = at.sine * quantile(std::move(per_sine), unusual) / at.typical;
+    at.least = at.typical * std::clamp(usual, 0.0, 1.0) * std::clamp(usual, 0.0, 1.0);
+    return at;
+}
+
+/// The same by how far pixels are from a highlight's middle, where enough are.
+void fit_highlight(const AngleGroup& lit, MeshLight& mesh) {
+    std::array<AngleGroup, highlight_groups> parts;
+    for (const Observed* const pixel : lit)
+        parts[highlight_group(pixel->lies[mesh.normals])].push_back(pixel);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].size() >= enough) mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i]));
+}
+
+/// Whether a pixel's surface is averted by any normals.
+bool is_averted(const Observed& pixel) {
+    return !pixel.faces_light && std::all_of(pixel.lies.begin(), pixel.lies.end(),
+                                             [](const Lie& lie) { return lie.sine > 0; });
+}
+
+/// Whether what is truly dark differs from shadow, and is not as bright as light either: a texture,
+/// or ambient light that is not the same on all sides.
+bool is_patterned(const MeshLight& mesh, std::span<const Observed* const> pixels) {
+    std::size_t dark = 0;
+    std::size_t others = 0;
+    for (const Observed* const pixel : pixels) {
+        if (!is_averted(*pixel) && pixel->certainly != Visibility::shadowed) continue;
+        ++dark;
+        const double above = mesh.above_shadow(pixel->value);
+        const double lit = pixel->faces_light ? mesh.light_at(*pixel).typical : 0;
+        const bool is_lit = lit > 0 && above >= 0.5 * lit;
+        others += std::abs(above) > mesh.least_difference(pixel->step) && !is_lit ? 1U : 0U;
+    }
+    return static_cast<double>(others) > unusual * static_cast<double>(dark);
+}
+
+/// By how much pixels that face the light differ from what light is said to add, in sum.
+double misfit(const MeshLight& mesh, std::span<const Observed* const> pixels) {
+    if (!mesh.shadow || mesh.light.empty()) return std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (const Observed* const pixel : pixels)
+        if (pixel->certainly == Visibility::lit && std::isfinite(brightness(pixel->value)))
+            sum += std::abs(mesh.above_shadow(pixel->value) - mesh.light_at(*pixel).typical);
+    return sum;
+}
+
+void fit_light(std::span<const LitAtAngle> angles, MeshLight& mesh) {
+    for (const auto& [lit, dark_sine] : angles) {
+        if (dark_sine > 0) mesh.light.push_back({dark_sine, 0, 0});
+        if (lit.empty()) continue;
+        mesh.light.push_back(fitted_at(mesh, lit));
+        fit_highlight(lit, mesh);
+    }
+}
+
+MeshLight fitted_by(std::size_t normals, std::span<const Observed* const> pixels, Shown shown) {
+    const bool are_differences = shown == Shown::differences;
+    std::vector<glm::dvec3> averted;
+    AngleGroups groups;
+    std::vector<float> steps;
+    for (const Observed* const pixel : pixels) {
+        const float sine = pixel->lies[normals].sine;
+        if (!std::isfinite(brightness(pixel->value)) ||
+            (pixel->faces_light && !std::isfinite(sine)))
+            continue;
+        steps.push_back(pixel->step);
+        if (is_averted(*pixel))
+            averted.push_back(pixel->value);
+        else if (pixel->faces_light && sine > 0)
+            groups[static_cast<std::size_t>(angle_group(sine))].push_back(pixel);
+    }
+    MeshLight mesh;
+    mesh.normals = normals;
+    if (steps.empty()) return mesh;
+    const double step = median(std::move(steps));
+    if (are_differences)
+        mesh.shadow = Typical{};
+    else
+        mesh.shadow = shadow_of(groups, averted, normals, step);
+    if (!mesh.shadow) return mesh;
+    std::array<LitAtAngle, angle_groups> angles;
+    std::transform(groups.begin(), groups.end(), angles.begin(), [&](const AngleGroup& group) {
+        return lit_ones(mesh, group, step, are_differences);
+    });
+    MeshLight falling = mesh;
+    falling.fall_off = fall_off_of(mesh, angles);
+    fit_light(angles, mesh);
+    if (falling.fall_off > 0) {
+        fit_light(angles, falling);
+        if (misfit(falling, pixels) < misfit(mesh, pixels)) mesh = std::move(falling);
+    }
+    if (shown == Shown::textured && is_patterned(mesh, pixels)) mesh.shadow.reset();
+    return mesh;
+}
+
+/// Whether normals lie to the light as some before them do, at all pixels.
+bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals) {
+    for (std::size_t others = 0; others < normals; ++others)
+        if (std::all_of(pixels.begin(), pixels.end(), [&](const Observed* pixel) {
+                return pixel->lies[normals].sine == pixel->lies[others].sine;
+            }))
+            return true;
+    return false;
+}
+
+} // namespace
+
+std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown) {
+    std::vector<MeshLight> fits;
+    std::vector<double> misfits;
+    for (std::size_t normals = 0; normals < all_normals_by.size(); ++normals) {
+        if (lie_as_others(pixels, normals)) continue;
+        fits.push_back(fitted_by(normals, pixels, shown));
+        misfits.push_back(misfit(fits.back(), pixels));
+    }
+    const auto best = std::min_element(misfits.begin(), misfits.end()) - misfits.begin();
+    std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
+    for (std::size_t i = 0; i < fits.size(); ++i)
+        if (static_cast<std::ptrdiff_t>(i) != best &&
+            misfits[i] <= 2 * misfits[static_cast<std::size_t>(best)])
+            kept.push_back(std::move(fits[i]));
+    return kept;
+}
+
+std::optional<double> lit_share(std::span<const MeshLight> fits, const Observed& pixel) {
+    const std::optional<double> share = fits.front().lit_share(pixel);
+    if (!share) return std::nullopt;
+    for (const MeshLight& fit : fits.subspan(1)) {
+        const std::optional<double> other = fit.lit_share(pixel);
+        if (!other || (*other >= 0.5) != (*share >= 0.5)) return std::nullopt;
+    }
+    return share;
+}
+
+} // namespace shadowproof

@@ -1,0 +1,104 @@
+// What light and shadow look like on one mesh of a picture, fitted to its pixels.
+#pragma once
+
+#include "compare/picture/reading/shading_normals.h"
+#include "scenes/frame.h"
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace shadowproof {
+
+/// Of a file's integers. A difference of two colours is off by one of them at most, and is asked
+/// whether it is more than half of what light adds: with four, that may be off by a quarter.
+inline constexpr double fewest_steps = 4;
+
+/// How one of all_normals_by lies to light and eye.
+struct Lie {
+    float sine = 0; ///< of the angle at which the light falls: below 0 where it falls on the other
+                    ///< side than on the triangle itself
+    float off_half = 0; ///< sine of the angle to the vector half way between light and eye, by
+                        ///< which highlights get weaker
+};
+using Lies = std::array<Lie, all_normals_by.size()>;
+
+/// A pixel that sees the mesh.
+struct Observed {
+    /// The picture's colour. Of a pair, how it differs from the twin's, over the twin's brightness
+    /// where that is more than a few steps: so surfaces of all colours are alike.
+    glm::dvec3 value{0, 0, 0};
+    float step = 0; ///< what a step of the file's integers changes `value` by
+    Lies lies{};
+    float distance = 1;       ///< from the light; 1 where it is directional
+    bool is_ratio = false;    ///< `value` is a difference over the twin's brightness
+    bool faces_light = false; ///< others are dark in any case
+    /// Truly, and so are all pixels around, so that no outline of another renderer has it
+    /// otherwise.
+    std::optional<Visibility> certainly{};
+};
+
+/// Of many colours the median, channel by channel, and the median distance from it.
+struct Typical {
+    glm::dvec3 color{0, 0, 0};
+    double scatter = 0;
+};
+
+/// What light adds to shadow, at the sine of one angle.
+struct LightAt {
+    double sine = 0;
+    double typical = 0;
+    double least = 0; ///< what all lit pixels have: bumps, and normals that nobody knows, make some
+                      ///< darker than others
+};
+/// By growing sines, at distance 1.
+using LightByAngle = std::vector<LightAt>;
+
+/// Groups of pixels that are about as far from a highlight's middle, by Lie::off_half, in equal
+/// parts.
+inline constexpr int highlight_groups = 16;
+
+struct MeshLight {
+    std::optional<Typical> shadow; ///< nothing where the pixels do not tell it
+    std::size_t normals = 0;       ///< by which of all_normals_by the surface is lit
+    LightByAngle light;            ///< of all pixels
+    std::array<LightByAngle, highlight_groups> in_highlight; ///< where enough pixels tell it
+    double fall_off = 0; ///< with which power of the distance light gets weaker
+
+    /// How much lighter than shadow: a distance of colours, negative where it is darker.
+    double above_shadow(const glm::dvec3& value) const;
+    /// What tells light from shadow, at least: four steps of the file's integers, and four times
+    /// what shadows scatter.
+    double least_difference(double step) const;
+    /// What light adds at a pixel: between angles that are known it grows evenly, and from nothing
+    /// where it only grazes. Nothing where no angle is known.
+    LightAt light_at(const Observed& pixel) const;
+    /// Where between shadow (0) and light (1) the pixel lies. Nothing where it cannot be told:
+    /// light adds too little there, or the pixel is brighter than half the least light, and darker
+    /// than half the typical.
+    std::optional<double> lit_share(const Observed& pixel) const;
+};
+
+/// What the pixels of a mesh are.
+enum class Shown : std::uint8_t {
+    differences, ///< from a picture without light
+    plain,       ///< colours of one material
+    textured,    ///< colours that may be a texture's
+};
+
+/// By each of all_normals_by, the best first: others count as well where they fit half as well, for
+/// nothing else tells which are the picture's. Of differences shadow is none. Else it is
+///   - the typical colour of surfaces that face away from the light;
+///   - where none are seen, that of pixels that are certainly in shadow, if the picture shows them
+///     darker than lit ones at the same angle;
+///   - else the darker of two groups into which pixels at one angle fall.
+/// and of a texture that shows in the shadows nothing is told. Light is what is brighter, angle by
+/// angle, and as it falls off with distance; certainly lit, where enough pixels are.
+std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown);
+
+/// Of the best; nothing where another one says otherwise.
+std::optional<double> lit_share(std::span<const MeshLight> fits, const Observed& pixel);
+
+} // namespace shadowproof

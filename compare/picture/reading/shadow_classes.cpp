@@ -1,0 +1,212 @@
+#include "compare/picture/reading/shadow_classes.h"
+
+#include "compare/picture/predict.h"
+#include "compare/picture/reading/mesh_light.h"
+#include "compare/picture/reading/seen_pixels.h"
+#include "compare/picture/surface_colors.h"
+#include "scenes/error.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <map>
+#include <vector>
+
+namespace shadowproof {
+
+namespace {
+
+/// How finely a renderer places vertices, at least (OpenGL 4.5, table 23.54: SUBPIXEL_BITS; Vulkan
+/// the same), and browsers without a GPU no finer. Nobody says how finely this one does.
+constexpr int least_subpixel_bits = 4;
+
+/// Where between shadow (0) and light (1) a pixel lies; nothing where they cannot be told apart.
+using LitShare = std::function<std::optional<double>(const Seen& seen, std::size_t pixel)>;
+
+using LightOfMeshes = std::map<std::uint32_t, std::vector<MeshLight>>;
+
+/// `scene`: where the pixels are the picture's own; none: they are differences.
+LightOfMeshes light_by_mesh(const SeenPixels& pixels, const Scene* scene) {
+    const auto shown = [&](std::uint32_t mesh) {
+        if (scene == nullptr) return Shown::differences;
+        return scene->meshes[mesh].textured ? Shown::textured : Shown::plain;
+    };
+    std::map<std::uint32_t, std::vector<const Observed*>> by_mesh;
+    for (const std::optional<Seen>& seen : pixels.pixels)
+        if (seen) by_mesh[seen->mesh].push_back(&seen->observed);
+    LightOfMeshes meshes;
+    for (const auto& [mesh, observed] : by_mesh) meshes[mesh] = fitted_light(observed, shown(mesh));
+    // A mesh that the picture shows all in shadow would be as bright as others are, if light is
+    // measured by what surfaces are without it.
+    const auto lacks_light = [&](std::uint32_t mesh) {
+        return by_mesh.at(mesh).front()->is_ratio && meshes.at(mesh).front().light.empty();
+    };
+    if (std::none_of(by_mesh.begin(), by_mesh.end(),
+                     [&](const auto& each) { return lacks_light(each.first); }))
+        return meshes;
+    std::vector<const Observed*> all;
+    for (const auto& [mesh, observed] : by_mesh)
+        if (observed.front()->is_ratio && !lacks_light(mesh))
+            all.insert(all.end(), observed.begin(), observed.end());
+    const std::vector<MeshLight> common = fitted_light(all, Shown::differences);
+    for (auto& [mesh, light] : meshes)
+        if (lacks_light(mesh)) light = common;
+    return meshes;
+}
+
+LitShare by_mask(const Picture& picture) {
+    return [&picture](const Seen& /*seen*/, std::size_t pixel) -> std::optional<double> {
+        return color_at(picture, pixel).g;
+    };
+}
+
+/// Of the picture alone, or by how it differs from one without the light.
+LitShare by_light(const Scene& scene, const Picture& picture, const Twins& twins,
+                  SeenPixels& pixels) {
+    const Picture* const twin = twins.unlit ? &*twins.unlit : nullptr;
+    observe(picture, twin, step_of(picture, twins), pixels);
+    const LightOfMeshes meshes = light_by_mesh(pixels, twin != nullptr ? nullptr : &scene);
+    return [meshes](const Seen& seen, std::size_t /*pixel*/) {
+        return lit_share(meshes.at(seen.mesh), seen.observed);
+    };
+}
+
+/// By what is missing in the picture, which shadows take away as a light adds it.
+LitShare by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
+    observe(*twins.unshadowed, &picture, step_of(picture, twins), pixels);
+    for (std::optional<Seen>& seen : pixels.pixels)
+        if (seen && seen->observed.certainly)
+            seen->observed.certainly = seen->observed.certainly == Visibility::lit
+                                           ? Visibility::shadowed
+                                           : Visibility::lit;
+    const LightOfMeshes meshes = light_by_mesh(pixels, nullptr);
+    return [meshes](const Seen& seen, std::size_t /*pixel*/) -> std::optional<double> {
+        const auto shadow_share = lit_share(meshes.at(seen.mesh), seen.observed);
+        if (!shadow_share) return std::nullopt;
+        return 1 - *shadow_share;
+    };
+}
+
+/// What light adds at a pixel is how the twins differ there.
+LitShare by_both(const Picture& picture, const Twins& twins) {
+    return [&picture, &twins, step = step_of(picture, twins)](
+               const Seen& /*seen*/, std::size_t pixel) -> std::optional<double> {
+        const glm::dvec3 dark = color_at(*twins.unlit, pixel);
+        const glm::dvec3 bright = color_at(*twins.unshadowed, pixel);
+        const glm::dvec3 light = bright - dark;
+        const double own_step =
+            picture.bits < 32 ? step : std::max(step, float_step(glm::length(bright)));
+        if (!(glm::length(light) > fewest_steps * own_step)) return std::nullopt;
+        return glm::dot(color_at(picture, pixel) - dark, light) / glm::dot(light, light);
+    };
+}
+
+bool is_one_color(const Picture& picture) {
+    const glm::dvec3 first = color_at(picture, 0);
+    for (std::size_t i = 1;
+         i < static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+         ++i)
+        if (color_at(picture, i) != first) return false;
+    return true;
+}
+
+/// Whether some neighbour of the pixel has another class, though the light falls on both.
+bool borders_shadow(const TracedScene& traced, const SeenPixels& pixels, int x, int y) {
+    const GroundTruth& all = traced.truth();
+    const Image<Visibility>& truth = all.visibility;
+    if (!in_cone(all, truth.index(x, y))) return false;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, truth.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, truth.width - 1); ++u)
+            if (truth.at(u, v) != truth.at(x, y) && pixels.at(u, v) &&
+                pixels.at(u, v)->observed.faces_light && in_cone(all, truth.index(u, v)))
+                return true;
+    return false;
+}
+
+/// Whether most pixels next to a shadow's outline lie between light and shadow: in the middle half
+/// of the way, where no rounding puts them.
+bool is_antialiased(const TracedScene& traced, const SeenPixels& pixels,
+                    const PicturedShadows& shadows) {
+    std::uint64_t all = 0;
+    std::uint64_t between = 0;
+    const Image<Visibility>& truth = traced.truth().visibility;
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            if (shadows.decided.at(x, y) == 0 || !borders_shadow(traced, pixels, x, y)) continue;
+            const float share = shadows.lit_share.at(x, y);
+            ++all;
+            between += share > 0.25F && share < 0.75F ? 1U : 0U;
+        }
+    // A straight outline passes two rows of pixels, and half of those it covers by less than a
+    // quarter or more than three.
+    return all > 0 && between * 8 > all;
+}
+
+LitShare lit_share_of(const Scene& scene, const PictureFiles& files, const Picture& picture,
+                      const Twins& twins, SeenPixels& pixels) {
+    if (!files.mask.empty()) return by_mask(picture);
+    if (twins.unlit && twins.unshadowed) return by_both(picture, twins);
+    if (twins.unshadowed) return by_shadows(picture, twins, pixels);
+    return by_light(scene, picture, twins, pixels);
+}
+
+} // namespace
+
+std::string advice_on_undecidable(const PictureFiles& files) {
+    if (!files.unlit.empty() && !files.unshadowed.empty())
+        return "the light adds too little to the unlit picture; see that both are of the same "
+               "view, one without the light, the other with it but without shadows";
+    if (!files.unlit.empty())
+        return "the light adds too little to the unlit picture; see that it is of the same view, "
+               "without the light alone, and give one with the light but without shadows as well "
+               "(--unshadowed)";
+    if (!files.unshadowed.empty())
+        return "shadows take too little from the picture without them; give one without the light "
+               "as well (--unlit)";
+    return "give a second picture of the same view without the light (--unlit), or one that is "
+           "black where shadowed (--mask)";
+}
+
+Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
+                   const Twins& twins) {
+    if (is_one_color(picture))
+        throw Error(files.mask.empty() ? files.picture : files.mask,
+                    "is of one colour, and shows no scene", "render it again");
+    const Image<Visibility>& truth = traced.truth().visibility;
+    SeenPixels pixels = seen_pixels(traced);
+    const LitShare lit_share = lit_share_of(traced.scene(), files, picture, twins, pixels);
+
+    Frame frame;
+    frame.family = "picture";
+    frame.claim = truth;
+    frame.depth_model.subpixel_bits = least_subpixel_bits;
+    PicturedShadows& shadows = frame.pictured.emplace();
+    shadows.name = std::filesystem::path(files.picture).stem().string();
+    shadows.lit_share = Image<float>(truth.width, truth.height);
+    shadows.decided = Image<std::uint8_t>(truth.width, truth.height);
+    std::uint64_t decided = 0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+        const std::optional<Seen>& seen = pixels.pixels[i];
+        if (!seen || !seen->observed.faces_light) continue;
+        // Outside a spot's cone no shadow shows, and pictures tell what they are without.
+        const bool beyond_light = twins.unshadowed && !in_cone(traced.truth(), i);
+        const std::optional<double> share =
+            beyond_light && !twins.unlit ? std::nullopt : lit_share(*seen, i);
+        if (!share) {
+            shadows.undecidable += beyond_light ? 0 : 1;
+            continue;
+        }
+        ++decided;
+        shadows.decided.pixels[i] = 1;
+        shadows.lit_share.pixels[i] = static_cast<float>(*share);
+        frame.claim.pixels[i] = *share >= 0.5 ? Visibility::lit : Visibility::shadowed;
+    }
+    if (decided == 0)
+        throw Error(files.picture, "does not tell light from shadow at any pixel",
+                    advice_on_undecidable(files));
+    shadows.antialiased = is_antialiased(traced, pixels, shadows);
+    return frame;
+}
+
+} // namespace shadowproof
