@@ -43,6 +43,11 @@ async function render({ view, shadow, ownMaterials, file }) {
     if (object.isLight) fileLights.push(object);
     if (!object.isMesh) return;
     object.castShadow = object.receiveShadow = true;
+    // Without normals, three.js's shadows are looked up nowhere.
+    if (!ownMaterials || !object.geometry.hasAttribute('normal')) {
+      object.geometry = object.geometry.toNonIndexed();
+      object.geometry.computeVertexNormals();
+    }
     if (ownMaterials) return;
     // Flat: the file may have no normals, and smooth ones are dark where faces are not averted.
     // An alpha mask is kept, and read at its full size, as the truth reads it.
@@ -50,9 +55,6 @@ async function render({ view, shadow, ownMaterials, file }) {
     const mask = alphaTest > 0 && map ? { alphaTest, map } : {};
     if (mask.map) Object.assign(map, { minFilter: THREE.LinearFilter, generateMipmaps: false });
     object.material = new THREE.MeshLambertMaterial({ side, flatShading: true, ...mask });
-    // Without normals, three.js's shadows are looked up nowhere.
-    object.geometry = object.geometry.toNonIndexed();
-    object.geometry.computeVertexNormals();
   });
   for (const light of fileLights) light.parent.remove(light);
   const { kind, outer_cone_degrees } = view.light;

@@ -118,9 +118,9 @@ double sine_at(const AngleGroup& pixels, std::size_t normals, double share) {
 }
 
 /// The darker of two groups of pixels, but where the light only falls on it at a lower angle.
-std::vector<glm::dvec3> darker_group(const AngleGroup& group, std::size_t normals, double step) {
+std::vector<glm::dvec3> darker_group(const AngleGroup& group, double step) {
     const std::optional<TwoGroups> two = two_groups(group, step);
-    if (!two || sine_at(two->dark, normals, 0.5) < sine_at(two->bright, normals, 0.25)) return {};
+    if (!two || sine_at(two->dark, 0, 0.5) < sine_at(two->bright, 0, 0.25)) return {};
     return values_of(two->dark, [](const Observed&) { return true; });
 }
 
@@ -144,13 +144,12 @@ std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double st
 }
 
 std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
-                                 const std::vector<glm::dvec3>& averted, std::size_t normals,
-                                 double step) {
+                                 const std::vector<glm::dvec3>& averted, double step) {
     if (averted.size() >= enough) return typical(averted);
     if (const auto shadow = true_shadow(groups, step)) return shadow;
     std::vector<glm::dvec3> dark;
     for (const AngleGroup& group : groups)
-        for (const glm::dvec3& value : darker_group(group, normals, step)) dark.push_back(value);
+        for (const glm::dvec3& value : darker_group(group, step)) dark.push_back(value);
     return typical(dark);
 }
 
@@ -202,8 +201,10 @@ namespace {
 /// Pixels at about one angle that tell what light adds.
 struct LitAtAngle {
     AngleGroup lit;
-    double dark_sine =
-        0; ///< the angle's, where nearly all that is truly lit shows no light; else 0
+    std::size_t truly_lit = 0; ///< pixels that are certainly so
+    std::size_t shown_lit = 0; ///< those of them that show light
+    double sine = 0;           ///< typical of them
+    bool is_dark = false;      ///< there is no light at this angle
 };
 
 /// What is certainly lit, where that is enough; else what is clearly brighter than shadow. Of two
@@ -212,6 +213,7 @@ struct LitAtAngle {
 /// and textures are as dark as they are.
 LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
                     bool are_differences) {
+    LitAtAngle angle;
     AngleGroup truly_lit;
     AngleGroup certain;
     AngleGroup brighter;
@@ -223,12 +225,29 @@ LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
         truly_lit.push_back(pixel);
         if (!are_differences || above > least_told / fewest_steps) certain.push_back(pixel);
     }
-    if (truly_lit.size() >= enough &&
-        static_cast<double>(certain.size()) < unusual * static_cast<double>(truly_lit.size()))
-        return {{}, sine_at(truly_lit, mesh.normals, 0.5)};
+    angle.truly_lit = truly_lit.size();
+    angle.shown_lit = certain.size();
+    if (!truly_lit.empty()) angle.sine = sine_at(truly_lit, mesh.normals, 0.5);
     const AngleGroup& lit = certain.size() < enough ? brighter : certain;
     const std::optional<TwoGroups> two = two_groups(lit, step);
-    return {two ? two->bright : lit, 0};
+    angle.lit = two ? two->bright : lit;
+    return angle;
+}
+
+/// Where most of what is truly lit shows no light, as black surfaces that only have highlights, an
+/// angle at which nearly nothing does tells that there is none.
+void leave_out_dark(std::span<LitAtAngle> angles) {
+    std::size_t truly_lit = 0;
+    std::size_t shown_lit = 0;
+    for (const LitAtAngle& angle : angles) {
+        truly_lit += angle.truly_lit;
+        shown_lit += angle.shown_lit;
+    }
+    if (2 * shown_lit >= truly_lit) return;
+    for (LitAtAngle& angle : angles)
+        if (angle.truly_lit >= enough &&
+            static_cast<double>(angle.shown_lit) < unusual * static_cast<double>(angle.truly_lit))
+            angle.is_dark = true;
 }
 
 /// With which power of the distance light gets weaker, by least squares of logarithms: at about one
@@ -318,62 +337,83 @@ bool is_patterned(const MeshLight& mesh, std::span<const Observed* const> pixels
     return static_cast<double>(others) > unusual * static_cast<double>(dark);
 }
 
-/// By how much pixels that face the light differ from what light is said to add, in sum.
-double misfit(const MeshLight& mesh, std::span<const Observed* const> pixels) {
-    if (!mesh.shadow || mesh.light.empty()) return std::numeric_limits<double>::infinity();
-    double sum = 0;
-    for (const Observed* const pixel : pixels)
-        if (pixel->certainly == Visibility::lit && std::isfinite(brightness(pixel->value)))
-            sum += std::abs(mesh.above_shadow(pixel->value) - mesh.light_at(*pixel).typical);
-    return sum;
+/// By how much pixels that are lit, in truth and in the picture, typically differ from what light
+/// is said to add. False shadows fit no normals, and say nothing about them.
+double misfit(const MeshLight& mesh, std::span<const Observed* const> facing) {
+    if (mesh.light.empty()) return std::numeric_limits<double>::infinity();
+    std::vector<double> errors;
+    for (const Observed* const pixel : facing) {
+        if (pixel->certainly != Visibility::lit) continue;
+        const double above = mesh.above_shadow(pixel->value);
+        if (above > mesh.least_difference(pixel->step))
+            errors.push_back(std::abs(above - mesh.light_at(*pixel).typical));
+    }
+    return errors.empty() ? 0 : median(std::move(errors));
 }
 
 void fit_light(std::span<const LitAtAngle> angles, MeshLight& mesh) {
-    for (const auto& [lit, dark_sine] : angles) {
-        if (dark_sine > 0) mesh.light.push_back({dark_sine, 0, 0});
-        if (lit.empty()) continue;
-        mesh.light.push_back(fitted_at(mesh, lit));
-        fit_highlight(lit, mesh);
-    }
+    for (const LitAtAngle& angle : angles)
+        if (angle.is_dark) {
+            mesh.light.push_back({angle.sine, 0, 0});
+        } else if (!angle.lit.empty()) {
+            mesh.light.push_back(fitted_at(mesh, angle.lit));
+            fit_highlight(angle.lit, mesh);
+        }
 }
 
-MeshLight fitted_by(std::size_t normals, std::span<const Observed* const> pixels, Shown shown) {
-    const bool are_differences = shown == Shown::differences;
-    std::vector<glm::dvec3> averted;
-    AngleGroups groups;
+/// The pixels of a mesh that are of use.
+struct Useful {
+    std::vector<const Observed*> facing;
+    std::vector<glm::dvec3> averted;          ///< by any normals
+    std::vector<glm::dvec3> averted_by_faces; ///< and not by others
+    double step = 0;                          ///< typical
+};
+
+Useful useful_of(std::span<const Observed* const> pixels) {
+    Useful useful;
     std::vector<float> steps;
     for (const Observed* const pixel : pixels) {
-        const float sine = pixel->lies[normals].sine;
-        if (!std::isfinite(brightness(pixel->value)) ||
-            (pixel->faces_light && !std::isfinite(sine)))
+        if (!std::isfinite(brightness(pixel->value))) continue;
+        if (is_averted(*pixel))
+            useful.averted.push_back(pixel->value);
+        else if (!pixel->faces_light)
+            useful.averted_by_faces.push_back(pixel->value);
+        else if (std::isfinite(pixel->lies[0].sine))
+            useful.facing.push_back(pixel);
+        else
             continue;
         steps.push_back(pixel->step);
-        if (is_averted(*pixel))
-            averted.push_back(pixel->value);
-        else if (pixel->faces_light && sine > 0)
-            groups[static_cast<std::size_t>(angle_group(sine))].push_back(pixel);
     }
+    if (!steps.empty()) useful.step = median(std::move(steps));
+    return useful;
+}
+
+AngleGroups by_angle(const Useful& useful, std::size_t normals) {
+    AngleGroups groups;
+    for (const Observed* const pixel : useful.facing)
+        if (const float sine = pixel->lies[normals].sine; sine > 0)
+            groups[static_cast<std::size_t>(angle_group(sine))].push_back(pixel);
+    return groups;
+}
+
+MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
     MeshLight mesh;
+    mesh.shadow = shadow;
     mesh.normals = normals;
-    if (steps.empty()) return mesh;
-    const double step = median(std::move(steps));
-    if (are_differences)
-        mesh.shadow = Typical{};
-    else
-        mesh.shadow = shadow_of(groups, averted, normals, step);
-    if (!mesh.shadow) return mesh;
+    const AngleGroups groups = by_angle(useful, normals);
     std::array<LitAtAngle, angle_groups> angles;
     std::transform(groups.begin(), groups.end(), angles.begin(), [&](const AngleGroup& group) {
-        return lit_ones(mesh, group, step, are_differences);
+        return lit_ones(mesh, group, useful.step, shown == Shown::differences);
     });
+    leave_out_dark(angles);
     MeshLight falling = mesh;
     falling.fall_off = fall_off_of(mesh, angles);
     fit_light(angles, mesh);
     if (falling.fall_off > 0) {
         fit_light(angles, falling);
-        if (misfit(falling, pixels) < misfit(mesh, pixels)) mesh = std::move(falling);
+        if (2 * misfit(falling, useful.facing) < misfit(mesh, useful.facing))
+            mesh = std::move(falling);
     }
-    if (shown == Shown::textured && is_patterned(mesh, pixels)) mesh.shadow.reset();
     return mesh;
 }
 
@@ -390,19 +430,27 @@ bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals)
 } // namespace
 
 std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown) {
+    const Useful useful = useful_of(pixels);
+    std::optional<Typical> shadow = Typical{};
+    if (shown != Shown::differences)
+        shadow = shadow_of(
+            by_angle(useful, 0),
+            useful.averted.size() < enough ? useful.averted_by_faces : useful.averted, useful.step);
+    if (!shadow) return {MeshLight{}};
     std::vector<MeshLight> fits;
     std::vector<double> misfits;
     for (std::size_t normals = 0; normals < all_normals_by.size(); ++normals) {
         if (lie_as_others(pixels, normals)) continue;
-        fits.push_back(fitted_by(normals, pixels, shown));
-        misfits.push_back(misfit(fits.back(), pixels));
+        fits.push_back(fitted_by(normals, useful, *shadow, shown));
+        misfits.push_back(misfit(fits.back(), useful.facing));
     }
     const auto best = std::min_element(misfits.begin(), misfits.end()) - misfits.begin();
     std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
     for (std::size_t i = 0; i < fits.size(); ++i)
         if (static_cast<std::ptrdiff_t>(i) != best &&
-            misfits[i] <= 2 * misfits[static_cast<std::size_t>(best)])
+            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step))
             kept.push_back(std::move(fits[i]));
+    if (shown == Shown::textured && is_patterned(kept.front(), pixels)) return {MeshLight{}};
     return kept;
 }
 

@@ -72,6 +72,20 @@ LitShare by_light(const Scene& scene, const Picture& picture, const Twins& twins
     };
 }
 
+/// Shadows cover few angles: elsewhere light may be as far from typical as at any of these.
+void doubt(MeshLight& fit) {
+    double least = 1;
+    const auto for_all = [&](const auto& change) {
+        std::for_each(fit.light.begin(), fit.light.end(), change);
+        for (LightByAngle& light : fit.in_highlight)
+            std::for_each(light.begin(), light.end(), change);
+    };
+    for_all([&](const LightAt& at) {
+        if (at.typical > 0) least = std::min(least, at.least / at.typical);
+    });
+    for_all([&](LightAt& at) { at.least = least * at.typical; });
+}
+
 /// By what is missing in the picture, which shadows take away as a light adds it.
 LitShare by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
     observe(*twins.unshadowed, &picture, step_of(picture, twins), pixels);
@@ -80,7 +94,9 @@ LitShare by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixe
             seen->observed.certainly = seen->observed.certainly == Visibility::lit
                                            ? Visibility::shadowed
                                            : Visibility::lit;
-    const LightOfMeshes meshes = light_by_mesh(pixels, nullptr);
+    LightOfMeshes meshes = light_by_mesh(pixels, nullptr);
+    for (auto& [mesh, fits] : meshes)
+        for (MeshLight& fit : fits) doubt(fit);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) -> std::optional<double> {
         const auto shadow_share = lit_share(meshes.at(seen.mesh), seen.observed);
         if (!shadow_share) return std::nullopt;
@@ -111,7 +127,15 @@ bool is_one_color(const Picture& picture) {
     return true;
 }
 
-/// Whether some neighbour of the pixel has another class, though the light falls on both.
+/// Whether some neighbour of the pixel has another class.
+bool borders(const Image<Visibility>& truth, int x, int y) {
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, truth.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, truth.width - 1); ++u)
+            if (truth.at(u, v) != truth.at(x, y)) return true;
+    return false;
+}
+
+/// The same, where the light falls on both.
 bool borders_shadow(const TracedScene& traced, const SeenPixels& pixels, int x, int y) {
     const GroundTruth& all = traced.truth();
     const Image<Visibility>& truth = all.visibility;
@@ -124,23 +148,36 @@ bool borders_shadow(const TracedScene& traced, const SeenPixels& pixels, int x, 
     return false;
 }
 
-/// Whether most pixels next to a shadow's outline lie between light and shadow: in the middle half
+/// Pixels next to outlines, and those of them that lie between light and shadow: in the middle half
 /// of the way, where no rounding puts them.
-bool is_antialiased(const TracedScene& traced, const SeenPixels& pixels,
-                    const PicturedShadows& shadows) {
+struct AtOutlines {
     std::uint64_t all = 0;
     std::uint64_t between = 0;
+
+    void add(float share) {
+        ++all;
+        between += share > 0.25F && share < 0.75F ? 1U : 0U;
+    }
+    /// A straight outline passes two rows of pixels, and half of those it covers by less than a
+    /// quarter or more than three.
+    bool are_mixed() const { return all > 0 && between * 8 > all; }
+};
+
+/// By all outlines of the truth, or by those of shadows alone: twins that are antialiased as well
+/// show nothing of others.
+bool is_antialiased(const TracedScene& traced, const SeenPixels& pixels,
+                    const PicturedShadows& shadows) {
+    AtOutlines any;
+    AtOutlines of_shadows;
     const Image<Visibility>& truth = traced.truth().visibility;
     for (int y = 0; y < truth.height; ++y)
         for (int x = 0; x < truth.width; ++x) {
-            if (shadows.decided.at(x, y) == 0 || !borders_shadow(traced, pixels, x, y)) continue;
+            if (shadows.decided.at(x, y) == 0 || !borders(truth, x, y)) continue;
             const float share = shadows.lit_share.at(x, y);
-            ++all;
-            between += share > 0.25F && share < 0.75F ? 1U : 0U;
+            any.add(share);
+            if (borders_shadow(traced, pixels, x, y)) of_shadows.add(share);
         }
-    // A straight outline passes two rows of pixels, and half of those it covers by less than a
-    // quarter or more than three.
-    return all > 0 && between * 8 > all;
+    return any.are_mixed() || of_shadows.are_mixed();
 }
 
 LitShare lit_share_of(const Scene& scene, const PictureFiles& files, const Picture& picture,

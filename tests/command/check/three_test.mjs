@@ -59,7 +59,7 @@ test('shadows that end with the square of a directional light are told, and wher
 });
 
 test('no pixel is wrong on a round surface that the light grazes', () => {
-  const { cell: { regions } } = checked('sun', { MAP_SIZE: '4096' });
+  const { cell: { regions = [] } } = checked('sun', { MAP_SIZE: '4096' });
   assert.deepEqual(regions.filter(({ receiver }) => receiver === 'knob'), []);
 });
 
