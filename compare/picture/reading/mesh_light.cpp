@@ -185,15 +185,14 @@ LightAt MeshLight::light_at(const Observed& pixel) const {
     return {sine, at.typical * weaker, at.least * weaker};
 }
 
-std::optional<double> MeshLight::lit_share(const Observed& pixel) const {
-    if (!shadow) return std::nullopt;
+ShownLight MeshLight::shown_light(const Observed& pixel) const {
+    if (!shadow) return {};
     const LightAt lit = light_at(pixel);
     const double least_told = least_difference(pixel.step);
+    if (!(lit.typical > least_told)) return {};
     const double above = above_shadow(pixel.value);
     const double share = above / lit.typical;
-    if (lit.typical > least_told && share >= 0.5) return share;
-    if (lit.least > least_told && above < 0.5 * lit.least) return share;
-    return std::nullopt;
+    return {share, share >= 0.5 || (lit.least > least_told && above < 0.5 * lit.least)};
 }
 
 namespace {
@@ -448,20 +447,20 @@ std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Sho
     std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
     for (std::size_t i = 0; i < fits.size(); ++i)
         if (static_cast<std::ptrdiff_t>(i) != best &&
-            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step))
+            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + useful.step))
             kept.push_back(std::move(fits[i]));
     if (shown == Shown::textured && is_patterned(kept.front(), pixels)) return {MeshLight{}};
     return kept;
 }
 
-std::optional<double> lit_share(std::span<const MeshLight> fits, const Observed& pixel) {
-    const std::optional<double> share = fits.front().lit_share(pixel);
-    if (!share) return std::nullopt;
+ShownLight shown_light(std::span<const MeshLight> fits, const Observed& pixel) {
+    ShownLight shown = fits.front().shown_light(pixel);
+    if (shown.share >= 0.5) return shown; // light is seen, whatever others make of it
     for (const MeshLight& fit : fits.subspan(1)) {
-        const std::optional<double> other = fit.lit_share(pixel);
-        if (!other || (*other >= 0.5) != (*share >= 0.5)) return std::nullopt;
+        const ShownLight other = fit.shown_light(pixel);
+        shown.told &= other.told && other.share < 0.5;
     }
-    return share;
+    return shown;
 }
 
 } // namespace shadowproof

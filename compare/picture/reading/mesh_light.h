@@ -60,6 +60,14 @@ using LightByAngle = std::vector<LightAt>;
 /// parts.
 inline constexpr int highlight_groups = 16;
 
+/// Where between shadow (0) and light (1) a pixel lies.
+struct ShownLight {
+    double share = 0;
+    /// False where light adds too little, or the pixel is brighter than half the least light, and
+    /// darker than half the typical.
+    bool told = false;
+};
+
 struct MeshLight {
     std::optional<Typical> shadow; ///< nothing where the pixels do not tell it
     std::size_t normals = 0;       ///< by which of all_normals_by the surface is lit
@@ -75,10 +83,7 @@ struct MeshLight {
     /// What light adds at a pixel: between angles that are known it grows evenly, and from nothing
     /// where it only grazes. Nothing where no angle is known.
     LightAt light_at(const Observed& pixel) const;
-    /// Where between shadow (0) and light (1) the pixel lies. Nothing where it cannot be told:
-    /// light adds too little there, or the pixel is brighter than half the least light, and darker
-    /// than half the typical.
-    std::optional<double> lit_share(const Observed& pixel) const;
+    ShownLight shown_light(const Observed& pixel) const;
 };
 
 /// What the pixels of a mesh are.
@@ -88,9 +93,9 @@ enum class Shown : std::uint8_t {
     textured,    ///< colours that may be a texture's
 };
 
-/// By each of all_normals_by, the best first: others count as well where they fit half as well but for
-/// two steps of the file, for
-/// nothing else tells which are the picture's. Of differences shadow is none. Else it is
+/// By each of all_normals_by, the best first: others count as well where they fit half as well, but
+/// for a step of the file, as nothing else tells which are the picture's. Of differences shadow is
+/// none. Else it is
 ///   - the typical colour of surfaces that face away from the light;
 ///   - where none are seen, that of pixels that are certainly in shadow, if the picture shows them
 ///     darker than lit ones at the same angle;
@@ -99,7 +104,7 @@ enum class Shown : std::uint8_t {
 /// angle, and as it falls off with distance; certainly lit, where enough pixels are.
 std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown);
 
-/// Of the best; nothing where another one says otherwise.
-std::optional<double> lit_share(std::span<const MeshLight> fits, const Observed& pixel);
+/// Of the best; not told where it says that the pixel is dark, and another one does not.
+ShownLight shown_light(std::span<const MeshLight> fits, const Observed& pixel);
 
 } // namespace shadowproof

@@ -21,8 +21,7 @@ namespace {
 /// the same), and browsers without a GPU no finer. Nobody says how finely this one does.
 constexpr int least_subpixel_bits = 4;
 
-/// Where between shadow (0) and light (1) a pixel lies; nothing where they cannot be told apart.
-using LitShare = std::function<std::optional<double>(const Seen& seen, std::size_t pixel)>;
+using LightOf = std::function<ShownLight(const Seen& seen, std::size_t pixel)>;
 
 using LightOfMeshes = std::map<std::uint32_t, std::vector<MeshLight>>;
 
@@ -55,20 +54,20 @@ LightOfMeshes light_by_mesh(const SeenPixels& pixels, const Scene* scene) {
     return meshes;
 }
 
-LitShare by_mask(const Picture& picture) {
-    return [&picture](const Seen& /*seen*/, std::size_t pixel) -> std::optional<double> {
-        return color_at(picture, pixel).g;
+LightOf by_mask(const Picture& picture) {
+    return [&picture](const Seen& /*seen*/, std::size_t pixel) -> ShownLight {
+        return {color_at(picture, pixel).g, true};
     };
 }
 
 /// Of the picture alone, or by how it differs from one without the light.
-LitShare by_light(const Scene& scene, const Picture& picture, const Twins& twins,
-                  SeenPixels& pixels) {
+LightOf by_light(const Scene& scene, const Picture& picture, const Twins& twins,
+                 SeenPixels& pixels) {
     const Picture* const twin = twins.unlit ? &*twins.unlit : nullptr;
     observe(picture, twin, step_of(picture, twins), pixels);
     const LightOfMeshes meshes = light_by_mesh(pixels, twin != nullptr ? nullptr : &scene);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) {
-        return lit_share(meshes.at(seen.mesh), seen.observed);
+        return shown_light(meshes.at(seen.mesh), seen.observed);
     };
 }
 
@@ -87,7 +86,7 @@ void doubt(MeshLight& fit) {
 }
 
 /// By what is missing in the picture, which shadows take away as a light adds it.
-LitShare by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
+LightOf by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
     observe(*twins.unshadowed, &picture, step_of(picture, twins), pixels);
     for (std::optional<Seen>& seen : pixels.pixels)
         if (seen && seen->observed.certainly)
@@ -97,24 +96,23 @@ LitShare by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixe
     LightOfMeshes meshes = light_by_mesh(pixels, nullptr);
     for (auto& [mesh, fits] : meshes)
         for (MeshLight& fit : fits) doubt(fit);
-    return [meshes](const Seen& seen, std::size_t /*pixel*/) -> std::optional<double> {
-        const auto shadow_share = lit_share(meshes.at(seen.mesh), seen.observed);
-        if (!shadow_share) return std::nullopt;
-        return 1 - *shadow_share;
+    return [meshes](const Seen& seen, std::size_t /*pixel*/) -> ShownLight {
+        const ShownLight taken = shown_light(meshes.at(seen.mesh), seen.observed);
+        return {1 - taken.share, taken.told};
     };
 }
 
 /// What light adds at a pixel is how the twins differ there.
-LitShare by_both(const Picture& picture, const Twins& twins) {
-    return [&picture, &twins, step = step_of(picture, twins)](
-               const Seen& /*seen*/, std::size_t pixel) -> std::optional<double> {
+LightOf by_both(const Picture& picture, const Twins& twins) {
+    return [&picture, &twins, step = step_of(picture, twins)](const Seen& /*seen*/,
+                                                              std::size_t pixel) -> ShownLight {
         const glm::dvec3 dark = color_at(*twins.unlit, pixel);
         const glm::dvec3 bright = color_at(*twins.unshadowed, pixel);
         const glm::dvec3 light = bright - dark;
         const double own_step =
             picture.bits < 32 ? step : std::max(step, float_step(glm::length(bright)));
-        if (!(glm::length(light) > fewest_steps * own_step)) return std::nullopt;
-        return glm::dot(color_at(picture, pixel) - dark, light) / glm::dot(light, light);
+        if (!(glm::length(light) > fewest_steps * own_step)) return {};
+        return {glm::dot(color_at(picture, pixel) - dark, light) / glm::dot(light, light), true};
     };
 }
 
@@ -172,16 +170,16 @@ bool is_antialiased(const TracedScene& traced, const SeenPixels& pixels,
     const Image<Visibility>& truth = traced.truth().visibility;
     for (int y = 0; y < truth.height; ++y)
         for (int x = 0; x < truth.width; ++x) {
-            if (shadows.decided.at(x, y) == 0 || !borders(truth, x, y)) continue;
             const float share = shadows.lit_share.at(x, y);
+            if ((shadows.decided.at(x, y) == 0 && share == 0) || !borders(truth, x, y)) continue;
             any.add(share);
             if (borders_shadow(traced, pixels, x, y)) of_shadows.add(share);
         }
     return any.are_mixed() || of_shadows.are_mixed();
 }
 
-LitShare lit_share_of(const Scene& scene, const PictureFiles& files, const Picture& picture,
-                      const Twins& twins, SeenPixels& pixels) {
+LightOf light_read_from(const Scene& scene, const PictureFiles& files, const Picture& picture,
+                        const Twins& twins, SeenPixels& pixels) {
     if (!files.mask.empty()) return by_mask(picture);
     if (twins.unlit && twins.unshadowed) return by_both(picture, twins);
     if (twins.unshadowed) return by_shadows(picture, twins, pixels);
@@ -212,7 +210,7 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
                     "is of one colour, and shows no scene", "render it again");
     const Image<Visibility>& truth = traced.truth().visibility;
     SeenPixels pixels = seen_pixels(traced);
-    const LitShare lit_share = lit_share_of(traced.scene(), files, picture, twins, pixels);
+    const LightOf light_of = light_read_from(traced.scene(), files, picture, twins, pixels);
 
     Frame frame;
     frame.family = "picture";
@@ -228,16 +226,15 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
         if (!seen || !seen->observed.faces_light) continue;
         // Outside a spot's cone no shadow shows, and pictures tell what they are without.
         const bool beyond_light = twins.unshadowed && !in_cone(traced.truth(), i);
-        const std::optional<double> share =
-            beyond_light && !twins.unlit ? std::nullopt : lit_share(*seen, i);
-        if (!share) {
+        const ShownLight shown = beyond_light && !twins.unlit ? ShownLight{} : light_of(*seen, i);
+        shadows.lit_share.pixels[i] = static_cast<float>(shown.share);
+        if (!shown.told) {
             shadows.undecidable += beyond_light ? 0 : 1;
             continue;
         }
         ++decided;
         shadows.decided.pixels[i] = 1;
-        shadows.lit_share.pixels[i] = static_cast<float>(*share);
-        frame.claim.pixels[i] = *share >= 0.5 ? Visibility::lit : Visibility::shadowed;
+        frame.claim.pixels[i] = shown.share >= 0.5 ? Visibility::lit : Visibility::shadowed;
     }
     if (decided == 0)
         throw Error(files.picture, "does not tell light from shadow at any pixel",
