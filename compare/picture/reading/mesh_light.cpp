@@ -447,7 +447,7 @@ std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Sho
     std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
     for (std::size_t i = 0; i < fits.size(); ++i)
         if (static_cast<std::ptrdiff_t>(i) != best &&
-            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + useful.step))
+            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step))
             kept.push_back(std::move(fits[i]));
     if (shown == Shown::textured && is_patterned(kept.front(), pixels)) return {MeshLight{}};
     return kept;

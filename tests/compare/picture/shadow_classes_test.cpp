@@ -133,8 +133,9 @@ Image<Visibility> with_light_off(const TracedScene& traced) {
 }
 
 struct Read {
-    std::size_t wrong = 0;   ///< decided otherwise than the picture was made
-    std::size_t decided = 0; ///< 0: the picture was refused
+    std::size_t wrong = 0;             ///< decided otherwise than the picture was made
+    std::size_t decided = 0;           ///< 0: the picture was refused
+    std::vector<std::uint8_t> flags{}; ///< of each pixel: 1 where it is decided
 };
 
 Image<Visibility> with_shadows_off(const TracedScene& traced) {
@@ -170,8 +171,9 @@ Read read(const TracedScene& traced, const Style& style, const Image<Point>& poi
     } catch (const Error&) {
         return read;
     }
+    read.flags = frame.pictured->decided.pixels;
     for (std::size_t i = 0; i < classes.pixels.size(); ++i) {
-        if (frame.pictured->decided.pixels[i] == 0) continue;
+        if (read.flags[i] == 0) continue;
         ++read.decided;
         const bool is_lit = frame.claim.pixels[i] == Visibility::lit;
         read.wrong += is_lit != (classes.pixels[i] == Visibility::lit) ? 1U : 0U;
@@ -209,8 +211,17 @@ TEST_P(PictureOf, a_right_renderer_shows_no_wrong_pixel) {
         }
 }
 
+/// How many of the pixels that `classes` has as partly lit are decided.
+std::size_t decided_dark(const Read& read, const Image<Visibility>& classes) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < read.flags.size(); ++i)
+        if (classes.pixels[i] == Visibility::partly_lit) count += read.flags[i];
+    return count;
+}
+
 // A square in the middle of the picture is dark, which no truth is, or nearly so: none of its
-// pixels is taken for lit, or left out because its neighbours are as dark.
+// pixels is taken for lit. With both twins none is left out that would be decided if it were lit;
+// with one most are not, though others may leave it open how bright they should be.
 TEST_P(FaultyPictureOf, is_seen_to_be_falsely_dark) {
     constexpr int half = 40;
     Image<Visibility> classes = traced.truth().visibility;
@@ -226,14 +237,17 @@ TEST_P(FaultyPictureOf, is_seen_to_be_falsely_dark) {
         if (is_blinding(style)) continue;
         for (const Given given : {Given::unlit, Given::both}) {
             if (style.needs_twins && given != Given::both) continue;
+            // Where light grazes, all depends on normals, and nobody tells which.
+            if (GetParam() == "low_light" && given != Given::both) continue;
             const Read right = read(traced, style, points, traced.truth().visibility, given);
+            const std::size_t told = decided_dark(right, classes);
             for (const double leaks : {0.0, 0.05}) {
                 if (leaks > 0 && style.name != lambert) continue;
                 const Read found = read(traced, style, points, classes, given, leaks);
-                // Of surfaces that are dim as a whole the picture does not tell it.
                 EXPECT_LE(found.wrong, leaks > 0 ? dark / 8 : 0)
                     << style.name << ", " << leaks << words_of(given);
-                EXPECT_GE(found.decided + dark / 4, right.decided) << style.name << words_of(given);
+                EXPECT_GE(decided_dark(found, classes), given == Given::both ? told : told / 2)
+                    << style.name << ", " << leaks << words_of(given);
             }
         }
     }
