@@ -1,4 +1,4 @@
-// What light and shadow look like on one mesh of a picture, fitted to its pixels.
+// What light and shadow look like on one mesh of a picture.
 #pragma once
 
 #include "compare/picture/reading/shading_normals.h"
@@ -59,6 +59,10 @@ using LightByAngle = std::vector<LightAt>;
 /// Groups of pixels that are about as far from a highlight's middle, by Lie::off_half, in equal
 /// parts.
 inline constexpr int highlight_groups = 16;
+std::size_t highlight_group(const Lie& lie);
+
+/// A colour's, or that of a difference of colours.
+double brightness(const glm::dvec3& color);
 
 /// Where between shadow (0) and light (1) a pixel lies.
 struct ShownLight {
@@ -86,25 +90,8 @@ struct MeshLight {
     ShownLight shown_light(const Observed& pixel) const;
 };
 
-/// What the pixels of a mesh are.
-enum class Shown : std::uint8_t {
-    differences, ///< from a picture without light
-    plain,       ///< colours of one material
-    textured,    ///< colours that may be a texture's
-};
-
-/// By each of all_normals_by, the best first: others count as well where they fit half as well, but
-/// for two steps of the file, as nothing else tells which are the picture's. Of differences shadow
-/// is none. Else it is
-///   - the typical colour of surfaces that face away from the light;
-///   - where none are seen, that of pixels that are certainly in shadow, if the picture shows them
-///     darker than lit ones at the same angle;
-///   - else the darker of two groups into which pixels at one angle fall.
-/// and of a texture that shows in the shadows nothing is told. Light is what is brighter, angle by
-/// angle, and as it falls off with distance; certainly lit, where enough pixels are.
-std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown);
-
-/// Of the best; not told where it says that the pixel is dark, and another one does not.
+/// By the best of several fits; not told where it says that the pixel is dark, and another one does
+/// not.
 ShownLight shown_light(std::span<const MeshLight> fits, const Observed& pixel);
 
 } // namespace shadowproof

@@ -1,7 +1,7 @@
 #include "compare/picture/reading/shadow_classes.h"
 
 #include "compare/picture/predict.h"
-#include "compare/picture/reading/mesh_light.h"
+#include "compare/picture/reading/light_fit.h"
 #include "compare/picture/reading/seen_pixels.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/error.h"

@@ -1,0 +1,403 @@
+#include "compare/picture/reading/light_fit.h"
+
+#include "compare/picture/surface_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace shadowproof {
+
+namespace {
+
+constexpr std::size_t enough = 16; // not a few pixels of an outline
+
+/// Light falls off with the square of distance, and a picture's curve may show that more steeply.
+constexpr double most_fall_off = 4;
+
+/// One of twenty pixels may be otherwise than its surface.
+constexpr double unusual = 0.05;
+
+/// What a share of the values do not reach.
+template <class T>
+T quantile(std::vector<T> values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+template <class T>
+T median(std::vector<T> values) {
+    return quantile(std::move(values), 0.5);
+}
+
+std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
+    if (colors.empty()) return std::nullopt;
+    Typical found;
+    std::vector<double> values(colors.size());
+    for (int k = 0; k < 3; ++k) {
+        std::transform(colors.begin(), colors.end(), values.begin(),
+                       [&](const glm::dvec3& color) { return color[k]; });
+        found.color[k] = median(values);
+    }
+    std::transform(colors.begin(), colors.end(), values.begin(),
+                   [&](const glm::dvec3& color) { return glm::distance(color, found.color); });
+    found.scatter = median(values);
+    return found;
+}
+
+/// Pixels that face the light at about one angle.
+using AngleGroup = std::vector<const Observed*>;
+using AngleGroups = std::array<AngleGroup, angle_groups>;
+
+template <class Keep>
+std::vector<glm::dvec3> values_of(const AngleGroup& group, const Keep& keep) {
+    std::vector<glm::dvec3> values;
+    for (const Observed* pixel : group)
+        if (keep(*pixel)) values.push_back(pixel->value);
+    return values;
+}
+
+struct TwoGroups {
+    AngleGroup dark;
+    AngleGroup bright;
+};
+
+/// The two groups into which colours fall by their brightness (2-means); nothing where they are
+/// one. Of colours that are spread evenly, the groups' means lie twice as far apart as the colours
+/// of both lie from their medians; groups that are two lie twice as far again.
+std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
+    if (all.size() < 2 * enough) return std::nullopt;
+    const auto [least, greatest] =
+        std::minmax_element(all.begin(), all.end(), [](const Observed* a, const Observed* b) {
+            return brightness(a->value) < brightness(b->value);
+        });
+    double between = 0.5 * (brightness((*least)->value) + brightness((*greatest)->value));
+    TwoGroups groups;
+    constexpr int rounds = 8;
+    for (int round = 0; round < rounds; ++round) {
+        groups = {};
+        for (const Observed* pixel : all)
+            (brightness(pixel->value) < between ? groups.dark : groups.bright).push_back(pixel);
+        if (groups.dark.size() < enough || groups.bright.size() < enough) return std::nullopt;
+        const auto mean = [](const AngleGroup& group) {
+            double sum = 0;
+            for (const Observed* pixel : group) sum += brightness(pixel->value);
+            return sum / static_cast<double>(group.size());
+        };
+        between = 0.5 * (mean(groups.dark) + mean(groups.bright));
+    }
+    const auto any = [](const Observed&) { return true; };
+    const Typical low = *typical(values_of(groups.dark, any));
+    const Typical high = *typical(values_of(groups.bright, any));
+    const double apart = glm::distance(low.color, high.color);
+    if (apart <= 4 * (low.scatter + high.scatter) || apart <= fewest_steps * step)
+        return std::nullopt;
+    return groups;
+}
+
+/// The sine that a share of the pixels do not reach.
+double sine_at(const AngleGroup& pixels, std::size_t normals, double share) {
+    std::vector<float> sines;
+    for (const Observed* pixel : pixels) sines.push_back(pixel->lies[normals].sine);
+    return quantile(std::move(sines), share);
+}
+
+/// The darker of two groups of pixels, but where the light only falls on it at a lower angle.
+std::vector<glm::dvec3> darker_group(const AngleGroup& group, double step) {
+    const std::optional<TwoGroups> two = two_groups(group, step);
+    if (!two || sine_at(two->dark, 0, 0.5) < sine_at(two->bright, 0, 0.25)) return {};
+    return values_of(two->dark, [](const Observed&) { return true; });
+}
+
+/// The typical colour of pixels certainly in shadow, of the angles at which the picture shows them
+/// darker than lit ones.
+std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double step) {
+    std::vector<glm::dvec3> all;
+    for (const AngleGroup& group : groups) {
+        const auto dark = values_of(
+            group, [](const Observed& pixel) { return pixel.certainly == Visibility::shadowed; });
+        const auto bright = values_of(
+            group, [](const Observed& pixel) { return pixel.certainly == Visibility::lit; });
+        if (dark.size() < enough || bright.size() < enough) continue;
+        const Typical shadow = *typical(dark);
+        const glm::dvec3 lit = typical(bright)->color;
+        if (brightness(lit) > brightness(shadow.color) &&
+            glm::distance(lit, shadow.color) > fewest_steps * step + 4 * shadow.scatter)
+            all.insert(all.end(), dark.begin(), dark.end());
+    }
+    return typical(all);
+}
+
+std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
+                                 const std::vector<glm::dvec3>& averted, double step) {
+    if (averted.size() >= enough) return typical(averted);
+    if (const auto shadow = true_shadow(groups, step)) return shadow;
+    std::vector<glm::dvec3> dark;
+    for (const AngleGroup& group : groups)
+        for (const glm::dvec3& value : darker_group(group, step)) dark.push_back(value);
+    return typical(dark);
+}
+
+/// Pixels at about one angle that tell what light adds.
+struct LitAtAngle {
+    AngleGroup lit;
+    std::size_t truly_lit = 0; ///< pixels that are certainly so
+    std::size_t shown_lit = 0; ///< those of them that show light
+    double sine = 0;           ///< typical of them
+    bool is_dark = false;      ///< there is no light at this angle
+};
+
+/// What is certainly lit, where that is enough; else what is clearly brighter than shadow. Of two
+/// groups of these the brighter. What differs in nothing from the picture without light is no lit
+/// one; but what is dim for being lit little, rather than for a shadow, is seen to be no shadow,
+/// and textures are as dark as they are.
+LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
+                    bool are_differences) {
+    LitAtAngle angle;
+    AngleGroup truly_lit;
+    AngleGroup certain;
+    AngleGroup brighter;
+    for (const Observed* const pixel : all) {
+        const double above = mesh.above_shadow(pixel->value);
+        const double least_told = mesh.least_difference(pixel->step);
+        if (above > least_told) brighter.push_back(pixel);
+        if (pixel->certainly != Visibility::lit) continue;
+        truly_lit.push_back(pixel);
+        if (!are_differences || above > least_told / fewest_steps) certain.push_back(pixel);
+    }
+    angle.truly_lit = truly_lit.size();
+    angle.shown_lit = certain.size();
+    if (!truly_lit.empty()) angle.sine = sine_at(truly_lit, mesh.normals, 0.5);
+    const AngleGroup& lit = certain.size() < enough ? brighter : certain;
+    const std::optional<TwoGroups> two = two_groups(lit, step);
+    angle.lit = two ? two->bright : lit;
+    return angle;
+}
+
+/// Where most of what is truly lit shows no light, as black surfaces that only have highlights, an
+/// angle at which nearly nothing does tells that there is none.
+void leave_out_dark(std::span<LitAtAngle> angles) {
+    std::size_t truly_lit = 0;
+    std::size_t shown_lit = 0;
+    for (const LitAtAngle& angle : angles) {
+        truly_lit += angle.truly_lit;
+        shown_lit += angle.shown_lit;
+    }
+    if (2 * shown_lit >= truly_lit) return;
+    for (LitAtAngle& angle : angles)
+        if (angle.truly_lit >= enough &&
+            static_cast<double>(angle.shown_lit) < unusual * static_cast<double>(angle.truly_lit))
+            angle.is_dark = true;
+}
+
+/// With which power of the distance light gets weaker, by least squares of logarithms: at about one
+/// angle, light depends on what is left of the angle and on distance. From 0 to most_fall_off.
+double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
+    // The logarithms' sums of products: sine (s), distance (d), light (l).
+    double ss = 0;
+    double sd = 0;
+    double dd = 0;
+    double sl = 0;
+    double dl = 0;
+    for (const LitAtAngle& angle : angles) {
+        if (angle.lit.size() < enough) continue;
+        std::vector<double> light;
+        std::vector<double> sine;
+        std::vector<double> distance;
+        for (const Observed* const pixel : angle.lit) {
+            const double above = mesh.above_shadow(pixel->value);
+            if (!(pixel->distance > 0) || !(above > 0)) continue;
+            light.push_back(std::log(above));
+            sine.push_back(std::log(pixel->lies[mesh.normals].sine));
+            distance.push_back(std::log(pixel->distance));
+        }
+        if (light.empty()) continue;
+        const double typical_light = median(light);
+        const double typical_sine = median(sine);
+        const double typical_distance = median(distance);
+        for (std::size_t i = 0; i < light.size(); ++i) {
+            const double s = sine[i] - typical_sine;
+            const double d = distance[i] - typical_distance;
+            ss += s * s;
+            sd += s * d;
+            dd += d * d;
+            sl += s * (light[i] - typical_light);
+            dl += d * (light[i] - typical_light);
+        }
+    }
+    const double slope = (ss * dl - sd * sl) / (ss * dd - sd * sd);
+    return std::isfinite(slope) ? std::clamp(-slope, 0.0, most_fall_off) : 0;
+}
+
+LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
+    std::vector<double> added;
+    std::vector<double> per_sine;
+    for (const Observed* const pixel : lit) {
+        added.push_back(mesh.above_shadow(pixel->value) * std::pow(pixel->distance, mesh.fall_off));
+        per_sine.push_back(added.back() / pixel->lies[mesh.normals].sine);
+    }
+    LightAt at;
+    at.sine = sine_at(lit, mesh.normals, 0.5);
+    at.typical = median(std::move(added));
+    if (!(at.typical > 0)) return at;
+    // Of a normal distribution of logarithms, one of twenty lies beyond 1.6 deviations, and one of
+    // two thousand beyond twice that.
+    const double usual = at.sine * quantile(std::move(per_sine), unusual) / at.typical;
+    at.least = at.typical * std::clamp(usual, 0.0, 1.0) * std::clamp(usual, 0.0, 1.0);
+    return at;
+}
+
+/// The same by how far pixels are from a highlight's middle, where enough are.
+void fit_highlight(const AngleGroup& lit, MeshLight& mesh) {
+    std::array<AngleGroup, highlight_groups> parts;
+    for (const Observed* const pixel : lit)
+        parts[highlight_group(pixel->lies[mesh.normals])].push_back(pixel);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].size() >= enough) mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i]));
+}
+
+/// Whether a pixel's surface faces away from the light, whichever normals are taken.
+bool is_averted(const Observed& pixel) {
+    return !pixel.faces_light && std::all_of(pixel.lies.begin(), pixel.lies.end(),
+                                             [](const Lie& lie) { return lie.sine > 0; });
+}
+
+/// Whether what is truly dark differs from shadow, and is not as bright as light either: a texture,
+/// or ambient light that is not the same on all sides.
+bool is_patterned(const MeshLight& mesh, std::span<const Observed* const> pixels) {
+    std::size_t dark = 0;
+    std::size_t others = 0;
+    for (const Observed* const pixel : pixels) {
+        if (!is_averted(*pixel) && pixel->certainly != Visibility::shadowed) continue;
+        ++dark;
+        const double above = mesh.above_shadow(pixel->value);
+        const double lit = pixel->faces_light ? mesh.light_at(*pixel).typical : 0;
+        const bool is_lit = lit > 0 && above >= 0.5 * lit;
+        others += std::abs(above) > mesh.least_difference(pixel->step) && !is_lit ? 1U : 0U;
+    }
+    return static_cast<double>(others) > unusual * static_cast<double>(dark);
+}
+
+/// By how much pixels that are lit, in truth and in the picture, typically differ from what light
+/// is said to add. False shadows fit no normals, and say nothing about them.
+double misfit(const MeshLight& mesh, std::span<const Observed* const> facing) {
+    if (mesh.light.empty()) return std::numeric_limits<double>::infinity();
+    std::vector<double> errors;
+    for (const Observed* const pixel : facing) {
+        if (pixel->certainly != Visibility::lit) continue;
+        const double above = mesh.above_shadow(pixel->value);
+        if (above > mesh.least_difference(pixel->step))
+            errors.push_back(std::abs(above - mesh.light_at(*pixel).typical));
+    }
+    return errors.empty() ? 0 : median(std::move(errors));
+}
+
+void fit_light(std::span<const LitAtAngle> angles, MeshLight& mesh) {
+    for (const LitAtAngle& angle : angles)
+        if (angle.is_dark) {
+            mesh.light.push_back({angle.sine, 0, 0});
+        } else if (!angle.lit.empty()) {
+            mesh.light.push_back(fitted_at(mesh, angle.lit));
+            fit_highlight(angle.lit, mesh);
+        }
+}
+
+/// The pixels of a mesh that are of use.
+struct Useful {
+    std::vector<const Observed*> facing;
+    std::vector<glm::dvec3> averted;          ///< whichever normals are taken
+    std::vector<glm::dvec3> averted_by_faces; ///< but not by all others
+    double step = 0;                          ///< typical
+};
+
+Useful useful_of(std::span<const Observed* const> pixels) {
+    Useful useful;
+    std::vector<float> steps;
+    for (const Observed* const pixel : pixels) {
+        if (!std::isfinite(brightness(pixel->value))) continue;
+        if (is_averted(*pixel))
+            useful.averted.push_back(pixel->value);
+        else if (!pixel->faces_light)
+            useful.averted_by_faces.push_back(pixel->value);
+        else if (std::isfinite(pixel->lies[0].sine))
+            useful.facing.push_back(pixel);
+        else
+            continue;
+        steps.push_back(pixel->step);
+    }
+    if (!steps.empty()) useful.step = median(std::move(steps));
+    return useful;
+}
+
+AngleGroups by_angle(const Useful& useful, std::size_t normals) {
+    AngleGroups groups;
+    for (const Observed* const pixel : useful.facing)
+        if (const float sine = pixel->lies[normals].sine; sine > 0)
+            groups[static_cast<std::size_t>(angle_group(sine))].push_back(pixel);
+    return groups;
+}
+
+MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
+    MeshLight mesh;
+    mesh.shadow = shadow;
+    mesh.normals = normals;
+    const AngleGroups groups = by_angle(useful, normals);
+    std::array<LitAtAngle, angle_groups> angles;
+    std::transform(groups.begin(), groups.end(), angles.begin(), [&](const AngleGroup& group) {
+        return lit_ones(mesh, group, useful.step, shown == Shown::differences);
+    });
+    leave_out_dark(angles);
+    MeshLight falling = mesh;
+    falling.fall_off = fall_off_of(mesh, angles);
+    fit_light(angles, mesh);
+    if (falling.fall_off > 0) {
+        fit_light(angles, falling);
+        if (2 * misfit(falling, useful.facing) < misfit(mesh, useful.facing))
+            mesh = std::move(falling);
+    }
+    return mesh;
+}
+
+/// Whether normals lie to the light as some before them do, at all pixels.
+bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals) {
+    for (std::size_t others = 0; others < normals; ++others)
+        if (std::all_of(pixels.begin(), pixels.end(), [&](const Observed* pixel) {
+                return pixel->lies[normals].sine == pixel->lies[others].sine;
+            }))
+            return true;
+    return false;
+}
+
+} // namespace
+
+std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown) {
+    const Useful useful = useful_of(pixels);
+    std::optional<Typical> shadow = Typical{};
+    if (shown != Shown::differences)
+        shadow = shadow_of(
+            by_angle(useful, 0),
+            useful.averted.size() < enough ? useful.averted_by_faces : useful.averted, useful.step);
+    if (!shadow) return {MeshLight{}};
+    std::vector<MeshLight> fits;
+    std::vector<double> misfits;
+    for (std::size_t normals = 0; normals < all_normals_by.size(); ++normals) {
+        if (lie_as_others(pixels, normals)) continue;
+        fits.push_back(fitted_by(normals, useful, *shadow, shown));
+        misfits.push_back(misfit(fits.back(), useful.facing));
+    }
+    const auto best = std::min_element(misfits.begin(), misfits.end()) - misfits.begin();
+    std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
+    for (std::size_t i = 0; i < fits.size(); ++i)
+        if (static_cast<std::ptrdiff_t>(i) != best &&
+            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step))
+            kept.push_back(std::move(fits[i]));
+    if (shown == Shown::textured && is_patterned(kept.front(), pixels)) return {MeshLight{}};
+    return kept;
+}
+
+} // namespace shadowproof
