@@ -310,9 +310,8 @@ void fit_light(std::span<const LitAtAngle> angles, MeshLight& mesh) {
 /// The pixels of a mesh that are of use.
 struct Useful {
     std::vector<const Observed*> facing;
-    std::vector<glm::dvec3> averted;          ///< whichever normals are taken
-    std::vector<glm::dvec3> averted_by_faces; ///< but not by all others
-    double step = 0;                          ///< typical
+    std::vector<glm::dvec3> averted;
+    double step = 0; ///< typical
 };
 
 Useful useful_of(std::span<const Observed* const> pixels) {
@@ -320,10 +319,8 @@ Useful useful_of(std::span<const Observed* const> pixels) {
     std::vector<float> steps;
     for (const Observed* const pixel : pixels) {
         if (!std::isfinite(brightness(pixel->value))) continue;
-        if (is_averted(*pixel))
+        if (!pixel->faces_light)
             useful.averted.push_back(pixel->value);
-        else if (!pixel->faces_light)
-            useful.averted_by_faces.push_back(pixel->value);
         else if (std::isfinite(pixel->lies[0].sine))
             useful.facing.push_back(pixel);
         else
@@ -379,9 +376,7 @@ std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Sho
     const Useful useful = useful_of(pixels);
     std::optional<Typical> shadow = Typical{};
     if (shown != Shown::differences)
-        shadow = shadow_of(
-            by_angle(useful, 0),
-            useful.averted.size() < enough ? useful.averted_by_faces : useful.averted, useful.step);
+        shadow = shadow_of(by_angle(useful, 0), useful.averted, useful.step);
     if (!shadow) return {MeshLight{}};
     std::vector<MeshLight> fits;
     std::vector<double> misfits;
