@@ -24,7 +24,8 @@ SHADOWPROOF_SEND_ALL(DriverInfo, version, renderer, subpixel_bits, depth_bits, s
 SHADOWPROOF_SEND_ALL(Light, name, choice, kind, position, direction, inner_cone, outer_cone, color,
                      intensity, range)
 SHADOWPROOF_SEND_ALL(Camera, eye, right, up, forward, tan_half_height, near, far, width, height)
-SHADOWPROOF_SEND_ALL(Mesh, name, first_triangle, triangle_count, material, casts, receives, textured)
+SHADOWPROOF_SEND_ALL(Mesh, name, first_triangle, triangle_count, material, casts, receives,
+                     textured)
 SHADOWPROOF_SEND_ALL(TraceStatistics, milliseconds, build_milliseconds, rays, exact_decisions,
                      undecided, lit, shadowed, background, degenerate)
 
