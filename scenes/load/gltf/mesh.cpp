@@ -230,10 +230,9 @@ void bake_primitive(AccessorReader& reader, const Placement& placement, const Pa
     const auto count = static_cast<std::uint32_t>(triangles.size());
     append(scene, reader.memory(), part.place, vertices, triangles);
     if (count > 0)
-        scene.meshes.push_back({placement.name, first, count, material,
-                                placement.node.casts.value_or(true),
-                                placement.node.receives.value_or(true),
-                                is_textured(reader.document(), part)});
+        scene.meshes.push_back(
+            {placement.name, first, count, material, placement.node.casts.value_or(true),
+             placement.node.receives.value_or(true), is_textured(reader.document(), part)});
 }
 
 } // namespace
