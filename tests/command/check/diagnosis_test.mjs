@@ -145,8 +145,9 @@ test('a shadow map of back faces alone', () => {
   assert.equal(parameters.resolution, 128);
 });
 
+// On `spot` 1024 texels are finer than the sixteenth of a pixel by which a renderer may move outlines.
 for (const [scene, technique, texels] of [
-  ['spot', 'spot_map', 64], ['spot', 'spot_map', 256], ['spot', 'spot_map', 1024], ['sun', 'sun_map', 64],
+  ['spot', 'spot_map', 64], ['spot', 'spot_map', 256], ['spot', 'spot_map', 512], ['sun', 'sun_map', 64],
   ['sun', 'sun_map', 128], ['sun', 'sun_map', 512], ['grazing_light', 'sun_map', 128]])
   test(`a ${technique} of ${texels} texels on ${scene}`, () => {
     const { parameters } = diagnosed(scene, claimed(scene, technique, '--map-size', `${texels}`),
