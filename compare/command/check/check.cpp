@@ -80,12 +80,9 @@ int check(const CheckOptions& options, const std::filesystem::path& rendered, do
     for (const std::string& scene : options.scenes) {
         console.begin_part(place_in_run(report.scenes.size(), options.scenes.size(),
                                         stopwatch.milliseconds() / 1000));
-        report.scenes.push_back(options.renderer.empty() ? judged_scene(run, {scene,
-                                                                              options.pictures,
-                                                                              options.mask,
-                                                                              options.unlit,
-                                                                              options.unshadowed,
-                                                                              {}})
+        const SceneInputs given{scene,         options.pictures,   options.mask,
+                                options.unlit, options.unshadowed, {}};
+        report.scenes.push_back(options.renderer.empty() ? judged_scene(run, given)
                                                          : rendered_scene(run, scene));
     }
     console.begin_part("");

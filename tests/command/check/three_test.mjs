@@ -1,10 +1,11 @@
 // three.js itself, by the script that stands in the docs: a person's renderer as it is. Its shadow maps
 // are wrong near outlines, and the finer they are, the less; what is wrong is named.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { grayPng, readPng } from '../png.mjs';
 import { scratch, shadowproof } from '../shadowproof.mjs';
 
 const script = fileURLToPath(new URL('../../../docs/recipes/three.mjs', import.meta.url));
@@ -74,4 +75,31 @@ for (const scene of ['ordinary', 'spot', 'coarse_curve', 'bumpy_torus'])
                                     '{unlit} {unshadowed}');
     assert.ok(wrong < 0.003 * cell.pixels, `${wrong} of ${cell.pixels}`);
     assert.ok(existsSync(join(scratch, `checked/rendered/${scene}/unshadowed.png`)));
+  });
+
+// Its shading put together with the shadows of the truth is a right picture, however it is shaded.
+for (const scene of ['ordinary', 'spot', 'coarse_curve', 'bumpy_torus'])
+  test(`three.js's own shading of ${scene} with true shadows agrees, and with shadows aside does not`, () => {
+    checked(scene, { MATERIALS: 'file' }, '{unlit} {unshadowed}');
+    const rendered = (name) => readPng(join(scratch, `checked/rendered/${scene}/${name}.png`));
+    const [dark, bright] = [rendered('unlit'), rendered('unshadowed')];
+    const truth = join(scratch, 'truth.png');
+    assert.equal(shadowproof(['render', scene, '-o', truth, '-q']).code, 0);
+    const { width, height, at } = readPng(truth);
+    const gray = ([r, g, b]) => 257 * Math.round((r + g + b) / 3); // eight bits still
+    const write = (name, value) => {
+      writeFileSync(join(scratch, name), grayPng(width, height, value));
+      return name;
+    };
+    const off = write('off.png', (x, y) => gray(dark.at(x, y)));
+    const bare = write('bare.png', (x, y) => gray(bright.at(x, y)));
+    const shown = (aside) => write('shaded.png', (x, y) =>
+      gray((at(Math.min(x + aside, width - 1), y)[0] === 255 ? bright : dark).at(x, y)));
+    for (const twins of [['--unlit', off], ['--unlit', off, '--unshadowed', bare]]) {
+      const right = shadowproof(['check', scene, shown(0), ...twins, '--out', 'shaded']);
+      assert.equal(right.code, 0, right.out + right.err);
+      const wrong = shadowproof(['check', scene, shown(3), ...twins, '--out', 'shaded', '--no-alignment',
+                                 '--no-diagnosis']);
+      assert.equal(wrong.code, 1, wrong.out + wrong.err);
+    }
   });
