@@ -39,6 +39,8 @@ private:
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for
     mutable std::array<std::once_flag, 6> is_made_;
 
+    std::vector<std::size_t> without_rays(std::span<const Texel> texels,
+                                          const FoundTriangle& found) const;
     std::vector<FromLight> met(std::span<const glm::dvec3> rays, const LiftedLimits& lifted) const;
     glm::dvec3 direction(const Texel& texel) const {
         return columns_[texel.face][static_cast<std::size_t>(texel.x)] +
