@@ -7,6 +7,7 @@
 #include "scenes/mesh/topology.h"
 #include "tests/compare/traced_bundled.h"
 #include "tests/raster/faulty_techniques.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -184,12 +185,7 @@ TEST_P(ClassifyScene, every_technique_is_explained_and_the_robust_ones_are_right
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, ClassifyScene, testing::ValuesIn(bundled_names()),
-                         [](const auto& scene) {
-                             std::string name = scene.param;
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+SHADOWPROOF_OVER_SCENES(ClassifyScene, bundled_names());
 
 TEST_F(Classify, zpass_miscounts_where_the_near_plane_is_inside_a_volume_and_zfail_does_not) {
     EXPECT_GT(pixels_of(compare("near_plane", "zpass"), Cause::near_plane), 1000U);

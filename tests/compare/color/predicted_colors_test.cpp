@@ -3,7 +3,7 @@
 // floats end.
 #include "compare/driver/lighting/lighting_arithmetic.h"
 #include "tests/compare/color/judged_colors.h"
-#include "tests/scenes/bundled_names.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -74,8 +74,7 @@ TEST_P(ColorsOfScene, every_pixel_is_predicted_under_every_setting) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(BumpLit, ColorsOfScene, testing::ValuesIn(tests::bump_lit_scenes()),
-                         [](const auto& instance) { return instance.param; });
+SHADOWPROOF_OVER_SCENES(ColorsOfScene, tests::bump_lit_scenes());
 
 /// Every bump-mapped mesh becomes two, of which the second has no bumps, and so no tangents.
 Scene half_smooth(Scene scene) {

@@ -5,6 +5,7 @@
 #include "compare/verdict.h"
 #include "scenes/error.h"
 #include "tests/compare/maps/drawn_map.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -130,12 +131,7 @@ TEST_P(MapOfScene, no_setting_leaves_a_pixel_unexplained) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, MapOfScene, testing::ValuesIn(tests::bundled_names()),
-                         [](const auto& scene) {
-                             std::string name = scene.param;
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+SHADOWPROOF_OVER_SCENES(MapOfScene, tests::bundled_names());
 
 class Maps : public testing::Test {
 protected:

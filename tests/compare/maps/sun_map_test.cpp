@@ -3,6 +3,7 @@
 #include "compare/evidence.h"
 #include "compare/maps/lookup.h"
 #include "tests/compare/maps/drawn_map.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -179,12 +180,7 @@ TEST_P(SunOverScene, leaves_no_texel_and_no_pixel_unexplained) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, SunOverScene, testing::ValuesIn(tests::bundled_names()),
-                         [](const auto& scene) {
-                             std::string name = scene.param;
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+SHADOWPROOF_OVER_SCENES(SunOverScene, tests::bundled_names());
 
 } // namespace
 } // namespace shadowproof

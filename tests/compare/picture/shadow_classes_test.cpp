@@ -5,6 +5,7 @@
 #include "compare/picture/surface_colors.h"
 #include "scenes/error.h"
 #include "tests/compare/traced_bundled.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -276,7 +277,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& tested) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, PictureOf, testing::ValuesIn(tests::bundled_names()), test_name);
+SHADOWPROOF_OVER_SCENES(PictureOf, tests::bundled_names());
 INSTANTIATE_TEST_SUITE_P(Bundled, FaultyPictureOf,
                          testing::Values("ordinary", "sun", "spot", "nested", "low_light",
                                          "height_field", "many_lights-rim"),

@@ -5,7 +5,7 @@
 #include "raster/render.h"
 #include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
-#include "tests/scenes/bundled_names.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -90,8 +90,7 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, BandOfScene, testing::ValuesIn(tests::bundled_scene_names()),
-                         [](const auto& scene) { return scene.param; });
+SHADOWPROOF_OVER_SCENES(BandOfScene, tests::bundled_scene_names());
 
 } // namespace
 } // namespace shadowproof

@@ -3,7 +3,7 @@
 #include "compare/stencil/coarse_counts.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
-#include "tests/scenes/bundled_names.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -60,12 +60,7 @@ TEST_P(CoarseCountsOfScene, hold_every_counter_and_little_else) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, CoarseCountsOfScene, testing::ValuesIn(bundled_names()),
-                         [](const auto& scene) {
-                             std::string name = scene.param;
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+SHADOWPROOF_OVER_SCENES(CoarseCountsOfScene, bundled_names());
 
 } // namespace
 } // namespace shadowproof::tests

@@ -4,7 +4,7 @@
 #include "scenes/mesh/topology.h"
 #include "scenes/plan/plan.h"
 #include "tests/raster/small_scenes.h"
-#include "tests/scenes/bundled_names.h"
+#include "tests/scenes/over_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -74,8 +74,7 @@ TEST(TurnedCasters, have_light_caps_at_the_depths_of_their_surfaces_also_where_t
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, Ways, testing::ValuesIn(bundled_scene_names()),
-                         [](const auto& scene) { return scene.param; });
+SHADOWPROOF_OVER_SCENES(Ways, bundled_scene_names());
 
 } // namespace
 } // namespace shadowproof::tests
