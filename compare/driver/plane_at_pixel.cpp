@@ -56,19 +56,10 @@ PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, 
     : PlaneAtPixel(picture, triangle, plane_before_eye(picture.scene, triangle),
                    ray_direction(picture.scene.camera, x + 0.5, y + 0.5)) {}
 
-PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle,
-                           const glm::dvec3& plane, const glm::dvec3& centre)
-    : picture_(picture), triangle_(triangle), centre_(centre), plane_(plane),
-      inverse_(glm::dot(centre_, plane_)) {}
-
 double PlaneAtPixel::slope() const {
     const Camera& camera = picture_.scene.camera;
     return picture_.pixel.x * std::abs(glm::dot(camera.right, plane_)) +
            picture_.pixel.y * std::abs(glm::dot(camera.up, plane_));
-}
-
-bool PlaneAtPixel::has_depth() const {
-    return std::isfinite(inverse_) && std::isfinite(plane_.x + plane_.y + plane_.z);
 }
 
 double PlaneAtPixel::least_error(double window_depth) const {

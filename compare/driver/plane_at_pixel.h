@@ -6,7 +6,9 @@
 #include "scenes/depth_model.h"
 #include "scenes/scene.h"
 
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -47,11 +49,15 @@ public:
     PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, int x, int y);
     /// `plane`: the triangle's, plane_before_eye's. `centre`: the direction of the pixel's centre.
     PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, const glm::dvec3& plane,
-                 const glm::dvec3& centre);
+                 const glm::dvec3& centre)
+        : picture_(picture), triangle_(triangle), centre_(centre), plane_(plane),
+          inverse_(glm::dot(centre_, plane_)) {}
 
     /// False if the eye lies in the plane: the triangle has no area in the picture, and any depth
     /// may come out.
-    bool has_depth() const;
+    bool has_depth() const {
+        return std::isfinite(inverse_) && std::isfinite(plane_.x + plane_.y + plane_.z);
+    }
     double inverse_depth() const { return inverse_; }
     /// Of the pixel's centre.
     const glm::dvec3& direction() const { return centre_; }

@@ -16,6 +16,9 @@ MapCentres::MapCentres(const JudgedClaim& claim, const LightView& light)
     const Camera& camera = claim.traced.scene().camera;
     for (int x = 0; x < camera.width; ++x) columns_.push_back(ray_column(camera, x + 0.5));
     for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
+    for (std::uint32_t triangle = 0; triangle < receives_.size(); ++triangle)
+        asks_.push_back(receives(triangle) &&
+                        sides_of(claim.traced.tracer(), triangle).faces_light());
     trace_texels();
     name_wrong_answers();
 }
@@ -30,14 +33,10 @@ bool MapCentres::settles(PixelPlace p, std::optional<PixelCause>& cause) const {
     return !asked.asks || answers_so(p, asked);
 }
 
-bool MapCentres::asks(std::uint32_t triangle) const {
-    return receives(triangle) && sides_of(claim_.traced.tracer(), triangle).faces_light();
-}
-
 MapCentres::Asked MapCentres::asked_at(PixelPlace p) const {
     const GroundTruth& truth = claim_.traced.truth();
     const std::uint32_t triangle = truth.triangle.at(p.x, p.y);
-    if (triangle == no_triangle || !asks(triangle)) return {};
+    if (triangle == no_triangle || asks_[triangle] == 0) return {};
     if (!truth.in_cone.pixels.empty() && truth.in_cone.at(p.x, p.y) == 0) return {};
     const Scene& scene = claim_.traced.scene();
     Asked asked;

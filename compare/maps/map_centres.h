@@ -59,6 +59,7 @@ private:
     const JudgedClaim& claim_;
     const LightView& light_;
     std::vector<std::uint8_t> receives_;
+    std::vector<std::uint8_t> asks_;  ///< by triangle: receives shadows and faces the light
     std::vector<glm::dvec3> columns_; ///< directions of pixels' centres: the sum of a column's
     std::vector<glm::dvec3> rows_;    ///< and a row's
     TexelSet asked_;                  ///< by pixels' centres
@@ -67,7 +68,6 @@ private:
     std::atomic<std::size_t> not_shown_{0};           ///< how many no rasterizer would store
     std::vector<std::vector<NamedCause>> named_;      ///< by row, in ascending order
 
-    bool asks(std::uint32_t triangle) const;
     Asked asked_at(PixelPlace p) const;
     /// How many comparisons find light at the pixel's centre, by the map as it was read back.
     int answer(const Asked& asked) const;

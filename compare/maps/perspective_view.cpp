@@ -94,11 +94,13 @@ std::vector<std::size_t> PerspectiveView::without_rays(std::span<const Texel> te
         return left;
     }
     std::vector<Areas> areas;
-    for (std::size_t face = 0; face < faces_.size(); ++face)
+    std::vector<Camera> cameras;
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
         areas.emplace_back(model().size, model().size);
+        cameras.push_back(camera(face));
+    }
     for (const Texel& texel : texels) areas[texel.face].ask(texel.x, texel.y);
-    for (std::size_t face = 0; face < faces_.size(); ++face)
-        areas[face].divide(*tracer_, camera(face));
+    Areas::divide(areas, cameras, *tracer_);
     constexpr std::size_t together = 4096;
     std::vector<std::vector<std::size_t>> left_of(texels.size() / together + 1);
     parallel_for_all(

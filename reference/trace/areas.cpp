@@ -12,16 +12,19 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace shadowproof {
 
 namespace {
 
-/// A triangle is worth looking at in a square for so many pixels that are asked for, and in a block
-/// for so many of its pixels: for fewer, rays are quicker (shadowproof_verify_bench).
+/// For so many pixels that are asked for a triangle is worth looking at in a square, and in a block
+/// pixel by pixel: for fewer, rays are quicker (shadowproof_verify_bench).
 constexpr std::size_t pixels_for_a_triangle = 8;
+constexpr std::size_t block_pixels_for_a_triangle = 2;
 
 /// Bounds rounding errors that are counted in the comments: none is more than 2^7 roundings of
 /// 2^-53 of the magnitudes that it is multiplied by.
@@ -151,7 +154,7 @@ bool stands_before(const SeenTriangle& one, const SeenTriangle& other,
 /// What all squares are looked at with.
 struct Areas::Seen {
     std::vector<SeenTriangle> triangles;
-    Camera camera;
+    std::span<const Camera> cameras;
     SeenRange range;
 };
 
@@ -180,7 +183,8 @@ std::vector<Areas::Square> Areas::step(const Seen& seen, Square square) {
     if (asked == 0) return {};
     const int right = std::min(square.x + square.side, width_);
     const int bottom = std::min(square.y + square.side, height_);
-    const Directions directions = directions_of(seen.camera, square.x, square.y, right, bottom);
+    const Directions directions =
+        directions_of(seen.cameras[square.picture], square.x, square.y, right, bottom);
     const auto tell = [&](std::uint32_t triangle) {
         for_blocks(square, [&](std::size_t i) { shows_[i] = triangle; });
         return std::vector<Square>{};
@@ -207,16 +211,16 @@ std::vector<Areas::Square> Areas::step(const Seen& seen, Square square) {
         if (square.among.size() == 1) return tell(at(*nearest).triangle);
     }
 
-    if (square.among.size() * pixels_for_a_triangle > asked) return {};
     if (square.side == block_side) {
-        tell_pixels(seen, square);
+        if (square.among.size() * block_pixels_for_a_triangle <= asked) tell_pixels(seen, square);
         return {};
     }
+    if (square.among.size() * pixels_for_a_triangle > asked) return {};
     const int half = square.side / 2;
-    return {{square.x, square.y, half, square.among},
-            {square.x + half, square.y, half, square.among},
-            {square.x, square.y + half, half, square.among},
-            {square.x + half, square.y + half, half, square.among}};
+    const auto part = [&](int x, int y) {
+        return Square{square.picture, square.x + x, square.y + y, half, square.among};
+    };
+    return {part(0, 0), part(half, 0), part(0, half), part(half, half)};
 }
 
 // A pixel shows the nearest of the triangles that it surely shows, where none that it may show can
@@ -229,8 +233,9 @@ void Areas::tell_pixels(const Seen& seen, const Square& square) {
         std::uint32_t nearest = no_triangle;
     };
     std::array<Pixel, block_pixels> pixels;
-    const Directions directions = directions_of(seen.camera, square.x, square.y,
+    const Directions directions = directions_of(seen.cameras[square.picture], square.x, square.y,
                                                 square.x + block_side, square.y + block_side);
+    constexpr std::array<double, block_side> columns{0, 1, 2, 3, 4, 5, 6, 7};
     constexpr double half_side = (block_side - 1) / 2.0;
     const glm::dvec3 across = directions.half_width / half_side;
     const glm::dvec3 down = directions.half_height / -half_side; // rows go down
@@ -246,21 +251,22 @@ void Areas::tell_pixels(const Seen& seen, const Square& square) {
             step_down[k] = glm::dot(linear[k]->gradient, down);
             error[k] = linear[k]->error * directions.largest;
         }
-        for (int y = 0; y < block_side; ++y) {
+        for (std::size_t y = 0; y < block_side; ++y) {
+            std::array<double, 4> row{};
+            for (std::size_t k = 0; k < 4; ++k)
+                row[k] = at_first[k] + static_cast<double>(y) * step_down[k];
             std::array<double, block_side> least{}, most{}, inverse{};
-            for (int x = 0; x < block_side; ++x) {
-                const auto value = [&](std::size_t k) {
-                    return at_first[k] + y * step_down[k] + x * step_across[k];
-                };
-                const double ab = value(0), bc = value(1), ca = value(2);
-                const auto i = static_cast<std::size_t>(x);
-                least[i] = std::min({ab - error[0], bc - error[1], ca - error[2]});
-                most[i] = std::min({ab + error[0], bc + error[1], ca + error[2]});
-                inverse[i] = value(3);
+            for (std::size_t x = 0; x < block_side; ++x) { // so plain that it is done by vectors
+                const double ab = row[0] + columns[x] * step_across[0];
+                const double bc = row[1] + columns[x] * step_across[1];
+                const double ca = row[2] + columns[x] * step_across[2];
+                least[x] = std::min(std::min(ab - error[0], bc - error[1]), ca - error[2]);
+                most[x] = std::min(std::min(ab + error[0], bc + error[1]), ca + error[2]);
+                inverse[x] = row[3] + columns[x] * step_across[3];
             }
             for (std::size_t x = 0; x < block_side; ++x) {
                 if (most[x] < 0) continue;
-                Pixel& pixel = pixels[static_cast<std::size_t>(y * block_side) + x];
+                Pixel& pixel = pixels[y * block_side + x];
                 const double near = inverse[x] + error[3];
                 const double far = inverse[x] - error[3];
                 if (triangle.is_solid && least[x] > 0 && far > pixel.least) {
@@ -286,26 +292,35 @@ void Areas::tell_pixels(const Seen& seen, const Square& square) {
     }
 }
 
-void Areas::divide(const Tracer& tracer, const Camera& camera) {
+void Areas::divide(std::span<Areas> pictures, std::span<const Camera> cameras,
+                   const Tracer& tracer) {
     const Tracer::State& state = tracer.state();
-    std::size_t asked = 0;
-    for (const std::uint32_t pixels : asked_) asked += pixels;
-    if (!are_worth(tracer, asked)) return;
-    Seen seen{{}, camera, range_of(state.scene->camera)};
-    Square whole{0, 0, block_side, {}};
-    while (whole.side < std::max(width_, height_)) whole.side *= 2;
+    const bool is_any_worth_it = std::ranges::any_of(pictures, [&](const Areas& picture) {
+        return are_worth(
+            tracer, std::accumulate(picture.asked_.begin(), picture.asked_.end(), std::size_t{0}));
+    });
+    if (!is_any_worth_it) return;
+    Seen seen{{}, cameras, range_of(state.scene->camera)};
     for (std::uint32_t triangle = 0; triangle < state.scene->triangles.size(); ++triangle)
-        if (const std::optional<SeenTriangle> one = seen_triangle(tracer, triangle)) {
-            whole.among.push_back(static_cast<std::uint32_t>(seen.triangles.size()));
+        if (const std::optional<SeenTriangle> one = seen_triangle(tracer, triangle))
             seen.triangles.push_back(*one);
-        }
+    std::vector<std::uint32_t> all(seen.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<Square> squares;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        Square whole{i, 0, 0, block_side, all};
+        while (whole.side < std::max(pictures[i].width_, pictures[i].height_)) whole.side *= 2;
+        squares.push_back(std::move(whole));
+    }
+    const auto divided = [&](Square square) {
+        return pictures[square.picture].step(seen, std::move(square));
+    };
     // A few squares for each thread, and then each by itself.
     constexpr std::size_t enough = 64;
-    std::vector<Square> squares{std::move(whole)};
     while (!squares.empty() && squares.size() < enough) {
         std::vector<Square> parts;
         for (Square& square : squares)
-            std::ranges::move(step(seen, std::move(square)), std::back_inserter(parts));
+            std::ranges::move(divided(std::move(square)), std::back_inserter(parts));
         squares = std::move(parts);
     }
     parallel_for(static_cast<int>(squares.size()), state.threads, [&](int i, int) {
@@ -313,7 +328,7 @@ void Areas::divide(const Tracer& tracer, const Camera& camera) {
         while (!left.empty()) {
             Square square = std::move(left.back());
             left.pop_back();
-            std::ranges::move(step(seen, std::move(square)), std::back_inserter(left));
+            std::ranges::move(divided(std::move(square)), std::back_inserter(left));
         }
     });
 }

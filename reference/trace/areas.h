@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -31,11 +32,12 @@ public:
     /// Asks for a pixel: only what is asked for is told.
     void ask(int x, int y) { ++asked_[block(x, y)]; }
 
-    /// Tells what is seen by a camera at the eye of the tracer's scene, which may be turned and
-    /// have another angle, between the near and far planes of that scene's camera: the triangle
-    /// that the ray through the pixel's centre sees, or no_triangle. It tells nothing where
-    /// triangles are so many that tracing is quicker.
-    void divide(const Tracer& tracer, const Camera& camera);
+    /// Tells what pictures show, on all threads: the triangles that the rays through their pixels'
+    /// centres see, or no_triangle. `cameras`: one for each picture, at the eye of the tracer's
+    /// scene; they may be turned and have other angles, but see between the near and far planes of
+    /// that scene's camera.
+    static void divide(std::span<Areas> pictures, std::span<const Camera> cameras,
+                       const Tracer& tracer);
 
     /// What a pixel shows that was asked for.
     std::uint32_t at(int x, int y) const {
@@ -50,6 +52,7 @@ private:
 
     /// Pixels from its left upper corner, which may reach beyond the picture.
     struct Square {
+        std::size_t picture = 0;
         int x = 0;
         int y = 0;
         int side = 0;

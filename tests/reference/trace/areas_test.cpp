@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,7 +61,7 @@ Told told(const Tracer& tracer, const SeenRange& range, const Camera& camera) {
             areas.ask(x, y);
             rays.push_back(ray_direction(camera, x + 0.5, y + 0.5));
         }
-    areas.divide(tracer, camera);
+    Areas::divide(std::span(&areas, 1), std::span(&camera, 1), tracer);
     std::vector<std::uint32_t> seen(rays.size());
     see_triangles(
         tracer, range, rays.size(), [&](std::size_t i) { return rays[i]; },
