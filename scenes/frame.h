@@ -22,6 +22,19 @@ namespace shadowproof {
 /// What a pixel shows; the values are those of the class map, 8-bit gray. Only claims can be partly
 /// lit, never the truth; Frame::share then says how much.
 enum class Visibility : std::uint8_t { background = 0, shadowed = 64, partly_lit = 160, lit = 255 };
+constexpr std::string_view name_of(Visibility visibility) {
+    switch (visibility) {
+    case Visibility::lit:
+        return "lit";
+    case Visibility::partly_lit:
+        return "partly_lit";
+    case Visibility::shadowed:
+        return "shadowed";
+    case Visibility::background:
+        break;
+    }
+    return "background";
+}
 
 /// A part of a frame, and its time.
 struct Stage {

@@ -47,19 +47,6 @@ std::optional<double> pixel_margin(const Image<Visibility>& truth, int x, int y)
 
 } // namespace
 
-std::string_view name_of(Visibility visibility) {
-    switch (visibility) {
-    case Visibility::lit:
-        return "lit";
-    case Visibility::partly_lit:
-        return "partly_lit";
-    case Visibility::shadowed:
-        return "shadowed";
-    case Visibility::background:
-        break;
-    }
-    return "background";
-}
 
 std::string_view name_of(Exactness exactness) {
     switch (exactness) {

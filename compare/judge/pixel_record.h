@@ -36,7 +36,6 @@ PixelRecord record_pixel(const TracedScene& traced, int x, int y);
 /// The record with all lengths multiplied by `unit` (Scene::unit), which must be a power of two.
 PixelRecord in_units(PixelRecord record, double unit);
 
-std::string_view name_of(Visibility visibility); ///< "lit"
-std::string_view name_of(Exactness exactness);   ///< "filtered"
+std::string_view name_of(Exactness exactness); ///< "filtered"
 
 } // namespace shadowproof

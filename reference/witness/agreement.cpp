@@ -14,11 +14,6 @@ namespace shadowproof {
 
 namespace {
 
-const char* class_of(Visibility visibility) {
-    if (visibility == Visibility::background) return "background";
-    return visibility == Visibility::lit ? "lit" : "shadowed";
-}
-
 /// So many of the candidates, evenly spread.
 std::vector<std::size_t> spread(const std::vector<std::size_t>& candidates, std::size_t count) {
     if (candidates.size() <= count) return candidates;
@@ -101,8 +96,8 @@ std::string words_of(const Agreement& agreement) {
     return asked + fmt::format("{} disagree, the first at ({},{}), where the truth sees {}, {}, "
                                "and the witness {}, {}",
                                agreement.disagreements, first.x, first.y,
-                               triangle(first.truth_triangle), class_of(first.truth),
-                               triangle(first.witness_triangle), class_of(first.witness));
+                               triangle(first.truth_triangle), name_of(first.truth),
+                               triangle(first.witness_triangle), name_of(first.witness));
 }
 
 } // namespace shadowproof

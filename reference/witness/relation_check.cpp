@@ -77,14 +77,9 @@ std::optional<bool> reaches(const Scene& scene, const glm::vec3& at, const glm::
     return truth.visibility == Visibility::lit;
 }
 
-const char* class_of(Visibility visibility) {
-    if (visibility == Visibility::background) return "background";
-    return visibility == Visibility::lit ? "lit" : "shadowed";
-}
-
 std::string seen_words(Visibility visibility, std::uint32_t triangle) {
     if (triangle == no_triangle) return "background";
-    return fmt::format("triangle {}, {}", triangle, class_of(visibility));
+    return fmt::format("triangle {}, {}", triangle, name_of(visibility));
 }
 
 void note_change(RelationCheck& check, const std::string& words) {

@@ -10,10 +10,6 @@ namespace shadowproof {
 
 namespace {
 
-bool any_scene(const Scene& /*scene*/) {
-    return true;
-}
-
 double one(const Scene& /*scene*/) {
     return 1;
 }
@@ -37,11 +33,6 @@ void take_scale(Scene& scene, double value) {
     scene.camera.far *= value;
     if (scene.inverse_square) // the light that arrives stays the same
         for (Light& light : scene.lights) light.intensity *= value * value;
-}
-
-/// Whether all that a triangle carries lies in its corners' positions.
-bool has_caster_without_bumps(const Scene& scene) {
-    return !is_bump_lit(scene) && !has_masks(scene) && main_caster(scene).has_value();
 }
 
 /// A new vertex within the triangle, so near the middle of its longest edge that this edge is so

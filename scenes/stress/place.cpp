@@ -28,6 +28,10 @@ std::optional<std::uint32_t> main_caster(const Scene& scene) {
     return best;
 }
 
+bool has_caster_without_bumps(const Scene& scene) {
+    return !is_bump_lit(scene) && !has_masks(scene) && main_caster(scene).has_value();
+}
+
 namespace {
 
 template <class Visit>

@@ -12,8 +12,15 @@ namespace shadowproof {
 /// corners, have no influence. World units; positive, 1 where all vertices are at the eye.
 double size_of(const Scene& scene);
 
+/// Suits all parameters that need nothing.
+inline bool any_scene(const Scene& /*scene*/) {
+    return true;
+}
+
 /// The mesh that casts and has most triangles; none where nothing casts.
 std::optional<std::uint32_t> main_caster(const Scene& scene);
+/// Whether there is one, and all that triangles carry lies in their corners' positions.
+bool has_caster_without_bumps(const Scene& scene);
 
 /// The diagonal of a mesh's bounding box, world units; positive, 1 where it is a point.
 double diagonal_of(const Scene& scene, const Mesh& mesh);

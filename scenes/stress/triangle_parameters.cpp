@@ -37,10 +37,6 @@ double own_triangle_size(const Scene& scene) {
     return longest > 0 ? largest_share * longest / pixel : 1;
 }
 
-bool has_caster_without_bumps(const Scene& scene) {
-    return !is_bump_lit(scene) && !has_masks(scene) && main_caster(scene).has_value();
-}
-
 /// A small triangle of the same shape in the middle, and six others around it. Edges stay whole: no
 /// T-junctions.
 void add_small(Scene& scene, std::uint32_t number, double pixels,

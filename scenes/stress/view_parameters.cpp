@@ -18,10 +18,6 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180;
 
-bool any_scene(const Scene& /*scene*/) {
-    return true;
-}
-
 /// A point in the middle of the picture, as far away as the scene is large.
 glm::dvec3 aim_of(const Scene& scene) {
     return scene.camera.eye + size_of(scene) * scene.camera.forward;
