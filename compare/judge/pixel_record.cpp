@@ -47,7 +47,6 @@ std::optional<double> pixel_margin(const Image<Visibility>& truth, int x, int y)
 
 } // namespace
 
-
 std::string_view name_of(Exactness exactness) {
     switch (exactness) {
     case Exactness::filtered:
