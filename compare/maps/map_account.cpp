@@ -14,6 +14,9 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
         if (!std::isfinite(world)) return nullptr;
         return world * unit;
     };
+    const auto side = [&](double world) {
+        return std::isfinite(world) ? fmt::format("{:.3g}", world * unit) : "endless";
+    };
     Account account;
     nlohmann::ordered_json members;
     if (!pixel) {
@@ -26,8 +29,8 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
         const Texel& texel = pixel->lookup.texel;
         account.columns = {{"face", fmt::format("{}", texel.face)},
                            {"texel", fmt::format("({},{})", texel.x, texel.y)},
-                           {"footprint", fmt::format("{:.3g}x{:.3g}", pixel->footprint.x * unit,
-                                                     pixel->footprint.y * unit)},
+                           {"footprint", fmt::format("{}x{}", side(pixel->footprint.x),
+                                                     side(pixel->footprint.y))},
                            {"map", fmt::format("{:.6g}", pixel->stored * unit)},
                            {"bias", fmt::format("{:.3g}", model.bias * unit)},
                            {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};

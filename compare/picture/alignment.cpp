@@ -1,5 +1,6 @@
 #include "compare/picture/alignment.h"
 
+#include "compare/picture/predict.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/camera.h"
 #include "scenes/surface/alpha_mask.h"
@@ -51,11 +52,32 @@ struct Spot {
     int y = 0;
 };
 
+/// Of pixels that two views would show otherwise.
+class Votes {
+public:
+    /// 1: the second view's colour is nearer, -1: the first's, 0: neither.
+    void add(int vote) {
+        cast_ += vote != 0 ? 1 : 0;
+        sum_ += vote;
+    }
+    /// More for the second view than pixels at random would give it: of n that vote either way, the
+    /// sum's standard deviation is the root of n, and one in three million sums is above five.
+    bool are_for_second() const {
+        constexpr std::int64_t deviations = 5;
+        return sum_ > 0 && sum_ * sum_ > deviations * deviations * cast_;
+    }
+    std::int64_t sum() const { return sum_; }
+
+private:
+    std::int64_t cast_ = 0;
+    std::int64_t sum_ = 0;
+};
+
 class Aligner {
 public:
-    Aligner(const TracedScene& traced, const Picture& picture)
+    Aligner(const TracedScene& traced, const Picture& picture, Shows shows)
         : traced_(traced), scene_(traced.scene()), camera_(scene_.camera), picture_(picture),
-          labels_(camera_.width, camera_.height) {
+          shows_(shows), labels_(camera_.width, camera_.height) {
         for (int y = 0; y < labels_.height; ++y)
             for (int x = 0; x < labels_.width; ++x) labels_.at(x, y) = own_label(x, y);
     }
@@ -75,13 +97,23 @@ private:
     const Scene& scene_;
     const Camera& camera_;
     const Picture& picture_;
+    Shows shows_;
     Image<Label> labels_; ///< as the scene's camera sees them
 
     Label own_label(int x, int y) const {
         const GroundTruth& truth = traced_.truth();
-        return color_label(
-            scene_, {truth.visibility.at(x, y), truth.triangle.at(x, y), truth.depth.at(x, y)},
-            ray_direction(camera_, x + 0.5, y + 0.5));
+        RayTruth seen{truth.visibility.at(x, y), truth.triangle.at(x, y), truth.depth.at(x, y)};
+        seen.in_cone = in_cone(truth, truth.visibility.index(x, y));
+        return label_of(seen, ray_direction(camera_, x + 0.5, y + 0.5));
+    }
+
+    Label label_of(RayTruth seen, const glm::dvec3& direction) const {
+        if (shows_ == Shows::no_shadows && seen.triangle != no_triangle)
+            seen.visibility =
+                sides_of(traced_.tracer(), seen.triangle).faces_light() && seen.in_cone
+                    ? Visibility::lit
+                    : Visibility::shadowed;
+        return color_label(scene_, seen, direction);
     }
 
     glm::dvec3 color(int x, int y) const {
@@ -108,7 +140,7 @@ private:
         return colors;
     }
 
-    /// 1: the second view's colour is nearer, -1: the first's, 0: neither.
+    /// As Votes::add takes it.
     int vote(int x, int y, const Colors& first, Label first_label, const Colors& second,
              Label second_label) const {
         const auto a = first.find(first_label);
@@ -138,13 +170,13 @@ private:
                     flipped.at(x, y) = labels_.at(flip.x ? labels_.width - 1 - x : x,
                                                   flip.y ? labels_.height - 1 - y : y);
             const Colors colors = colors_of(flipped);
-            std::int64_t votes = 0;
+            Votes votes;
             const int step = step_of(labels_);
             for (int y = 0; y < labels_.height; y += step)
                 for (int x = 0; x < labels_.width; x += step)
-                    votes += vote(x, y, own, labels_.at(x, y), colors, flipped.at(x, y));
-            if (votes <= most) continue;
-            most = votes;
+                    votes.add(vote(x, y, own, labels_.at(x, y), colors, flipped.at(x, y)));
+            if (!votes.are_for_second() || votes.sum() <= most) continue;
+            most = votes.sum();
             words = flip.words;
         }
         return words;
@@ -196,17 +228,16 @@ private:
         const std::vector<RayTruth> seen = trace_rays(traced_.tracer(), directions);
         std::vector<Label> labels;
         for (std::size_t i = 0; i < seen.size(); ++i)
-            labels.push_back(color_label(scene_, seen[i], directions[i]));
+            labels.push_back(label_of(seen[i], directions[i]));
         return labels;
     }
 
-    std::int64_t votes_for(const View& view, std::span<const Spot> spots,
-                           const Colors& colors) const {
+    Votes votes_for(const View& view, std::span<const Spot> spots, const Colors& colors) const {
         const std::vector<Label> labels = labels_in(view, spots);
-        std::int64_t votes = 0;
+        Votes votes;
         for (std::size_t i = 0; i < spots.size(); ++i)
-            votes += vote(spots[i].x, spots[i].y, colors, labels_.at(spots[i].x, spots[i].y),
-                          colors, labels[i]);
+            votes.add(vote(spots[i].x, spots[i].y, colors, labels_.at(spots[i].x, spots[i].y),
+                           colors, labels[i]));
         return votes;
     }
 
@@ -217,9 +248,9 @@ private:
         View half;
         std::int64_t most = 0;
         const auto look = [&](const View& view) {
-            const std::int64_t votes = votes_for(view, outlines, colors);
-            if (votes <= most) return false;
-            most = votes;
+            const Votes votes = votes_for(view, outlines, colors);
+            if (!votes.are_for_second() || votes.sum() <= most) return false;
+            most = votes.sum();
             return true;
         };
         for (const double x : {-0.5, 0.0, 0.5})
@@ -328,8 +359,9 @@ private:
 
 } // namespace
 
-std::optional<std::string> misalignment(const TracedScene& traced, const Picture& picture) {
-    return Aligner(traced, picture).run();
+std::optional<std::string> misalignment(const TracedScene& traced, const Picture& picture,
+                                        Shows shows) {
+    return Aligner(traced, picture, shows).run();
 }
 
 } // namespace shadowproof

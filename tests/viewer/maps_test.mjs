@@ -77,7 +77,7 @@ async function pixelsAreAsExplained({ folder, cells }) {
     const { size: side } = each.cell.map;
     assert.equal(facts.Texel, `(${map.texel.join(', ')}) of face ${map.face}, ${side} a side`);
     // As floats have them.
-    const words = map.footprint.map((length) => printed(length === null ? Infinity : Math.fround(length), 3));
+    const words = map.footprint.map((length) => length === null ? 'endless' : printed(Math.fround(length), 3));
     assert.equal(facts.Footprint, `${words.join(' × ')} on the surface`);
     const mark = await markOf(page);
     const faces = mark.width === mark.height ? 1 : 6;

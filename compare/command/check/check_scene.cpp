@@ -11,6 +11,7 @@
 #include "compare/picture/alignment.h"
 #include "compare/picture/diagnosis.h"
 #include "compare/picture/reading/shadow_classes.h"
+#include "compare/picture/reading/twin_order.h"
 #include "compare/picture/regions.h"
 #include "scenes/error.h"
 #include "scenes/load/catalog.h"
@@ -140,6 +141,42 @@ void require_decided(const Frame& frame, const Image<std::uint8_t>& wrong,
                 advice_on_undecidable(files_of(inputs, i)));
 }
 
+/// The picture and its twins are of the scene's view.
+void require_aligned(const TracedScene& traced, const SceneInputs& inputs, std::size_t i,
+                     const Pictures& pictures) {
+    const auto require = [&](const std::string& file, const Picture& picture, Shows shows) {
+        if (const auto words = misalignment(traced, picture, shows))
+            throw Error(file, *words,
+                        "render it from the scene's camera, or tell where it was seen from by "
+                        "--camera-matrix and --fov; --no-alignment judges it as it is");
+    };
+    const Twins& twins = pictures.twins;
+    require(inputs.pictures[i], pictures.pictures[i], Shows::shadows);
+    if (twins.unlit) require(inputs.unlit, *twins.unlit, Shows::no_shadows);
+    if (twins.unshadowed) require(inputs.unshadowed, *twins.unshadowed, Shows::no_shadows);
+}
+
+/// The twins are of this picture: one is darker, the other brighter.
+void require_order(const SceneInputs& inputs, std::size_t i, const Pictures& pictures) {
+    const Picture& picture = pictures.pictures[i];
+    const Twins& twins = pictures.twins;
+    const double step = step_of(picture, twins);
+    const auto require = [&](const std::string& file, double wrong, const char* words) {
+        if (wrong > most_in_wrong_order)
+            throw Error(file,
+                        fmt::format("{} {} in {:.0f} % of the view", words, inputs.pictures[i],
+                                    100 * wrong),
+                        "render both of the same scene and view, with the same exposure; "
+                        "--no-alignment judges them as they are");
+    };
+    if (twins.unlit)
+        require(inputs.unlit, share_in_wrong_order(*twins.unlit, picture, step),
+                "lacks light, but is brighter than");
+    if (twins.unshadowed)
+        require(inputs.unshadowed, share_in_wrong_order(picture, *twins.unshadowed, step),
+                "lacks shadows, but is darker than");
+}
+
 /// No wrong pixel of a picture is excused.
 void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
                    const TracedScene& traced, std::size_t i, const Pictures& pictures,
@@ -148,10 +185,8 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
     try {
         if (options.alignment && inputs.mask.empty()) {
             console.progress(cell.technique + ": alignment");
-            if (const auto words = misalignment(traced, pictures.pictures[i]))
-                throw Error(inputs.pictures[i], *words,
-                            "render it from the scene's camera, or tell where it was seen from by "
-                            "--camera-matrix and --fov; --no-alignment judges it as it is");
+            require_aligned(traced, inputs, i, pictures);
+            require_order(inputs, i, pictures);
         }
         cell.frame =
             read_shadows(traced, files_of(inputs, i), pictures.pictures[i], pictures.twins);

@@ -370,6 +370,21 @@ bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals)
     return false;
 }
 
+/// Whether the picture shows light where these normals say that there is none: on nearly all pixels
+/// that are truly lit and turned away by them.
+bool shows_light_on_averted(const MeshLight& mesh, std::span<const Observed* const> facing) {
+    std::size_t averted = 0;
+    std::size_t dark = 0;
+    for (const Observed* const pixel : facing) {
+        const double least_told = mesh.least_difference(pixel->step);
+        if (pixel->certainly != Visibility::lit || mesh.light_at(*pixel).typical > least_told)
+            continue;
+        ++averted;
+        dark += mesh.above_shadow(pixel->value) > least_told ? 0U : 1U;
+    }
+    return averted >= enough && static_cast<double>(dark) < unusual * static_cast<double>(averted);
+}
+
 } // namespace
 
 std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown) {
@@ -389,7 +404,8 @@ std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Sho
     std::vector<MeshLight> kept{fits[static_cast<std::size_t>(best)]};
     for (std::size_t i = 0; i < fits.size(); ++i)
         if (static_cast<std::ptrdiff_t>(i) != best &&
-            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step))
+            misfits[i] <= 2 * (misfits[static_cast<std::size_t>(best)] + 2 * useful.step) &&
+            !shows_light_on_averted(fits[i], useful.facing))
             kept.push_back(std::move(fits[i]));
     if (shown == Shown::textured && is_patterned(kept.front(), pixels)) return {MeshLight{}};
     return kept;

@@ -72,6 +72,9 @@ function mapRecord({ blocks, cellFile }, rank) {
            near: cellFile.map.near, far: cellFile.map.far };
 }
 
+/** Of a texel on the surface; without an end where the light's rays do not all meet the surface. */
+const footprintSide = (length) => (Number.isFinite(length) ? printed(length, 3) : 'endless');
+
 addFamily('map', {
   blocks: (pixels, differing) => ({
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
@@ -103,7 +106,7 @@ addFamily('map', {
         ...(record.slopeBias > 0 ? [['Slope bias', `${record.slopeBias}, in what is stored`]] : []),
         ...(record.offsetUnits > 0 ? [['Offset units', `${record.offsetUnits}, in what is stored`]] : []),
         ['Own point', short(record.own)],
-        ['Footprint', `${printed(record.foot[0], 3)} × ${printed(record.foot[1], 3)} on the surface`],
+        ['Footprint', `${Array.from(record.foot, footprintSide).join(' × ')} on the surface`],
         ['Texel shows', record.shown === noTriangle ? 'nothing' : `triangle ${record.shown}`]])];
   },
 });

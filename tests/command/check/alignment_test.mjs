@@ -103,3 +103,63 @@ for (const scene of ['sun', 'spot', 'nested', 'overlapping', 'many_lights', 'cub
     const inverse = checked(scene, (x, y) => shade[{ 0: 0, 64: 255, 255: 64 }[truth.at(x, y)]]);
     assert.doesNotMatch(inverse.out + inverse.err, /--no-alignment/);
   });
+
+/// Twins, by what the camera sees: 0 the background, else surfaces.
+const twins = { unlit: (seen) => seen ? 40 : 0, unshadowed: (seen) => seen ? 190 : 0 };
+
+function checkedWith(twin, scene, valueAt) {
+  const truth = truthOf(scene);
+  writeFileSync(join(scratch, 'twin.png'), grayPng(size, size, (x, y) => 257 * valueAt(x, y)));
+  return checked(scene, (x, y) => ({ 0: 0, 64: 40, 255: 190 }[truth.at(x, y)]), `--${twin}`, 'twin.png');
+}
+
+/// Whole numbers, the same each time.
+function noiseFrom(least, end) {
+  let state = 1;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return least + Math.floor((end - least) * state / 2 ** 32);
+  };
+}
+
+for (const [twin, value] of Object.entries(twins)) {
+  test(`a picture given as --${twin} that is of another view is named`, () => {
+    const zoomed = truthOf('ordinary', ['--fov', String(1.05 * yfovOf('ordinary'))]);
+    refused(checkedWith(twin, 'ordinary', (x, y) => value(zoomed.at(x, y))),
+            /twin\.png: has a field of view of/);
+    const truth = truthOf('ordinary');
+    refused(checkedWith(twin, 'ordinary', (x, y) => value(truth.at(size - 1 - x, y))),
+            /twin\.png: is mirrored left to right; /);
+  });
+
+  for (const scene of ['ordinary', 'sun', 'spot', 'nested', 'many_lights', 'slivers'])
+    test(`a right --${twin} of ${scene} is no other view, noisy or not`, () => {
+      const truth = truthOf(scene);
+      assert.equal(checkedWith(twin, scene, (x, y) => value(truth.at(x, y))).code, 0);
+      const noise = noiseFrom(-8, 8);
+      const run = checkedWith(twin, scene, (x, y) => truth.at(x, y) ? value(255) + noise() : 0);
+      assert.doesNotMatch(run.out + run.err, /--no-alignment/);
+    });
+}
+
+test('an unlit twin that shows nothing but noise is no other view', () => {
+  for (const scene of ['ordinary', 'sun', 'spot', 'nested', 'cube_edge', 'far_light']) {
+    const run = checkedWith('unlit', scene, noiseFrom(0, 5));
+    assert.doesNotMatch(run.out + run.err, /--no-alignment/);
+  }
+});
+
+test('twins that are darker or brighter than they can be are of other pictures', () => {
+  const wrongOrder = (run, words) => {
+    assert.equal(run.code, 3, run.out + run.err);
+    assert.match(run.out + run.err, words);
+  };
+  const narrow = truthOf('far_plane'), wide = truthOf('thin_caster');
+  wrongOrder(checkedWith('unlit', 'thin_caster', (x, y) => twins.unlit(narrow.at(x, y))),
+             /twin\.png: lacks light, but is brighter than mine\.png in \d+ % of the view; /);
+  wrongOrder(checkedWith('unshadowed', 'far_plane', (x, y) => twins.unshadowed(wide.at(x, y))),
+             /twin\.png: lacks shadows, but is darker than mine\.png in \d+ % of the view; /);
+  const truth = truthOf('ordinary');
+  wrongOrder(checkedWith('unlit', 'ordinary', (x, y) => twins.unshadowed(truth.at(x, y))),
+             /twin\.png: lacks light, but is brighter/);
+});

@@ -195,6 +195,9 @@ protected:
 
 class FaultyPictureOf : public PictureOf {};
 
+/// Where light seldom grazes what is seen.
+class WellLitPictureOf : public PictureOf {};
+
 TEST_P(PictureOf, a_right_renderer_shows_no_wrong_pixel) {
     for (const Style& style : styles())
         for (const Given given : all_given) {
@@ -210,6 +213,17 @@ TEST_P(PictureOf, a_right_renderer_shows_no_wrong_pixel) {
                 EXPECT_GT(found.decided, 0U) << style.name;
             }
         }
+}
+
+TEST_P(WellLitPictureOf, with_its_unlit_twin_leaves_open_less_than_one_pixel_in_a_hundred) {
+    const auto facing = static_cast<std::size_t>(
+        std::ranges::count_if(points.pixels, [](const Point& point) { return point.sine > 0; }));
+    for (const Style& style : styles()) {
+        // What is smooth turns away, and what falls off fades, where nothing tells.
+        if (!(style.light({.sine = 1, .distance = 1e3, .smooth_sine = 0}) > 0.1)) continue;
+        const Read found = read(traced, style, points, traced.truth().visibility, Given::unlit);
+        EXPECT_LT(facing - found.decided, points.pixels.size() / 100) << style.name;
+    }
 }
 
 /// How many of the pixels that `classes` has as partly lit are decided.
@@ -278,6 +292,10 @@ std::string test_name(const testing::TestParamInfo<std::string>& tested) {
 }
 
 SHADOWPROOF_OVER_SCENES(PictureOf, tests::bundled_names());
+INSTANTIATE_TEST_SUITE_P(Bundled, WellLitPictureOf,
+                         testing::Values("ordinary", "sun", "overlapping", "near_plane",
+                                         "far_plane", "eye_inside", "long_shadow", "cube_edge"),
+                         test_name);
 INSTANTIATE_TEST_SUITE_P(Bundled, FaultyPictureOf,
                          testing::Values("ordinary", "sun", "spot", "nested", "low_light",
                                          "height_field", "many_lights-rim"),
