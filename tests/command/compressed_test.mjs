@@ -31,7 +31,11 @@ const ways = {
 const sanitized = Boolean(process.env.SHADOWPROOF_SANITIZED);
 const scenes = sanitized ? ['ordinary', 'walking_figure']
   : ['ordinary', 'open_lid', 'many_lights', 'bumpy_torus', 'walking_figure', 'nested'];
-const tried = sanitized ? ['--size', '32x32', '--technique', 'zfail_half_edge'] : ['--size', '96x96'];
+const size = ['--size', sanitized ? '32x32' : '96x96'];
+/** Of a scene without bumps the techniques read positions and triangles, in no more ways than these. */
+const techniques = (scene) => sanitized ? ['--technique', 'zfail_half_edge']
+  : scene.startsWith('bumpy') ? []
+    : ['--technique', 'zpass,zfail_half_edge,zfail_geometry_shader,auto,traced_offset'];
 
 /** A scene compressed in one of the ways, and the same file decompressed by glTF-Transform. */
 async function write(scene, way) {
@@ -67,7 +71,7 @@ for (const scene of scenes)
       assert.ok(!json(readFileSync(plain)).includes(extension));
       assert.deepEqual(truth(compressed), truth(plain));
       const results = `${compressed}.json`;
-      const run = shadowproof(['verify', compressed, ...tried, '-q', '--json', results, '--out',
+      const run = shadowproof(['verify', compressed, ...size, ...techniques(scene), '-q', '--json', results, '--out',
                                `${compressed}.report`]);
       assert.equal(run.code, 0, run.out + run.err);
       for (const each of JSON.parse(readFileSync(results)).scenes)

@@ -58,7 +58,7 @@ test('a crash in every process of stress loses one technique after the other, an
 });
 
 test('a technique that hangs at a point of stress is given up, and the run fails', () => {
-  const run = shadowproof([...stress('given-up', ['zpass', 'zfail']), '--timeout', '20', '-q'],
+  const run = shadowproof([...stress('given-up', ['zpass', 'zfail']), '--timeout', '8', '-q'],
                           fault('glReadPixels:1:hang'));
   assert.equal(run.code, 1, run.out + run.err);
   const lost = resultsOf('given-up.json').points.filter(({ loss }) => loss);
@@ -66,14 +66,14 @@ test('a technique that hangs at a point of stress is given up, and the run fails
   for (const { loss, refused, technique } of lost) {
     assert.equal(loss, 'timed_out');
     assert.equal(technique, 'zpass');
-    assert.match(refused, /took longer than --timeout 20/);
+    assert.match(refused, /took longer than --timeout 8/);
   }
   assert.ok(pointsOf('given-up.json', 'zfail').every(({ refused }) => !refused));
 });
 
 test('a point of stress whose truth is lost, be it the scene’s own, ends nothing', () => {
   for (const [words, loss] of [['rtcBuildBVH:2:hang', 'timed_out'], ['rtcBuildBVH:30:11', 'crashed']]) {
-    const run = shadowproof([...stress('untraced', ['zfail']), '--timeout', '20', '-q'], fault(words));
+    const run = shadowproof([...stress('untraced', ['zfail']), '--timeout', '8', '-q'], fault(words));
     assert.equal(run.code, 3, run.out + run.err);
     const truths = pointsOf('untraced.json', 'truth');
     const lost = truths.filter((point) => point.loss);
@@ -123,7 +123,7 @@ test('a crash while a point is measured keeps the samples of the others', () => 
 });
 
 test('a technique that hangs in bench is given up, and the run fails', () => {
-  const run = shadowproof([...bench('hung'), '--timeout', '20', '-q'], fault('glReadPixels:1:hang'));
+  const run = shadowproof([...bench('hung'), '--timeout', '8', '-q'], fault('glReadPixels:1:hang'));
   assert.equal(run.code, 1, run.out + run.err);
   const { left_out: leftOut, points } = resultsOf('hung.json');
   const lost = leftOut.filter(({ loss }) => loss);

@@ -12,9 +12,10 @@ import { assertSameReport, filesBelow, scratch, shadowproof } from './shadowproo
 const size = ['--size', '48x48'];
 const bundled = process.env.SHADOWPROOF_SCENES;
 // Two files of one name, one that cannot be read, several lights, bump maps, and a name that a light
-// of another scene has too.
+// of another scene has too; techniques that are for all of them. The matrix below has all.
 const scenes = ['near_plane', 'a/spot.gltf', 'torn.gltf', 'b/spot.gltf', 'many_lights',
-                'many_lights-key.gltf', 'bumpy_sphere', 'sun'];
+                'many_lights-key.gltf', 'bumpy_sphere', 'sun', '--technique',
+                'zpass,zfail,zfail_reversed,invert,auto,traced_epsilon,traced_skip'];
 const resultsOf = (folder) => JSON.parse(readFileSync(join(scratch, folder, 'results.json')));
 const cellsOf = (folder) => resultsOf(folder).scenes.flatMap(({ name, techniques, error }) =>
   error ? [name] : techniques.map((cell) => `${name} ${cell.name}`));

@@ -25,12 +25,11 @@ inline constexpr std::array telling_scenes{
     "bumpy_torus",    "skewed_relief", "height_field",     "terminator_highlight",
     "light_range",    "thin_caster",   "bumpy_eye_inside", "in_millimetres"};
 
-/// The names that tell most; or all others.
-inline std::vector<std::string> chosen(std::vector<std::string> names, bool telling) {
+/// Those of the names that are among `some`; or all others.
+template <class Names>
+std::vector<std::string> chosen(std::vector<std::string> names, const Names& some, bool among) {
     std::erase_if(names, [&](const std::string& name) {
-        const bool tells =
-            std::ranges::find(telling_scenes, std::string_view(name)) != telling_scenes.end();
-        return tells != telling;
+        return (std::ranges::find(some, std::string_view(name)) != some.end()) != among;
     });
     return names;
 }
@@ -44,11 +43,15 @@ inline std::string name_of_test(const testing::TestParamInfo<std::string>& scene
 
 } // namespace shadowproof::tests
 
-/// Instantiates a suite over scenes, whose names are its parameters.
-#define SHADOWPROOF_OVER_SCENES(Suite, names)                                                      \
+/// Instantiates a suite over scenes, whose names are its parameters: `some` of them as Telling, the
+/// others as Long.
+#define SHADOWPROOF_OVER_SOME_SCENES(Suite, names, some)                                           \
     INSTANTIATE_TEST_SUITE_P(Telling, Suite,                                                       \
-                             testing::ValuesIn(shadowproof::tests::chosen(names, true)),           \
+                             testing::ValuesIn(shadowproof::tests::chosen(names, some, true)),     \
                              shadowproof::tests::name_of_test);                                    \
     INSTANTIATE_TEST_SUITE_P(Long, Suite,                                                          \
-                             testing::ValuesIn(shadowproof::tests::chosen(names, false)),          \
+                             testing::ValuesIn(shadowproof::tests::chosen(names, some, false)),    \
                              shadowproof::tests::name_of_test)
+
+#define SHADOWPROOF_OVER_SCENES(Suite, names)                                                      \
+    SHADOWPROOF_OVER_SOME_SCENES(Suite, names, shadowproof::tests::telling_scenes)

@@ -224,7 +224,7 @@ test('the drawing is saved as a picture that stands alone', async () => {
 });
 
 test('pictures for people: overview, cell, inspector, drawing, in both themes', async () => {
-  const large = writeReport('for-people', undefined, '512x512', null);
+  const large = writeReport('for-people', undefined, '512x512');
   for (const theme of ['light', 'dark']) {
     const { page, open, said } = await openReport(large, { theme });
     await keepScreenshot(page, `overview-${theme}`, { fullPage: true });
