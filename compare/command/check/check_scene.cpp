@@ -157,23 +157,24 @@ void require_aligned(const TracedScene& traced, const SceneInputs& inputs, std::
 }
 
 /// The twins are of this picture: one is darker, the other brighter.
-void require_order(const SceneInputs& inputs, std::size_t i, const Pictures& pictures) {
+void require_order(const GroundTruth& truth, const SceneInputs& inputs, std::size_t i,
+                   const Pictures& pictures) {
     const Picture& picture = pictures.pictures[i];
     const Twins& twins = pictures.twins;
     const double step = step_of(picture, twins);
     const auto require = [&](const std::string& file, double wrong, const char* words) {
         if (wrong > most_in_wrong_order)
             throw Error(file,
-                        fmt::format("{} {} in {:.0f} % of the view", words, inputs.pictures[i],
+                        fmt::format("{} {} in {:.0f} % of what is seen", words, inputs.pictures[i],
                                     100 * wrong),
                         "render both of the same scene and view, with the same exposure; "
                         "--no-alignment judges them as they are");
     };
     if (twins.unlit)
-        require(inputs.unlit, share_in_wrong_order(*twins.unlit, picture, step),
+        require(inputs.unlit, share_in_wrong_order(truth, *twins.unlit, picture, step),
                 "lacks light, but is brighter than");
     if (twins.unshadowed)
-        require(inputs.unshadowed, share_in_wrong_order(picture, *twins.unshadowed, step),
+        require(inputs.unshadowed, share_in_wrong_order(truth, picture, *twins.unshadowed, step),
                 "lacks shadows, but is darker than");
 }
 
@@ -186,7 +187,7 @@ void judge_picture(const CheckOptions& options, const SceneInputs& inputs,
         if (options.alignment && inputs.mask.empty()) {
             console.progress(cell.technique + ": alignment");
             require_aligned(traced, inputs, i, pictures);
-            require_order(inputs, i, pictures);
+            require_order(traced.truth(), inputs, i, pictures);
         }
         cell.frame =
             read_shadows(traced, files_of(inputs, i), pictures.pictures[i], pictures.twins);

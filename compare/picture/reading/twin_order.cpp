@@ -11,7 +11,8 @@
 
 namespace shadowproof {
 
-double share_in_wrong_order(const Picture& darker, const Picture& brighter, double step) {
+double share_in_wrong_order(const GroundTruth& truth, const Picture& darker,
+                            const Picture& brighter, double step) {
     constexpr int side = 8; // of a square, pixels
     std::size_t squares = 0;
     std::size_t wrong = 0;
@@ -21,20 +22,20 @@ double share_in_wrong_order(const Picture& darker, const Picture& brighter, doub
             excess.clear();
             for (int y = top; y < std::min(top + side, darker.height); ++y)
                 for (int x = left; x < std::min(left + side, darker.width); ++x) {
-                    const std::size_t pixel =
-                        static_cast<std::size_t>(y) * static_cast<std::size_t>(darker.width) +
-                        static_cast<std::size_t>(x);
+                    const std::size_t pixel = truth.triangle.index(x, y);
+                    if (truth.triangle.pixels[pixel] == no_triangle) continue;
                     const double dark = glm::length(color_at(darker, pixel));
                     const double bright = glm::length(color_at(brighter, pixel));
                     const double least = std::max(step, float_step(std::max(dark, bright)));
                     excess.push_back(dark == bright ? 0 : (dark - bright) / least);
                 }
+            if (excess.empty()) continue;
             const auto middle = excess.begin() + std::ssize(excess) / 2;
             std::nth_element(excess.begin(), middle, excess.end());
             ++squares;
             wrong += *middle > fewest_steps ? 1U : 0U;
         }
-    return static_cast<double>(wrong) / static_cast<double>(squares);
+    return squares == 0 ? 0 : static_cast<double>(wrong) / static_cast<double>(squares);
 }
 
 } // namespace shadowproof
