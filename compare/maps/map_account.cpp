@@ -27,13 +27,13 @@ Account account_of_lookup(const std::optional<PixelLookup>& pixel, const MapMode
         members["map"] = nullptr;
     } else {
         const Texel& texel = pixel->lookup.texel;
-        account.columns = {{"face", fmt::format("{}", texel.face)},
-                           {"texel", fmt::format("({},{})", texel.x, texel.y)},
-                           {"footprint", fmt::format("{}x{}", side(pixel->footprint.x),
-                                                     side(pixel->footprint.y))},
-                           {"map", fmt::format("{:.6g}", pixel->stored * unit)},
-                           {"bias", fmt::format("{:.3g}", model.bias * unit)},
-                           {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
+        account.columns = {
+            {"face", fmt::format("{}", texel.face)},
+            {"texel", fmt::format("({},{})", texel.x, texel.y)},
+            {"footprint", fmt::format("{}x{}", side(pixel->footprint.x), side(pixel->footprint.y))},
+            {"map", fmt::format("{:.6g}", pixel->stored * unit)},
+            {"bias", fmt::format("{:.3g}", model.bias * unit)},
+            {"own", fmt::format("{:.6g}", pixel->lookup.value * unit)}};
         account.remark = {"shows", pixel->shown == no_triangle
                                        ? std::string("nothing")
                                        : fmt::format("triangle {}", pixel->shown)};

@@ -11,7 +11,7 @@
 
 namespace shadowproof {
 
-/// Twins have none: what faces the light is lit, or nothing is.
+/// Twins show no shadows: what faces the light is lit, or nothing is.
 enum class Shows : std::uint8_t { shadows, no_shadows };
 
 /// How the picture's view differs from the scene's, in words; nothing where it does not: "is
@@ -22,8 +22,8 @@ enum class Shows : std::uint8_t { shadows, no_shadows };
 /// Each surface, lit or shadowed, has its typical colour in the picture. Where another view would
 /// show another surface at a pixel, the pixel votes for the one whose colour is nearer to its own;
 /// another view is taken where the votes for it are more than those against, and by more than noise
-/// would have them. Wrong shadows are no votes, unless they are most of what lies at outlines. A view that differs is then fitted by
-/// turning the camera and by its field of view.
+/// would have them. Wrong shadows are no votes, unless they are most of what lies at outlines. A
+/// view that differs is then fitted by turning the camera and by its field of view.
 std::optional<std::string> misalignment(const TracedScene& traced, const Picture& picture,
                                         Shows shows);
 

@@ -162,20 +162,23 @@ void require_order(const GroundTruth& truth, const SceneInputs& inputs, std::siz
     const Picture& picture = pictures.pictures[i];
     const Twins& twins = pictures.twins;
     const double step = step_of(picture, twins);
-    const auto require = [&](const std::string& file, double wrong, const char* words) {
+    const auto require = [&](const std::string& file, double wrong, const char* words,
+                             const char* remedy) {
         if (wrong > most_in_wrong_order)
             throw Error(file,
                         fmt::format("{} {} in {:.0f} % of what is seen", words, inputs.pictures[i],
                                     100 * wrong),
-                        "render both of the same scene and view, with the same exposure; "
-                        "--no-alignment judges them as they are");
+                        std::string("render both of the same scene and view, with the same "
+                                    "exposure") +
+                            remedy + "; --no-alignment judges them as they are");
     };
     if (twins.unlit)
         require(inputs.unlit, share_in_wrong_order(truth, *twins.unlit, picture, step),
-                "lacks light, but is brighter than");
+                "lacks light, but is brighter than",
+                " (--unshadowed takes one with the light but without shadows)");
     if (twins.unshadowed)
         require(inputs.unshadowed, share_in_wrong_order(truth, picture, *twins.unshadowed, step),
-                "lacks shadows, but is darker than");
+                "lacks shadows, but is darker than", " (--unlit takes one without the light)");
 }
 
 /// No wrong pixel of a picture is excused.

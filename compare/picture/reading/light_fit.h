@@ -16,8 +16,8 @@ enum class Shown : std::uint8_t {
 };
 
 /// By each of all_normals_by, the best first: others count as well where they fit half as well, but
-/// for two steps of the file, and turn no surface away that the picture shows in light; nothing else
-/// tells which are the picture's. Of differences shadow is none. Else it is
+/// for two steps of the file, and turn no surface away that the picture shows in light; nothing
+/// else tells which are the picture's. Of differences shadow is none. Else it is
 ///   - the typical colour of surfaces that face away from the light;
 ///   - where none are seen, that of pixels that are certainly in shadow, if the picture shows them
 ///     darker than lit ones at the same angle;

@@ -5,6 +5,7 @@
 #include "compare/picture/surface_colors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -26,6 +27,7 @@ double share_in_wrong_order(const GroundTruth& truth, const Picture& darker,
                     if (truth.triangle.pixels[pixel] == no_triangle) continue;
                     const double dark = glm::length(color_at(darker, pixel));
                     const double bright = glm::length(color_at(brighter, pixel));
+                    if (!std::isfinite(dark) || !std::isfinite(bright)) continue;
                     const double least = std::max(step, float_step(std::max(dark, bright)));
                     excess.push_back(dark == bright ? 0 : (dark - bright) / least);
                 }
