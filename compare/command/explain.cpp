@@ -183,13 +183,11 @@ std::string ledger_text(const Scene& scene, const PixelRecord& record) {
 }
 
 /// What alpha masks take from the shadow depth at the surface; empty where that is nothing.
-std::string masks_text(const Tracer& tracer, const PixelRecord& record) {
-    if (!has_masks(tracer.scene())) return {};
-    const std::int32_t open = count_let_through(tracer, record.direction, record.seen);
-    if (open == 0) return {};
+std::string masks_text(const PixelRecord& record) {
+    if (record.let_through == 0) return {};
     return fmt::format("  masks     the light falls through holes in the casters of {} of those at "
                        "the surface\n",
-                       open);
+                       record.let_through);
 }
 
 /// The techniques of one family as a table: what their evidence is, their claims and causes.
@@ -261,14 +259,13 @@ std::string techniques_text(const std::vector<TechniqueAtPixel>& techniques) {
     return text;
 }
 
-/// `masks`: masks_text.
-std::string as_text(const Scene& scene, const PixelRecord& record, const std::string& masks,
+std::string as_text(const Scene& scene, const PixelRecord& record,
                     const std::vector<TechniqueAtPixel>& techniques) {
     std::string text = fmt::format("{} pixel ({},{}) of {}x{}\n", printable(scene.name), record.x,
                                    record.y, scene.camera.width, scene.camera.height);
     for (const std::string& note : scene.notes)
         text += fmt::format("  note      {}\n", printable(note));
-    return text + ray_text(scene, record) + ledger_text(scene, record) + masks +
+    return text + ray_text(scene, record) + ledger_text(scene, record) + masks_text(record) +
            techniques_text(techniques);
 }
 
@@ -320,7 +317,7 @@ int explain(const ExplainOptions& options, int watcher) {
     console.clear_progress();
     const Scene told = in_file_units(scene);
     const PixelRecord told_record = in_units(record, scene.unit);
-    if (!options.quiet) print(as_text(told, told_record, masks_text(tracer, record), techniques));
+    if (!options.quiet) print(as_text(told, told_record, techniques));
     for (const TechniqueAtPixel& technique : techniques)
         if (!technique.error.empty()) complain(technique.error);
     const std::string json = to_json(told, told_record, techniques)

@@ -1,5 +1,6 @@
 #include "compare/judge/pixel_record.h"
 
+#include "reference/predict/ledger.h"
 #include "scenes/camera.h"
 
 #include <algorithm>
@@ -75,6 +76,8 @@ PixelRecord record_pixel(const TracedScene& traced, int x, int y) {
     record.in_cone = truth_again.in_cone;
     if (record.visibility == Visibility::shadowed)
         record.occluder = occluder_of(tracer, record.direction);
+    if (has_masks(tracer.scene()))
+        record.let_through = count_let_through(tracer, record.direction, record.seen);
     record.far = traced.far();
     record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
     record.depth_margin = depth_margin(record.ledger, record.seen);

@@ -21,6 +21,7 @@ struct PixelRecord {
     bool in_cone = true;                  ///< false outside a spot light's cone
     std::uint32_t occluder = no_triangle; ///< if shadowed by a triangle: one in between
     double far = 0;                       ///< the finite far plane's depth
+    std::int32_t let_through = 0;         ///< of the volumes at the surface, by holes in masks
     PixelLedger ledger;
     /// Distance in view depth from the surface to the nearest crossing other than its own light
     /// cap; none if either is missing.

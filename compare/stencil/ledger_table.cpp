@@ -8,6 +8,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <unordered_map>
 
@@ -55,7 +56,7 @@ void append_words(const Inputs& in, const PixelLedger& ledger, const Place& p, W
     words.push_back(pair(counts.at_near, counts.at_surface));
     words.push_back(pair(counts.at_far, counts.at_infinity));
     words.push_back(pair(counts.at_eye, ledger.adds_up ? 1 : 0));
-    words.push_back(pair(0, in.prediction.counts().at(p.x, p.y)));
+    words.push_back(pair(in.prediction.let_through(p.x, p.y), in.prediction.counts().at(p.x, p.y)));
     for (const Crossing& crossing : ledger.crossings)
         words.push_back(
             crossing_word(crossing.triangle, crossing.part, crossing.change,
@@ -180,10 +181,10 @@ private:
     }
 
     bool has_words(std::uint32_t ledger, std::span<const std::uint64_t> words) const {
-        const std::int32_t* counts = table_.counts.data() + 5 * std::size_t{ledger};
+        const std::int32_t* counts = table_.counts.data() + counts_of_ledger * std::size_t{ledger};
         if (words[0] != pair(counts[1], counts[2]) || words[1] != pair(counts[3], counts[4]) ||
             words[2] != pair(counts[0], table_.adds_up[ledger]) ||
-            words[3] != pair(0, table_.predicted[ledger]))
+            words[3] != pair(counts[5], table_.predicted[ledger]))
             return false;
         const std::size_t first = table_.start[ledger];
         if (table_.start[ledger + 1] - first != words.size() - count_words) return false;
@@ -199,8 +200,10 @@ private:
     }
 
     void add_ledger(std::span<const std::uint64_t> words) {
-        table_.counts.insert(table_.counts.end(), {high(words[2]), high(words[0]), low(words[0]),
-                                                   high(words[1]), low(words[1])});
+        const std::array<std::int32_t, counts_of_ledger> counts{high(words[2]), high(words[0]),
+                                                                low(words[0]),  high(words[1]),
+                                                                low(words[1]),  high(words[3])};
+        table_.counts.insert(table_.counts.end(), counts.begin(), counts.end());
         table_.adds_up.push_back(static_cast<std::uint8_t>(low(words[2])));
         table_.predicted.push_back(low(words[3]));
         for (const std::uint64_t word : words.subspan(count_words)) {

@@ -6,10 +6,14 @@
 #include "reference/predict/region_ledger.h"
 #include "scenes/memory_budget.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace shadowproof {
+
+/// At eye, near, surface, far and infinity, and what masks let through of those at the surface.
+inline constexpr std::size_t counts_of_ledger = 6;
 
 struct LedgerTable {
     // One value per differing pixel, in rows from the top.
@@ -20,7 +24,7 @@ struct LedgerTable {
 
     // One value per ledger, or as many as stated.
     std::vector<std::uint32_t> start{0}; ///< index of its first crossing; one more at the end
-    std::vector<std::int32_t> counts;    ///< 5: at eye, near, surface, far, infinity
+    std::vector<std::int32_t> counts;    ///< counts_of_ledger of them
     std::vector<std::uint8_t> adds_up;   ///< 1 where its crossings add up to its counts
     std::vector<std::int32_t> predicted; ///< the counter, before it wraps
 

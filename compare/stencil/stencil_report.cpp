@@ -131,7 +131,7 @@ public:
                 {"shown", of_differing(ledgers_.shown)},
                 {"exactness", of_differing(ledgers_.exactness)},
                 {"ledger", of_differing(ledgers_.ledger)},
-                {"ledger_counts", rows(ledgers_.counts, 5)},
+                {"ledger_counts", rows(ledgers_.counts, counts_of_ledger)},
                 {"ledger_exact", rows(ledgers_.adds_up)},
                 {"ledger_predicted", rows(ledgers_.predicted)},
                 {"crossing", rows_block(crossing_list(ledgers_))},

@@ -108,6 +108,11 @@ public:
     std::int64_t count_without(Limitations limitations, const SurfaceRay& ray) const;
 
     const Volumes& volumes() const { return own_->volumes; }
+    /// What masks let through at a pixel's centre (count_let_through).
+    std::int32_t let_through(int x, int y) const {
+        const Image<std::int32_t>& open = *own_->let_through;
+        return open.pixels.empty() ? 0 : open.at(x, y);
+    }
     /// Shadow depths in the volumes that are counted, which may be cut off.
     const ShadowDepths& depths() const { return *own_->depths; }
     /// Shadow depths in the volumes that give the right shadows (Volumes::are_ideal).

@@ -80,6 +80,8 @@ async function compare(page, each, x, y) {
   assert.ok(said.includes(`inside    ${facts.Inside}\n`), facts.Inside);
   assert.ok(said.includes(`ray       ${facts.Ray}\n`), facts.Ray);
   assert.ok(said.includes(`light     ${facts.Light}\n`), facts.Light);
+  assert.equal(facts.Masks, said.match(/^ {2}masks {5}(.+)$/m)?.[1]);
+  assert.equal(Boolean(facts.Masks), inside.let_through > 0);
   assert.equal(inside.surface === null, seen === null);
 }
 
@@ -100,6 +102,23 @@ test(`twenty differing pixels read as explain has them (seed ${seed})`, async ()
   }
   assert.deepEqual(said, []);
   assert.deepEqual(asked, []);
+});
+
+test('where light falls through the holes of masks, both say of how many volumes', async () => {
+  const masked = writeReport('masked', ['perforated'], size, ['zfail_reversed']);
+  const [each] = cellsOf(resultsOf(masked));
+  const { page, open, said } = await openReport(masked);
+  const pixels = differingPixels(each);
+  const tried = [0.2, 0.5, 0.8].map((way) => pixels[Math.floor(way * pixels.length)]);
+  let through = 0;
+  for (const pixel of tried) {
+    const [x, y] = [pixel % each.scene.width, Math.floor(pixel / each.scene.width)];
+    await open(`#${each.id}?pixel=${x},${y}`);
+    await compare(page, each, x, y);
+    through += (await factsOf(page)).Masks ? 1 : 0;
+  }
+  assert.ok(through > 0);
+  assert.deepEqual(said, []);
 });
 
 test('a technique that leaves casters out shows what its own volumes are', async () => {

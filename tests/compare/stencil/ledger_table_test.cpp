@@ -55,7 +55,7 @@ TEST_P(LedgerTableTest, what_was_counted_adds_up_to_the_prediction_at_every_diff
     cell.for_differing([&](std::size_t i, int x, int y) {
         const std::uint32_t ledger = table.ledger[i];
         ASSERT_EQ(table.adds_up[ledger], 1) << x << ", " << y;
-        std::int64_t count = caps_counted ? table.counts[5 * ledger + 4] : 0;
+        std::int64_t count = caps_counted ? table.counts[counts_of_ledger * ledger + 4] : 0;
         for (std::uint32_t k = table.start[ledger]; k < table.start[ledger + 1]; ++k)
             if (table.crossing_tally[k] == static_cast<std::uint8_t>(Tally::counted))
                 count += weight(counting.test) * table.crossing_change[k];
@@ -74,11 +74,12 @@ TEST_P(LedgerTableTest, the_table_holds_what_the_pixels_alone_say) {
         EXPECT_EQ(table.shown[i], cell.frame.triangle.at(x, y));
         const std::uint32_t ledger = table.ledger[i];
         const RayCounts& counts = record.ledger.counts;
-        const std::vector<std::int32_t> listed(table.counts.begin() + 5 * ledger,
-                                               table.counts.begin() + 5 * ledger + 5);
-        EXPECT_EQ(listed,
-                  (std::vector<std::int32_t>{counts.at_eye, counts.at_near, counts.at_surface,
-                                             counts.at_far, counts.at_infinity}));
+        const auto own =
+            table.counts.begin() + static_cast<std::ptrdiff_t>(counts_of_ledger * ledger);
+        const std::vector<std::int32_t> listed(own, own + counts_of_ledger);
+        EXPECT_EQ(listed, (std::vector<std::int32_t>{counts.at_eye, counts.at_near,
+                                                     counts.at_surface, counts.at_far,
+                                                     counts.at_infinity, record.let_through}));
         const std::uint32_t first = table.start[ledger];
         ASSERT_EQ(table.start[ledger + 1] - first, record.ledger.crossings.size());
         for (std::size_t k = 0; k < record.ledger.crossings.size(); ++k) {
@@ -108,7 +109,8 @@ TEST_P(LedgerTableTest, the_table_is_the_same_for_any_number_of_threads) {
 INSTANTIATE_TEST_SUITE_P(
     Cells, LedgerTableTest,
     testing::Values(std::pair("near_plane", "zpass"), std::pair("eye_inside", "zpass"),
-                    std::pair("far_plane", "zfail"), std::pair("ordinary", "zfail_infinite")),
+                    std::pair("far_plane", "zfail"), std::pair("ordinary", "zfail_infinite"),
+                    std::pair("perforated", "zfail_reversed")),
     [](const auto& cell) { return std::string(cell.param.first) + "_" + cell.param.second; });
 
 TEST(LedgerTable, what_does_not_fit_is_refused_with_the_pixels_that_it_is_for) {

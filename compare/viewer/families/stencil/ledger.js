@@ -18,6 +18,8 @@ function pixelFacts(record) {
     ['Inside', `${inside.eye} at the eye, ${inside.near} at near ${printed(record.near)}, ` +
       (inside.surface === null ? '' : `${inside.surface} at the surface, `) +
       `${inside.far} at far ${printed(record.far)}, ${inside.infinity} at infinity`],
+    ['Masks', inside.let_through > 0 ? 'the light falls through holes in the casters of ' +
+      `${inside.let_through} of those at the surface` : null],
     ['Ray', `from ${printedPoint(record.eye)} along ${printedPoint(record.direction)}`],
     ['Light', record.light.kind === 'directional'
       ? `${record.light.name} shining along ${printedPoint(record.light.direction)}`

@@ -168,9 +168,9 @@ function marginDepth(seen, crossings) {
 }
 
 function insideOf({ blocks }, ledger, seen) {
-  const [eye, near, surface, far, infinity] =
-    blocks.ledger_counts.subarray(5 * ledger, 5 * ledger + 5);
-  return { eye, near, surface: seen ? surface : null, far, infinity };
+  const [eye, near, surface, far, infinity, letThrough] =
+    blocks.ledger_counts.subarray(6 * ledger, 6 * ledger + 6);
+  return { eye, near, surface: seen ? surface : null, far, infinity, let_through: letThrough };
 }
 
 /** The record of a pixel that differs. Throws an Error that names a block that is not there. */
