@@ -13,8 +13,6 @@ namespace shadowproof {
 
 namespace {
 
-constexpr std::size_t enough = 16; // not a few pixels of an outline
-
 /// Light falls off with the square of distance, and a picture's curve may show that more steeply.
 constexpr double most_fall_off = 4;
 
@@ -71,7 +69,7 @@ struct TwoGroups {
 /// one. Of colours that are spread evenly, the groups' means lie twice as far apart as the colours
 /// of both lie from their medians; groups that are two lie twice as far again.
 std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
-    if (all.size() < 2 * enough) return std::nullopt;
+    if (all.size() < 2 * enough_pixels) return std::nullopt;
     const auto [least, greatest] =
         std::minmax_element(all.begin(), all.end(), [](const Observed* a, const Observed* b) {
             return brightness(a->value) < brightness(b->value);
@@ -83,7 +81,8 @@ std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
         groups = {};
         for (const Observed* pixel : all)
             (brightness(pixel->value) < between ? groups.dark : groups.bright).push_back(pixel);
-        if (groups.dark.size() < enough || groups.bright.size() < enough) return std::nullopt;
+        if (groups.dark.size() < enough_pixels || groups.bright.size() < enough_pixels)
+            return std::nullopt;
         const auto mean = [](const AngleGroup& group) {
             double sum = 0;
             for (const Observed* pixel : group) sum += brightness(pixel->value);
@@ -123,7 +122,7 @@ std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double st
             group, [](const Observed& pixel) { return pixel.certainly == Visibility::shadowed; });
         const auto bright = values_of(
             group, [](const Observed& pixel) { return pixel.certainly == Visibility::lit; });
-        if (dark.size() < enough || bright.size() < enough) continue;
+        if (dark.size() < enough_pixels || bright.size() < enough_pixels) continue;
         const Typical shadow = *typical(dark);
         const glm::dvec3 lit = typical(bright)->color;
         if (brightness(lit) > brightness(shadow.color) &&
@@ -135,7 +134,7 @@ std::optional<Typical> true_shadow(std::span<const AngleGroup> groups, double st
 
 std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
                                  const std::vector<glm::dvec3>& averted, double step) {
-    if (averted.size() >= enough) return typical(averted);
+    if (averted.size() >= enough_pixels) return typical(averted);
     if (const auto shadow = true_shadow(groups, step)) return shadow;
     std::vector<glm::dvec3> dark;
     for (const AngleGroup& group : groups)
@@ -173,7 +172,7 @@ LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
     angle.truly_lit = truly_lit.size();
     angle.shown_lit = certain.size();
     if (!truly_lit.empty()) angle.sine = sine_at(truly_lit, mesh.normals, 0.5);
-    const AngleGroup& lit = certain.size() < enough ? brighter : certain;
+    const AngleGroup& lit = certain.size() < enough_pixels ? brighter : certain;
     const std::optional<TwoGroups> two = two_groups(lit, step);
     angle.lit = two ? two->bright : lit;
     return angle;
@@ -190,7 +189,7 @@ void leave_out_dark(std::span<LitAtAngle> angles) {
     }
     if (2 * shown_lit >= truly_lit) return;
     for (LitAtAngle& angle : angles)
-        if (angle.truly_lit >= enough &&
+        if (angle.truly_lit >= enough_pixels &&
             static_cast<double>(angle.shown_lit) < unusual * static_cast<double>(angle.truly_lit))
             angle.is_dark = true;
 }
@@ -205,7 +204,7 @@ double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
     double sl = 0;
     double dl = 0;
     for (const LitAtAngle& angle : angles) {
-        if (angle.lit.size() < enough) continue;
+        if (angle.lit.size() < enough_pixels) continue;
         std::vector<double> light;
         std::vector<double> sine;
         std::vector<double> distance;
@@ -258,7 +257,8 @@ void fit_highlight(const AngleGroup& lit, MeshLight& mesh) {
     for (const Observed* const pixel : lit)
         parts[highlight_group(pixel->lies[mesh.normals])].push_back(pixel);
     for (std::size_t i = 0; i < parts.size(); ++i)
-        if (parts[i].size() >= enough) mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i]));
+        if (parts[i].size() >= enough_pixels)
+            mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i]));
 }
 
 /// Whether a pixel's surface faces away from the light, whichever normals are taken.
@@ -371,18 +371,20 @@ bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals)
 }
 
 /// Whether the picture shows light where these normals say that there is none: on nearly all pixels
-/// that are truly lit and turned away by them.
+/// that are truly lit and turned away by them. Of differences one step is rounding.
 bool shows_light_on_averted(const MeshLight& mesh, std::span<const Observed* const> facing) {
     std::size_t averted = 0;
     std::size_t dark = 0;
     for (const Observed* const pixel : facing) {
         const double least_told = mesh.least_difference(pixel->step);
-        if (pixel->certainly != Visibility::lit || mesh.light_at(*pixel).typical > least_told)
-            continue;
+        const double said = mesh.light_at(*pixel).typical;
+        if (pixel->certainly != Visibility::lit || said > least_told) continue;
         ++averted;
-        dark += mesh.above_shadow(pixel->value) > least_told ? 0U : 1U;
+        const double above = mesh.above_shadow(pixel->value);
+        dark += above > std::max(least_told, said + pixel->step) ? 0U : 1U;
     }
-    return averted >= enough && static_cast<double>(dark) < unusual * static_cast<double>(averted);
+    return averted >= enough_pixels &&
+           static_cast<double>(dark) < unusual * static_cast<double>(averted);
 }
 
 } // namespace

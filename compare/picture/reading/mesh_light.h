@@ -16,6 +16,9 @@ namespace shadowproof {
 /// whether it is more than half of what light adds: with four, that may be off by a quarter.
 inline constexpr double fewest_steps = 4;
 
+/// What so many show is no outline's.
+inline constexpr std::size_t enough_pixels = 16;
+
 /// How one of all_normals_by lies to light and eye.
 struct Lie {
     float sine = 0; ///< of the angle at which the light falls: below 0 where it falls on the other

@@ -1,6 +1,7 @@
 #include "compare/picture/reading/shadow_classes.h"
 
 #include "compare/picture/predict.h"
+#include "compare/picture/reading/borrowed_light.h"
 #include "compare/picture/reading/light_fit.h"
 #include "compare/picture/reading/seen_pixels.h"
 #include "compare/picture/surface_colors.h"
@@ -25,19 +26,43 @@ using LightOf = std::function<ShownLight(const Seen& seen, std::size_t pixel)>;
 
 using LightOfMeshes = std::map<std::uint32_t, std::vector<MeshLight>>;
 
-/// `scene`: where the pixels are the picture's own; none: they are differences.
-LightOfMeshes light_by_mesh(const SeenPixels& pixels, const Scene* scene) {
-    const auto shown = [&](std::uint32_t mesh) {
-        if (scene == nullptr) return Shown::differences;
-        return scene->meshes[mesh].textured ? Shown::textured : Shown::plain;
-    };
-    std::map<std::uint32_t, std::vector<const Observed*>> by_mesh;
+using PixelsOfMeshes = std::map<std::uint32_t, std::vector<const Observed*>>;
+
+PixelsOfMeshes pixels_by_mesh(const SeenPixels& pixels) {
+    PixelsOfMeshes by_mesh;
     for (const std::optional<Seen>& seen : pixels.pixels)
         if (seen) by_mesh[seen->mesh].push_back(&seen->observed);
+    return by_mesh;
+}
+
+/// Of a picture of its own: a mesh that shows light alone may be lit as another one is.
+LightOfMeshes light_of_colors(const SeenPixels& pixels, const Scene& scene) {
     LightOfMeshes meshes;
-    for (const auto& [mesh, observed] : by_mesh) meshes[mesh] = fitted_light(observed, shown(mesh));
-    // A mesh that the picture shows all in shadow would be as bright as others are, if light is
-    // measured by what surfaces are without it.
+    std::vector<KnownLight> known;
+    std::map<std::uint32_t, LitSamples> unknown;
+    for (const auto& [mesh, observed] : pixels_by_mesh(pixels)) {
+        const bool textured = scene.meshes[mesh].textured;
+        std::vector<MeshLight> fits =
+            fitted_light(observed, textured ? Shown::textured : Shown::plain);
+        if (!textured && fits.front().shadow && !fits.front().light.empty())
+            known.push_back(known_light(fits, observed));
+        else if (!textured)
+            unknown[mesh] = lit_samples(observed);
+        meshes[mesh] = std::move(fits);
+    }
+    for (const auto& [mesh, lit] : unknown)
+        if (std::vector<MeshLight> fits = borrowed_light(lit, known); !fits.empty())
+            meshes[mesh] = std::move(fits);
+    return meshes;
+}
+
+/// Of differences of two pictures. A mesh that shows no light would be as bright as others are, if
+/// light is measured by what surfaces are without it.
+LightOfMeshes light_of_differences(const SeenPixels& pixels) {
+    const PixelsOfMeshes by_mesh = pixels_by_mesh(pixels);
+    LightOfMeshes meshes;
+    for (const auto& [mesh, observed] : by_mesh)
+        meshes[mesh] = fitted_light(observed, Shown::differences);
     const auto lacks_light = [&](std::uint32_t mesh) {
         return by_mesh.at(mesh).front()->is_ratio && meshes.at(mesh).front().light.empty();
     };
@@ -65,7 +90,8 @@ LightOf by_light(const Scene& scene, const Picture& picture, const Twins& twins,
                  SeenPixels& pixels) {
     const Picture* const twin = twins.unlit ? &*twins.unlit : nullptr;
     observe(picture, twin, step_of(picture, twins), pixels);
-    const LightOfMeshes meshes = light_by_mesh(pixels, twin != nullptr ? nullptr : &scene);
+    const LightOfMeshes meshes =
+        twin != nullptr ? light_of_differences(pixels) : light_of_colors(pixels, scene);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) {
         return shown_light(meshes.at(seen.mesh), seen.observed);
     };
@@ -93,7 +119,7 @@ LightOf by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixel
             seen->observed.certainly = seen->observed.certainly == Visibility::lit
                                            ? Visibility::shadowed
                                            : Visibility::lit;
-    LightOfMeshes meshes = light_by_mesh(pixels, nullptr);
+    LightOfMeshes meshes = light_of_differences(pixels);
     for (auto& [mesh, fits] : meshes)
         for (MeshLight& fit : fits) doubt(fit);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) -> ShownLight {

@@ -25,7 +25,7 @@ for (const scene of ['ordinary', 'sun', 'overlapping', 'near_plane', 'far_plane'
       const { cell, wrong, out } = checked(scene, twin);
       assert.equal(wrong, 0, out);
       assert.ok(cell.differing < 10, out);
-      if (twin) assert.ok(cell.undecidable < 0.01 * cell.pixels, out);
+      assert.ok(cell.undecidable < 0.01 * cell.pixels, out);
     }
   });
 
