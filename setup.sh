@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 build_packages=(
     g++ cmake ninja-build pkg-config
     libembree-dev libtbb-dev libglm-dev libhwy-dev libgmp-dev libxxhash-dev libdeflate-dev
-    libopenimageio-dev libpng-dev libtinygltf-dev libdraco-dev nlohmann-json3-dev
+    libopenimageio-dev libavcodec-dev libpng-dev libtinygltf-dev libdraco-dev nlohmann-json3-dev
     libosmesa6-dev libegl-dev libegl1
     libcli11-dev libfmt-dev libcereal-dev duktape-dev
 )

@@ -10,7 +10,7 @@ set(scenes_folder ${CMAKE_INSTALL_DATADIR}/shadowproof/scenes)
 install(TARGETS shadowproof EXPORT shadowproof RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS shadowproof_scenes shadowproof_reference shadowproof_raster shadowproof_compare
     EXPORT shadowproof ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-install(TARGETS shadowproof_draco shadowproof_openimageio
+install(TARGETS shadowproof_draco shadowproof_openimageio shadowproof_pcx
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/shadowproof)
 install(EXPORT shadowproof NAMESPACE shadowproof:: DESTINATION ${package_folder}
     FILE shadowproof-targets.cmake COMPONENT development)

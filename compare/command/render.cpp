@@ -37,7 +37,7 @@ bool is_exr(const RenderOptions& options) {
 
 /// Whether a .png shows another term of lighting than the colour.
 bool wants_terms(const RenderOptions& options) {
-    return options.aov == "normal" || options.aov == "tangent";
+    return !options.aov.empty() && options.aov != "visibility" && options.aov != "color";
 }
 
 /// Whether lighting is requested, and the message if there is none.
@@ -59,6 +59,10 @@ Image<Rgb> lit_picture(const RenderOptions& options, const Tracer& tracer,
                        const GroundTruth& truth) {
     if (options.aov == "normal") return normal_picture(shade_terms(tracer, truth));
     if (options.aov == "tangent") return tangent_picture(shade_terms(tracer, truth));
+    if (options.aov == "light")
+        return tangent_space_picture(shade_terms(tracer, truth), &Shading::to_light);
+    if (options.aov == "half_angle")
+        return tangent_space_picture(shade_terms(tracer, truth), &Shading::half);
     return color_picture(options.samples > 1 ? shade_supersampled(tracer, options.samples).color
                                              : shade(tracer, truth));
 }
@@ -122,11 +126,13 @@ Work add_render(CLI::App& app) {
                        : "'" + file + "' is neither; name a file that ends in .png or .exr";
         });
     command
-        ->add_option("--aov", options->aov,
-                     "What a .png shows: visibility (the class map), or, of scenes with bump maps, "
-                     "color (sRGB), normal (the bumped ones, world space) or tangent (likewise)")
+        ->add_option(
+            "--aov", options->aov,
+            "What a .png shows: visibility (the class map), or, of scenes with bump maps, "
+            "color (sRGB), normal (the bumped ones, world space), tangent (likewise), light "
+            "or half_angle (the unit vectors L and H, tangent space)")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"visibility", "color", "normal", "tangent"}));
+        ->check(CLI::IsMember({"visibility", "color", "normal", "tangent", "light", "half_angle"}));
     command
         ->add_option("--samples", options->samples,
                      "Rays along each side of a pixel, 1 to 32, whose mean is its colour (1)")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace shadowproof {
 
@@ -45,6 +46,17 @@ Image<Rgb> normal_picture(const Image<Shading>& shadings) {
 Image<Rgb> tangent_picture(const Image<Shading>& shadings) {
     return converted<Rgb>(shadings,
                           [](const Shading& shading) { return direction_color(shading.tangent); });
+}
+
+Image<Rgb> tangent_space_picture(const Image<Shading>& shadings, glm::dvec3 Shading::*direction) {
+    return converted<Rgb>(shadings, [&](const Shading& shading) {
+        const glm::dvec3& v = shading.*direction;
+        const glm::dvec3 front = shading.side * shading.normal;
+        const glm::dvec3 bitangent = shading.hand * glm::cross(front, shading.tangent);
+        if (shading.tangent == glm::dvec3(0)) return Rgb{};
+        return direction_color(
+            {glm::dot(v, shading.tangent), glm::dot(v, bitangent), glm::dot(v, shading.normal)});
+    });
 }
 
 } // namespace shadowproof

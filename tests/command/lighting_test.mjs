@@ -72,6 +72,26 @@ test('tangents jump where mirrored halves meet', () => {
   assert.ok(largestStep(readPng(join(scratch, 't.png'))) > 200);
 });
 
+test('light and half-angle vector in tangent space are smooth over a torus, and jump at a mirrored skin', () => {
+  for (const aov of ['light', 'half_angle']) {
+    rendered('bumpy_torus', 'v.png', ['--aov', aov]);
+    const smooth = readPng(join(scratch, 'v.png'));
+    assert.deepEqual(smooth.at(0, 0), [0, 0, 0]);
+    assert.deepEqual(smooth.at(32, 46), [0, 0, 0]); // the floor has no bumps
+    let seen = 0;
+    for (let y = 0; y < 48; ++y)
+      for (let x = 0; x < 64; ++x) {
+        if (smooth.at(x, y).join() === '0,0,0') continue;
+        ++seen;
+        const length = Math.hypot(...smooth.at(x, y).map((byte) => byte / 127.5 - 1));
+        assert.ok(Math.abs(length - 1) < 0.01, `${aov} ${x}, ${y}: ${length}`);
+      }
+    assert.ok(seen > 200, `${seen}`);
+  }
+  rendered('mirrored_skin', 'v.png', ['--aov', 'light']);
+  assert.ok(largestStep(readPng(join(scratch, 'v.png'))) > 100);
+});
+
 test('more rays a pixel smooth silhouettes, and leave the inside of the floor as it was', () => {
   rendered('bumpy_sphere', 'one.png', ['--aov', 'color']);
   rendered('bumpy_sphere', 'many.png', ['--aov', 'color', '--samples', '4']);

@@ -4,9 +4,8 @@
 #include "scenes/limits.h"
 #include "scenes/load/common/default_floor.h"
 #include "scenes/load/common/default_view.h"
-#include "scenes/load/common/file_bytes.h"
 #include "scenes/load/md2/md2_file.h"
-#include "scenes/load/picture/texels.h"
+#include "scenes/load/md2/skins.h"
 #include "scenes/mesh/smooth_normals.h"
 #include "scenes/surface/tangents.h"
 
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <system_error>
 
 namespace shadowproof {
 
@@ -53,59 +51,6 @@ std::vector<glm::dvec3> pose(const Model& model, double time, std::vector<std::s
     return positions;
 }
 
-/// "models/imp/skin.pcx" to "skin"; never empty, and never a path into another folder.
-std::string stem_of(const Model& model, const std::filesystem::path& file) {
-    const std::string name = model.skin.substr(model.skin.find_last_of("/\\") + 1);
-    const std::string stem = name.substr(0, name.find_last_of('.'));
-    return stem.empty() ? file.stem().string() : stem;
-}
-
-/// Index of the new texture; no_texture where there is no such file.
-std::uint32_t read_texture(const std::filesystem::path& file, Encoding encoding,
-                           MemoryAccount& memory, Scene& scene) {
-    std::error_code failure;
-    if (!std::filesystem::exists(file, failure)) return no_texture;
-    const std::string name = file.string();
-    std::uint64_t texels = 0;
-    for (const TextureImage& texture : scene.textures) texels += texture.texels.pixels.size();
-    const FileBytes bytes = read_bytes(file, Place(name), memory);
-    const MemoryHold held = memory.hold({bytes.size(), name, "its bytes", "scale it down"});
-    const Picture picture = decode_picture(bytes, name,
-                                           {.memory = memory,
-                                            .most_pixels = limits.texels - texels,
-                                            .bytes_made_of_pixel = sizeof(glm::vec4)});
-    memory.keep({sizeof(glm::vec4) * static_cast<std::uint64_t>(picture.width) *
-                     static_cast<std::uint64_t>(picture.height),
-                 name, "its texels", "scale it down"});
-    scene.textures.push_back(
-        {.name = name, .texels = texels_of(picture, encoding), .bits = picture.bits});
-    return static_cast<std::uint32_t>(scene.textures.size() - 1);
-}
-
-/// Adds the textures found beside the model.
-void dress(const Model& model, MemoryAccount& memory, Scene& scene) {
-    const std::string stem = stem_of(model, scene.file);
-    const std::filesystem::path beside = scene.file.parent_path();
-    const std::string map = stem + "_normal.png";
-    const std::string skin = stem + ".png";
-    Material material{.name = stem};
-    material.bump_map = read_texture(beside / map, Encoding::plain, memory, scene);
-    if (material.bump_map != no_texture) {
-        material.bump = Bump::normal_map;
-        material.specular = glm::dvec3(0.25);
-        scene.ambient = glm::dvec3(0.125);
-        material.decal = read_texture(beside / skin, Encoding::srgb, memory, scene);
-        scene.notes.push_back(material.decal != no_texture
-                                  ? fmt::format("wears {} and {}", map, skin)
-                                  : fmt::format("wears {}; no {} beside the model, so its colour "
-                                                "is white",
-                                                map, skin));
-    } else {
-        scene.notes.push_back(fmt::format("no {} beside the model: colours are not judged", map));
-    }
-    scene.materials.push_back(material);
-}
-
 /// Texel centres are at .5, as the game's tools have it.
 glm::vec2 coordinates_of(const Model& model, std::uint32_t place) {
     return glm::vec2((glm::dvec2(model.places[place]) + 0.5) / glm::dvec2(model.size));
@@ -117,11 +62,11 @@ void append_surfaces(const Model& model, const std::vector<glm::dvec3>& position
         throw Error(
             model.file,
             fmt::format("has more than {} triangles, too many for bump maps", limits.surfaces),
-            "split the model, or take its normal map away");
+            "split the model, or take its bump map away");
     memory.keep({3 * model.triangles.size() *
                      (tangent_bytes + 2 * sizeof(TexturedCorner) + 3 * sizeof(Surface)),
                  model.file, "its corners' normals and tangents",
-                 "split the model, or take its normal map away"});
+                 "split the model, or take its bump map away"});
     const std::vector<glm::dvec3> normals = smooth_normals(positions, scene.triangles);
     std::vector<TexturedCorner> corners;
     for (std::size_t i = 0; i < model.triangles.size(); ++i)

@@ -17,11 +17,7 @@ namespace shadowproof {
 ///   triangles are clockwise from the front, ours counter-clockwise.
 /// - The file's normals, indices into the game's own table, are not read. smooth_normals makes
 ///   normals from the pose.
-/// - Skins are id's .pcx files, which are not read. Instead PNG files beside the model are used,
-///   with the stem of the first skin's name (without skins, of the model's): STEM_normal.png, a
-///   normal map as in glTF, makes the model bump-lit, and STEM.png is then its decal; without one
-///   its colour is white. The notes say what was there. The ambient light is then 1/8, the specular
-///   colour 1/4: the file gives neither.
+/// - It wears the pictures that lie beside it (skins.h).
 ///
 /// Throws Error naming the file, the thing and the remedy.
 Scene load_md2(const std::filesystem::path& file, const SceneRequest& request);

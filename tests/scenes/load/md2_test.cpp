@@ -4,11 +4,14 @@
 #include "scenes/mesh/smooth_normals.h"
 #include "scenes/mesh/topology.h"
 #include "tests/scenes/small_md2.h"
+#include "tests/scenes/small_pcx.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <random>
@@ -54,7 +57,7 @@ TEST(md2, stands_y_up_and_looks_along_z_with_triangles_counter_clockwise) {
     EXPECT_FALSE(is_bump_lit(scene));
     EXPECT_TRUE(says(scene, "no camera in the file"));
     EXPECT_TRUE(says(scene, "no light in the file"));
-    EXPECT_TRUE(says(scene, "no skin_normal.png"));
+    EXPECT_TRUE(says(scene, "no skin_normal.png and no skin_height.png beside the model"));
 }
 
 TEST(md2, is_posed_between_key_frames_ten_a_second_and_holds_the_first_and_the_last) {
@@ -102,7 +105,7 @@ TEST(md2, is_lit_by_the_normal_map_beside_it_and_wears_the_skin_there) {
     Scene scene = load_md2(file.path(), {});
     ASSERT_TRUE(is_bump_lit(scene));
     EXPECT_EQ(scene.materials[0].decal, no_texture);
-    EXPECT_TRUE(says(scene, "wears skin_normal.png; no skin.png beside"));
+    EXPECT_TRUE(says(scene, "wears skin_normal.png; no skin.png and no skin.pcx beside"));
     write_bytes(file.beside("skin.png"), png());
     scene = load_md2(file.path(), {});
     EXPECT_NE(scene.materials[0].decal, no_texture);
@@ -117,6 +120,67 @@ TEST(md2, is_lit_by_the_normal_map_beside_it_and_wears_the_skin_there) {
     }
     // At the origin three right angles meet.
     EXPECT_LT(glm::distance(glm::normalize(glm::vec3(-1)), scene.surfaces[0].normal), 1e-6F);
+}
+
+TEST(md2, is_lit_by_a_height_field_where_it_has_no_normal_map) {
+    const File file(bytes_of(tetrahedron()));
+    write_bytes(file.beside("skin_height.png"), png());
+    Scene scene = load_md2(file.path(), {});
+    ASSERT_TRUE(is_bump_lit(scene));
+    EXPECT_EQ(scene.materials[0].bump, Bump::height_field);
+    EXPECT_EQ(scene.materials[0].bump_scale, 8);
+    write_bytes(file.beside("skin_normal.png"), png());
+    scene = load_md2(file.path(), {});
+    EXPECT_EQ(scene.materials[0].bump, Bump::normal_map);
+    EXPECT_EQ(scene.materials[0].bump_scale, 1);
+    EXPECT_TRUE(says(scene, "wears skin_normal.png; no skin.png"));
+}
+
+TEST(md2, wears_the_games_own_skin_where_there_is_no_other_and_warns_of_its_light) {
+    const File file(bytes_of(tetrahedron()));
+    write_bytes(file.beside("skin_normal.png"), png());
+    write_bytes(file.beside("skin.pcx"), small_pcx(16, 4));
+    Scene scene = load_md2(file.path(), {});
+    ASSERT_NE(scene.materials[0].decal, no_texture);
+    EXPECT_FALSE(scene.materials[0].gloss_in_alpha);
+    EXPECT_TRUE(says(scene, "wears skin_normal.png, skin.pcx; skins of the game mostly have light "
+                            "painted in"));
+    const Image<glm::vec4>& texels = scene.textures[scene.materials[0].decal].texels;
+    ASSERT_EQ(texels.width, 16);
+    const double srgb = palette_color(17)[1] / 255.0;
+    EXPECT_NEAR(texels.at(1, 1).g, std::pow((srgb + 0.055) / 1.055, 2.4), 1e-6);
+    write_bytes(file.beside("skin.png"), png());
+    scene = load_md2(file.path(), {});
+    EXPECT_TRUE(says(scene, "wears skin_normal.png, skin.png"));
+    EXPECT_FALSE(says(scene, "painted in"));
+}
+
+TEST(md2, has_its_gloss_in_the_alpha_of_its_decal) {
+    const File file(bytes_of(tetrahedron()));
+    write_bytes(file.beside("skin_normal.png"), png());
+    write_bytes(file.beside("skin_gloss.png"), png());
+    Scene scene = load_md2(file.path(), {});
+    EXPECT_TRUE(scene.materials[0].gloss_in_alpha);
+    const Image<glm::vec4> gloss = scene.textures[scene.materials[0].bump_map].texels;
+    const auto holds = [&](const Image<glm::vec4>& decal) {
+        ASSERT_EQ(decal.pixels.size(), gloss.pixels.size());
+        for (std::size_t i = 0; i < gloss.pixels.size(); ++i)
+            EXPECT_EQ(decal.pixels[i].a, gloss.pixels[i].r);
+    };
+    holds(scene.textures[scene.materials[0].decal].texels);
+    EXPECT_EQ(glm::vec3(scene.textures[scene.materials[0].decal].texels.pixels[0]), glm::vec3(1));
+    write_bytes(file.beside("skin.png"), png());
+    scene = load_md2(file.path(), {});
+    EXPECT_TRUE(says(scene, "wears skin_normal.png, skin.png, skin_gloss.png"));
+    holds(scene.textures[scene.materials[0].decal].texels);
+    std::filesystem::remove(file.beside("skin.png"));
+    write_bytes(file.beside("skin.pcx"), small_pcx(16, 5));
+    try {
+        load_md2(file.path(), {});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("skin_gloss.png: is of"), std::string::npos);
+    }
 }
 
 TEST(md2, without_a_skin_looks_for_pictures_of_its_own_name) {
