@@ -4,6 +4,7 @@
 #include "scenes/error.h"
 #include "tests/claims/bump_claims.h"
 #include "tests/claims/map_claims.h"
+#include "tests/claims/reach_claims.h"
 #include "tests/claims/volume_claims.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ using shadowproof::claims::Section;
 std::vector<Section> all_claims() {
     std::vector<Section> all = shadowproof::claims::bump_claims();
     std::ranges::move(shadowproof::claims::volume_claims(), std::back_inserter(all));
+    std::ranges::move(shadowproof::claims::reach_claims(), std::back_inserter(all));
     std::ranges::move(shadowproof::claims::map_claims(), std::back_inserter(all));
     return all;
 }
