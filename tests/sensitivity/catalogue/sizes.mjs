@@ -34,4 +34,5 @@ export const faults = [
   { name: 'map_lookup', unit: 'of the distance aside', largest: -3, aim: -9, own: texels, ...asked, wrong: 'texture(map, surface.from_light + vec3(0, AMOUNT * length(surface.from_light), 0)).r' },
   { name: 'map_stored_distance', unit: 'of the distance', largest: -6, aim: -15, own: step, ...stored, wrong: 'length(surface.from_light) * (1 + AMOUNT) / far' },
   { name: 'map_bias', unit: "of the light's far plane", largest: -6, aim: -12, own: step, ...compared, wrong: 'stored * planes.y + bias + AMOUNT * planes.y < length(surface.from_light)' },
+  { name: 'mask_cutoff', unit: 'of alpha', largest: -2, aim: -8, own: `${snapping}, times alpha's slope`, techniques: 'zpass,zfail_reversed,cube_map_six_pass', file: passes, right: 'float_not_below(mask.least)', wrong: 'static_cast<float>(mask.least + AMOUNT)' },
 ].map((fault) => ({ kind: 'sizes', ...fault }));
