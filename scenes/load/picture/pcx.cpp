@@ -45,6 +45,9 @@ bool is_pcx(Bytes bytes) {
 
 Picture decode_pcx(Bytes bytes, const std::string& where, const PictureRoom& room) {
     if (!is_pcx(bytes)) throw Error(where, "is no PCX picture", picture_remedy);
+    constexpr std::size_t most_bytes = std::size_t{1} << 30U; // libavcodec counts them by an int
+    if (bytes.size() > most_bytes)
+        throw Error(where, "is longer than a PCX picture can be", picture_remedy);
     const int width = word(bytes, 8) - word(bytes, 4) + 1;
     const int height = word(bytes, 10) - word(bytes, 6) + 1;
     if (width < 1 || height < 1)
