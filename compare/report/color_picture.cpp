@@ -50,12 +50,12 @@ Image<Rgb> tangent_picture(const Image<Shading>& shadings) {
 
 Image<Rgb> tangent_space_picture(const Image<Shading>& shadings, glm::dvec3 Shading::*direction) {
     return converted<Rgb>(shadings, [&](const Shading& shading) {
-        const glm::dvec3& v = shading.*direction;
+        if (shading.tangent == glm::dvec3(0)) return Rgb{};
         const glm::dvec3 front = shading.side * shading.normal;
         const glm::dvec3 bitangent = shading.hand * glm::cross(front, shading.tangent);
-        if (shading.tangent == glm::dvec3(0)) return Rgb{};
+        const glm::dvec3 v = shading.side * (shading.*direction);
         return direction_color(
-            {glm::dot(v, shading.tangent), glm::dot(v, bitangent), glm::dot(v, shading.normal)});
+            {glm::dot(v, shading.tangent), glm::dot(v, bitangent), glm::dot(v, front)});
     });
 }
 

@@ -30,16 +30,19 @@ struct Span {
     bool holds(double value) const { return value >= least && value <= most; }
 };
 
-/// The slopes, across over along, of rays from the origin that meet a circle: all where it reaches
-/// beside or behind the origin.
+/// The slopes, across over along, of rays from the origin forwards that meet a circle.
 Span slopes_of_circle(double across, double along, double radius) {
     const double distance = std::hypot(across, along);
     if (distance <= radius) return {};
     const double middle = std::atan2(across, along);
     const double half = std::asin(radius / distance);
     constexpr double quarter = std::numbers::pi / 2;
-    if (std::abs(middle) + half >= quarter) return {};
-    return {std::tan(middle - half), std::tan(middle + half)};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto slope = [&](double angle) {
+        if (angle >= quarter) return infinity;
+        return angle <= -quarter ? -infinity : std::tan(angle);
+    };
+    return {slope(middle - half), slope(middle + half)};
 }
 
 /// Where a light reaches: the least rectangle of the picture around its sphere (Lengyel 2002), and
@@ -154,10 +157,8 @@ std::vector<Section> reach_claims() {
         "reaches half of the picture, both leave about half of the fragments on most scenes, "
         "twice\n"
         "what is needed: the box around a sphere is larger than what surfaces cut out of it. The\n"
-        "smaller the reach the more the rectangle saves, but where the sphere holds the eye or\n"
-        "reaches beside it (`walking_figure`), the rectangle is the picture. Nothing that the "
-        "light\n"
-        "reaches is left out, at any pixel.\n";
+        "smaller the reach the more the rectangle saves. Nothing that the light reaches is left\n"
+        "out, at any pixel.\n";
     return {{"Scissor and depth bounds save where the light ends", text, ""}};
 }
 

@@ -8,27 +8,30 @@
 
 namespace shadowproof {
 
-/// What a mesh shows in light.
-struct LitSamples {
-    /// Of each group of pixels that are certainly lit at about one angle, the one of median
-    /// brightness: no few false shadows make it otherwise. By growing angles.
-    std::vector<const Observed*> pixels;
-    double step = 0; ///< of the file, typical
+/// What a mesh shows: of each group of pixels that are certainly lit, or certainly in shadow, at
+/// about one angle, the pixel of median brightness, which a few false ones do not change. By
+/// growing angles.
+struct MeshSamples {
+    std::vector<const Observed*> lit;
+    std::vector<const Observed*> shadowed;
+    double step = 0; ///< the largest of theirs
 };
 
-LitSamples lit_samples(std::span<const Observed* const> pixels);
+/// Keeps pointers to the pixels.
+MeshSamples mesh_samples(std::span<const Observed* const> pixels);
 
 /// A mesh whose light and shadow are known.
 struct KnownLight {
-    std::vector<MeshLight> fits; ///< without highlights
-    LitSamples lit;
+    MeshLight fit; ///< the best, without highlights: those of another mesh lie at other angles
+    MeshSamples shown;
 };
 
-/// Of one that has both. Highlights of another mesh lie at other angles.
-KnownLight known_light(std::vector<MeshLight> fits, std::span<const Observed* const> pixels);
+KnownLight known_light(MeshLight fit, std::span<const Observed* const> pixels);
 
-/// The fits of that mesh whose material shows the same colours at the same angles: at two or more,
-/// as at one angle two materials may look alike. None where there is no such mesh.
-std::vector<MeshLight> borrowed_light(const LitSamples& lit, std::span<const KnownLight> known);
+/// Fits, by all normals, of the mesh that shows the same colours at the same angles; none where
+/// there is no such mesh. All that is shown must be its light, or, of what is certainly in shadow,
+/// its shadow; and the light at two angles must differ by four times what tells light from shadow,
+/// as materials of which one is brighter in shadow may look alike at one angle.
+std::vector<MeshLight> borrowed_light(const MeshSamples& shown, std::span<const KnownLight> known);
 
 } // namespace shadowproof

@@ -371,7 +371,7 @@ bool lie_as_others(std::span<const Observed* const> pixels, std::size_t normals)
 }
 
 /// Whether the picture shows light where these normals say that there is none: on nearly all pixels
-/// that are truly lit and turned away by them. Of differences one step is rounding.
+/// that are truly lit and turned away by them. One step of the file is rounding.
 bool shows_light_on_averted(const MeshLight& mesh, std::span<const Observed* const> facing) {
     std::size_t averted = 0;
     std::size_t dark = 0;

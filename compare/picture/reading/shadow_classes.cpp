@@ -39,19 +39,19 @@ PixelsOfMeshes pixels_by_mesh(const SeenPixels& pixels) {
 LightOfMeshes light_of_colors(const SeenPixels& pixels, const Scene& scene) {
     LightOfMeshes meshes;
     std::vector<KnownLight> known;
-    std::map<std::uint32_t, LitSamples> unknown;
+    std::map<std::uint32_t, MeshSamples> unknown;
     for (const auto& [mesh, observed] : pixels_by_mesh(pixels)) {
         const bool textured = scene.meshes[mesh].textured;
         std::vector<MeshLight> fits =
             fitted_light(observed, textured ? Shown::textured : Shown::plain);
         if (!textured && fits.front().shadow && !fits.front().light.empty())
-            known.push_back(known_light(fits, observed));
+            known.push_back(known_light(fits.front(), observed));
         else if (!textured)
-            unknown[mesh] = lit_samples(observed);
+            unknown[mesh] = mesh_samples(observed);
         meshes[mesh] = std::move(fits);
     }
-    for (const auto& [mesh, lit] : unknown)
-        if (std::vector<MeshLight> fits = borrowed_light(lit, known); !fits.empty())
+    for (const auto& [mesh, shown] : unknown)
+        if (std::vector<MeshLight> fits = borrowed_light(shown, known); !fits.empty())
             meshes[mesh] = std::move(fits);
     return meshes;
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace shadowproof::md2 {
@@ -35,35 +36,35 @@ public:
         std::error_code failure;
         return std::filesystem::exists(beside(name), failure);
     }
-    /// Index of the new texture; no_texture where there is no such file.
+    /// Index of the new texture.
     std::uint32_t texture(const std::string& name, Encoding encoding) {
-        if (!has(name)) return no_texture;
         const Picture picture = read(name);
-        scene_.textures.push_back({.name = beside(name).string(),
-                                   .texels = texels_of(picture, encoding),
-                                   .bits = picture.bits});
-        return static_cast<std::uint32_t>(scene_.textures.size() - 1);
+        memory_.keep(texels_of(name, picture));
+        return add({.name = beside(name).string(),
+                    .texels = shadowproof::texels_of(picture, encoding),
+                    .bits = picture.bits});
     }
-    /// Makes a picture's gray, or its red, the alpha of a texture of its size.
-    void set_alpha(std::uint32_t texture, const std::string& name) {
+    /// Makes a picture's gray, or its red, the alpha of a texture of its size, or of a white one
+    /// where there is none. Its index.
+    std::uint32_t with_alpha(std::uint32_t texture, const std::string& name) {
+        const Picture picture = read(name);
+        if (texture == no_texture) {
+            memory_.keep(texels_of(name, picture));
+            texture = add({.name = "white",
+                           .texels = Image<glm::vec4>(picture.width, picture.height, glm::vec4(1)),
+                           .bits = 8});
+        }
         Image<glm::vec4>& texels = scene_.textures[texture].texels;
-        const Image<glm::vec4> gray = texels_of(read(name), Encoding::plain);
-        if (gray.width != texels.width || gray.height != texels.height)
+        if (picture.width != texels.width || picture.height != texels.height)
             throw Error(beside(name).string(),
-                        fmt::format("is of {}x{} pixels, and {} of {}x{}", gray.width, gray.height,
-                                    scene_.textures[texture].name, texels.width, texels.height),
+                        fmt::format("is of {}x{} pixels, and {} of {}x{}", picture.width,
+                                    picture.height, scene_.textures[texture].name, texels.width,
+                                    texels.height),
                         "scale one to the other's size");
+        const auto channels = static_cast<std::size_t>(picture.channels);
         for (std::size_t i = 0; i < texels.pixels.size(); ++i)
-            texels.pixels[i].a = gray.pixels[i].r;
-    }
-    /// A white texture of the size of a picture.
-    std::uint32_t white(const std::string& name) {
-        const Picture picture = read(name);
-        scene_.textures.push_back(
-            {.name = "white",
-             .texels = Image<glm::vec4>(picture.width, picture.height, glm::vec4(1)),
-             .bits = 8});
-        return static_cast<std::uint32_t>(scene_.textures.size() - 1);
+            texels.pixels[i].a = picture.values[channels * i];
+        return texture;
     }
 
 private:
@@ -73,7 +74,16 @@ private:
     std::filesystem::path beside(const std::string& name) const {
         return scene_.file.parent_path() / name;
     }
-    /// With room for its texels, which are kept.
+    std::uint32_t add(TextureImage image) {
+        scene_.textures.push_back(std::move(image));
+        return static_cast<std::uint32_t>(scene_.textures.size() - 1);
+    }
+    MemoryNeed texels_of(const std::string& name, const Picture& picture) const {
+        return {sizeof(glm::vec4) * static_cast<std::uint64_t>(picture.width) *
+                    static_cast<std::uint64_t>(picture.height),
+                beside(name).string(), "its texels", "scale it down"};
+    }
+    /// With room for its texels.
     Picture read(const std::string& file) {
         const std::string name = beside(file).string();
         std::uint64_t texels = 0;
@@ -83,12 +93,8 @@ private:
         const PictureRoom room{.memory = memory_,
                                .most_pixels = limits.texels - texels,
                                .bytes_made_of_pixel = sizeof(glm::vec4)};
-        Picture picture =
-            is_pcx(bytes) ? decode_pcx(bytes, name, room) : decode_picture(bytes, name, room);
-        memory_.keep({sizeof(glm::vec4) * static_cast<std::uint64_t>(picture.width) *
-                          static_cast<std::uint64_t>(picture.height),
-                      name, "its texels", "scale it down"});
-        return picture;
+        return file.ends_with(".pcx") ? decode_pcx(bytes, name, room)
+                                      : decode_picture(bytes, name, room);
     }
 };
 
@@ -130,8 +136,7 @@ void dress(const Model& model, MemoryAccount& memory, Scene& scene) {
     }
     if (worn.size() > 1) material.decal = wardrobe.texture(worn.back(), Encoding::srgb);
     if (wardrobe.has(gloss)) {
-        if (material.decal == no_texture) material.decal = wardrobe.white(gloss);
-        wardrobe.set_alpha(material.decal, gloss);
+        material.decal = wardrobe.with_alpha(material.decal, gloss);
         material.gloss_in_alpha = true;
         worn.push_back(gloss);
     }

@@ -33,6 +33,27 @@ int word(Bytes bytes, std::size_t at) {
     return bytes[at] | bytes[at + 1] << 8;
 }
 
+/// Whether run lengths fill all rows: libavcodec takes what is missing from where it lies. In front
+/// of a palette, which stands behind a byte at the end.
+bool are_whole(Bytes bytes, int height) {
+    constexpr std::size_t palette_bytes = 769;
+    constexpr unsigned char run = 0xC0; // the two highest bits; the others are its length
+    const std::size_t planes = bytes[65];
+    const std::size_t row = planes * static_cast<std::size_t>(word(bytes, 66));
+    const bool has_palette = bytes[3] == 8 && planes == 1;
+    if (has_palette && bytes.size() < head_bytes + palette_bytes) return false;
+    const std::size_t end = bytes.size() - (has_palette ? palette_bytes : 0);
+    std::size_t at = head_bytes;
+    for (int y = 0; y < height; ++y)
+        for (std::size_t filled = 0; filled < row;) {
+            if (at == end) return false;
+            const unsigned char value = bytes[at++];
+            if (value >= run && at++ == end) return false;
+            filled += value >= run ? value - run : 1;
+        }
+    return true;
+}
+
 } // namespace
 
 bool is_pcx(Bytes bytes) {
@@ -53,13 +74,16 @@ Picture decode_pcx(Bytes bytes, const std::string& where, const PictureRoom& roo
     if (width < 1 || height < 1)
         throw Error(where, fmt::format("is a PCX picture of {}x{} pixels", width, height),
                     picture_remedy);
-    // The decoder's frame of up to 4 bytes a pixel, whose rows it pads; RGB; the bytes once more.
+    // The decoder's frame of up to 4 bytes a pixel, whose rows it pads, and a row of all planes;
+    // RGB; the bytes once more.
     const auto columns = static_cast<std::uint64_t>(width);
     const auto rows = static_cast<std::uint64_t>(height);
     require_room(columns, rows, 3,
                  4 * (columns + pcx_padding) * (rows + pcx_padding) + 3 * columns * rows +
                      bytes.size(),
                  where, room);
+    if (!are_whole(bytes, height))
+        throw Error(where, "is damaged: it ends within its rows", picture_remedy);
     std::vector<std::uint8_t> rgb;
     if (const std::string wrong = library().decode(bytes, width, height, rgb); !wrong.empty())
         throw Error(where, wrong, picture_remedy);

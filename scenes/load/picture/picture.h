@@ -1,5 +1,5 @@
-// Picture files: PNG by libpng, JPEG, Radiance and OpenEXR through OpenImageIO. Their sizes are
-// known and checked before anything is decoded.
+// Picture files: PNG by libpng, JPEG, Radiance and OpenEXR through OpenImageIO (PCX: pcx.h). Their
+// sizes are known and checked before anything is decoded.
 #pragma once
 
 #include "scenes/memory_budget.h"

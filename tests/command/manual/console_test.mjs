@@ -64,7 +64,11 @@ function onTerminal(...words) {
   return run.stdout.split(/[\r\n]+/).map((line) => line.replaceAll('\x1b[K', ''));
 }
 
-test('on a terminal each step says which of how many scenes or pictures it is about', () => {
+const hasTerminals = spawnSync('script', ['-qec', 'true', '/dev/null']).status === 0;
+
+test('on a terminal each step says which of how many scenes or pictures it is about', {
+  skip: !hasTerminals && 'no pseudo terminal is to be had here',
+}, () => {
   const says = (lines, wanted) => assert.ok(lines.some((line) => wanted.test(line)), lines.join('\n'));
   const verified = onTerminal('verify', 'ordinary', 'sun', '--technique', 'zfail', ...small);
   says(verified, /^scene 1 of 2: ordinary: tracing$/);

@@ -9,8 +9,8 @@ Rgb shown(const Shading& shading, glm::dvec3 Shading::*direction) {
     return tangent_space_picture(Image<Shading>(1, 1, shading), direction).at(0, 0);
 }
 
-// B = w N x T of the front, and the normal of the side that is seen.
-TEST(color_picture, shows_directions_along_tangent_bitangent_and_the_seen_sides_normal) {
+// B = w N x T of the front; on a back face the vector is negated, not the frame.
+TEST(color_picture, shows_directions_along_tangent_bitangent_and_normal) {
     Shading shading;
     shading.normal = {0, 0, 1};
     shading.tangent = {1, 0, 0};
@@ -26,10 +26,10 @@ TEST(color_picture, shows_directions_along_tangent_bitangent_and_the_seen_sides_
     shading.hand = 1;
     shading.side = -1;
     shading.normal = {0, 0, -1};
-    EXPECT_EQ(light({0, 1, 0}), (Rgb{128, 255, 128}));
-    EXPECT_EQ(light({0, 0, 1}), (Rgb{128, 128, 0}));
+    EXPECT_EQ(light({0, 1, 0}), (Rgb{128, 0, 128}));
+    EXPECT_EQ(light({0, 0, -1}), (Rgb{128, 128, 255}));
     shading.half = {1, 0, 0};
-    EXPECT_EQ(shown(shading, &Shading::half), (Rgb{255, 128, 128}));
+    EXPECT_EQ(shown(shading, &Shading::half), (Rgb{0, 128, 128}));
     shading.tangent = {0, 0, 0};
     EXPECT_EQ(light({0, 0, 1}), Rgb{});
 }

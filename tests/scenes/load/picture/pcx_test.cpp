@@ -40,10 +40,50 @@ TEST(pcx, has_the_palettes_colours_of_its_pixels) {
     }
 }
 
+/// Three planes a row, of channel values 1, 2, 3 and so on.
+FileBytes rgb_pcx(int width, int height) {
+    FileBytes bytes = small_pcx(width, height);
+    bytes.resize(128);
+    bytes[65] = 3;
+    for (int i = 0; i < 3 * width * height; ++i) bytes.push_back(static_cast<std::uint8_t>(i + 1));
+    return bytes;
+}
+
+TEST(pcx, of_three_planes_has_their_colours) {
+    const Picture picture = decoded(rgb_pcx(16, 2));
+    ASSERT_EQ(picture.values.size(), 96U);
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(picture.values[static_cast<std::size_t>(3 * (16 * y + x) + k)],
+                          static_cast<float>((16 * (3 * y + k) + x + 1) / 255.0));
+}
+
+TEST(pcx, is_refused_before_it_is_decoded_where_it_does_not_fit) {
+    const FileBytes bytes = small_pcx(16, 16);
+    constexpr std::uint64_t padded = 16 + 128;
+    const std::uint64_t needed =
+        256 * 3 * sizeof(float) + 4 * padded * padded + 3 * 256 + bytes.size();
+    const MemoryAccount enough({program_bytes + needed, "the test"});
+    EXPECT_NO_THROW(decode_pcx(bytes, "a", {.memory = enough, .most_pixels = 256}));
+    const MemoryAccount less({program_bytes + needed - 1, "the test"});
+    EXPECT_THROW(decode_pcx(bytes, "a", {.memory = less, .most_pixels = 256}), Error);
+}
+
 TEST(pcx, that_is_damaged_or_too_large_is_refused_by_name) {
     const FileBytes whole = small_pcx(16, 16);
     FileBytes bytes(whole.begin(), whole.begin() + 200);
     EXPECT_NE(refusal_of(bytes).find("skin.pcx: is damaged"), std::string::npos)
+        << refusal_of(bytes);
+    // Rows that are missing before the palette, or at the end of one without a palette.
+    bytes = whole;
+    bytes.erase(bytes.begin() + 128, bytes.begin() + 160);
+    EXPECT_NE(refusal_of(bytes).find("ends within its rows"), std::string::npos)
+        << refusal_of(bytes);
+    bytes = rgb_pcx(16, 2);
+    EXPECT_EQ(refusal_of(bytes), "");
+    bytes.pop_back();
+    EXPECT_NE(refusal_of(bytes).find("ends within its rows"), std::string::npos)
         << refusal_of(bytes);
     EXPECT_NE(refusal_of({1, 2, 3}).find("is no PCX picture"), std::string::npos);
     EXPECT_NE(refusal_of(whole, 255).find("skin.pcx"), std::string::npos);
