@@ -18,8 +18,8 @@ Image<Rgb> normal_picture(const Image<Shading>& shadings);
 Image<Rgb> tangent_picture(const Image<Shading>& shadings);
 
 /// A direction of the pixels, in tangent space, where bump maps are read: its parts along tangent,
-/// bitangent and normal, in the same way. Interpolation between vertices is good where it is
-/// smooth.
+/// bitangent and the front's normal, negated where the back is seen, as techniques have it; in the
+/// same way. Interpolation between vertices is good where it is smooth.
 Image<Rgb> tangent_space_picture(const Image<Shading>& shadings, glm::dvec3 Shading::*direction);
 
 } // namespace shadowproof

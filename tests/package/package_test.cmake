@@ -138,6 +138,12 @@ function(openimageio_is_found_in_the_package)
     expect_in("${output}" "calling init: ${libraries}")
     run(0 ${debug} ${WORK}/build/counts)
     expect_in("${output}" "calling init: ${libraries}")
+    foreach(other draco pcx) # found in the same way, beside it
+        string(REPLACE openimageio ${other} beside "${libraries}")
+        if(NOT EXISTS ${beside})
+            message(FATAL_ERROR "${beside} is not installed")
+        endif()
+    endforeach()
 endfunction()
 
 # Where man and bash look for them, and as the command prints them.

@@ -39,9 +39,9 @@ public:
     /// Index of the new texture.
     std::uint32_t texture(const std::string& name, Encoding encoding) {
         const Picture picture = read(name);
-        memory_.keep(texels_of(name, picture));
+        memory_.keep(need_of(name, picture));
         return add({.name = beside(name).string(),
-                    .texels = shadowproof::texels_of(picture, encoding),
+                    .texels = texels_of(picture, encoding),
                     .bits = picture.bits});
     }
     /// Makes a picture's gray, or its red, the alpha of a texture of its size, or of a white one
@@ -49,7 +49,7 @@ public:
     std::uint32_t with_alpha(std::uint32_t texture, const std::string& name) {
         const Picture picture = read(name);
         if (texture == no_texture) {
-            memory_.keep(texels_of(name, picture));
+            memory_.keep(need_of(name, picture));
             texture = add({.name = "white",
                            .texels = Image<glm::vec4>(picture.width, picture.height, glm::vec4(1)),
                            .bits = 8});
@@ -78,7 +78,7 @@ private:
         scene_.textures.push_back(std::move(image));
         return static_cast<std::uint32_t>(scene_.textures.size() - 1);
     }
-    MemoryNeed texels_of(const std::string& name, const Picture& picture) const {
+    MemoryNeed need_of(const std::string& name, const Picture& picture) const {
         return {sizeof(glm::vec4) * static_cast<std::uint64_t>(picture.width) *
                     static_cast<std::uint64_t>(picture.height),
                 beside(name).string(), "its texels", "scale it down"};
