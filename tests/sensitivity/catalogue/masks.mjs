@@ -46,5 +46,5 @@ export const faults = [
   { name: 'mask_of_rays_cutoff_a_byte_off', ...stands('return double{alpha_at(scene.masks[mask], at)} >= scene.masks[mask].least + 1.0 / 255;') },
   { name: 'mask_of_rays_a_hundredth_texel_aside', ...stands('return double{alpha_at(scene.masks[mask], at + glm::vec2(0.01F / static_cast<float>(scene.masks[mask].alpha.width), 0))} >= scene.masks[mask].least;') },
   { name: 'mask_of_rays_weights_exchanged', file: rays, techniques: traced, right: 'weights.x * scene.mask_at[t.y] + weights.y * scene.mask_at[t.z]', wrong: 'weights.y * scene.mask_at[t.y] + weights.x * scene.mask_at[t.z]' },
-  { name: 'mask_of_rays_by_the_nearest_texel', file: rays, techniques: traced, right: 'if (mask.nearest) return mask.alpha.at(s.first, t.first);', wrong: 'if (mask.nearest || true) return mask.alpha.at(s.fraction < 0.5F ? s.first : s.second, t.fraction < 0.5F ? t.first : t.second);' },
+  { name: 'mask_of_rays_by_the_nearest_texel', file: rays, techniques: traced, right: 'if (mask.nearest) return mask.alpha.at(s.first, t.first);', wrong: 'return mask.alpha.at(s.fraction < 0.5F ? s.first : s.second, t.fraction < 0.5F ? t.first : t.second);' },
 ].map((fault) => ({ kind: 'masks', ...fault }));
