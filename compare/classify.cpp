@@ -301,7 +301,9 @@ std::optional<Cause> cause_of(ColorVerdict verdict) {
 /// the background, if they are not those of what is shown. A colour that is right for a place that
 /// the rasterizer may have drawn instead is `edge`.
 void check_colors(const Case& tried, Comparison& comparison) {
-    comparison.colors = check_colors(tried.tracer(), tried.claim.traced.truth(), tried.claim.frame);
+    const TracedScene& traced = tried.claim.traced;
+    comparison.colors =
+        check_colors(tried.tracer(), traced.truth(), tried.claim.frame, traced.lights_before());
     const Image<ColorVerdict>& verdicts = comparison.colors->verdict;
     for (int y = 0; y < verdicts.height; ++y)
         for (int x = 0; x < verdicts.width; ++x)
@@ -380,8 +382,9 @@ PixelFinding classify_pixel(const TracedScene& traced, const Frame& frame, const
     if (frame.shows_surface() && !SurfaceCheck(traced.tracer(), frame, traced.far()).holds(x, y))
         found.unexplained = true;
     if (!frame.color.pixels.empty())
-        if (const auto of_color =
-                cause_of(account_for_color(traced.tracer(), traced.truth(), frame, x, y).verdict))
+        if (const auto of_color = cause_of(account_for_color(traced.tracer(), traced.truth(), frame,
+                                                             x, y, traced.lights_before())
+                                               .verdict))
             cause = PixelCause{*of_color, {}};
     if (!cause) return found;
     found.cause = static_cast<std::uint8_t>(cause->cause);

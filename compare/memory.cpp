@@ -40,6 +40,9 @@ struct Part {
     const char* remedy = "";
 };
 
+/// Bytes per pixel of each light before the chosen one: its truth and its claim.
+constexpr std::uint64_t pixel_bytes_of_light = 20;
+
 std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     const bool lit = is_bump_lit(scene);
     std::uint64_t texels = 0;
@@ -53,14 +56,17 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     for (const AlphaMask& mask : scene.masks) of_masks += mask.alpha.pixels.size();
     const std::uint64_t pixels = pixels_of(scene.camera.width, scene.camera.height);
     const std::uint64_t triangles = scene.triangles.size();
-    return {Part{pixels * pixel_bytes(work, lit),
+    const std::uint64_t lights = std::max<std::size_t>(added_lights(scene), 1);
+    // Truth and techniques hold the scene once for each light before the chosen one.
+    const std::uint64_t copies = 2 * (lights - 1);
+    return {Part{pixels * (pixel_bytes(work, lit) + (lights - 1) * pixel_bytes_of_light),
                  fmt::format("a picture of {}x{}", scene.camera.width, scene.camera.height),
                  "try a smaller --size"},
-            Part{triangles * triangle_bytes(work, lit) +
-                     scene.positions.size() * vertex_bytes(work) +
-                     scene.surfaces.size() * sizeof(Surface) * 2,
+            Part{lights * (triangles * triangle_bytes(work, lit) +
+                           scene.positions.size() * vertex_bytes(work) +
+                           scene.surfaces.size() * sizeof(Surface) * 2),
                  fmt::format("{} triangles", triangles), "give the scene fewer triangles"},
-            Part{texels * (texel_bytes(work) + sizeof(glm::vec4)) +
+            Part{texels * (texel_bytes(work) + (1 + copies) * sizeof(glm::vec4)) +
                      of_masks * copies_of_masks * sizeof(float),
                  fmt::format("{} texels", texels + of_masks), "make its textures smaller"}};
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -63,7 +64,7 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 [[noreturn]] void refuse_scene(const Technique& technique, const Scene& scene) {
     const std::string file = scene.file.empty() ? scene.name : scene.file.string();
     const std::string name(technique.name);
-    if (!is_for(technique, chosen_light(scene).kind))
+    if (!is_for_lights(technique, scene))
         throw Error(file, "has a light that is not one for " + name,
                     "leave the technique out; it needs " + std::string(technique.needs));
     if (!is_bump_lit(scene))
@@ -83,6 +84,27 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 
 } // namespace
 
+namespace {
+
+Plan plan_under(const Scene& scene, const Plan& asked) {
+    Plan plan = make_plan(scene);
+    plan.asked = asked.asked;
+    return plan;
+}
+
+Frame draw_by_stencil(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan) {
+    StencilRecipe recipe = technique.recipe(scene, plan);
+    if (technique.lighting == nullptr) return draw_stencil_shadows(gpu, scene, recipe);
+    recipe.lighting = technique.lighting(plan);
+    const std::vector<Scene> others = under_lights_before(scene);
+    std::vector<StencilLight> before;
+    for (const Scene& other : others)
+        before.push_back({other, technique.recipe(other, plan_under(other, plan))});
+    return draw_stencil_shadows(gpu, scene, recipe, before);
+}
+
+} // namespace
+
 Frame draw_with(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan) {
     if (technique.map != nullptr) {
         MapRecipe recipe = technique.map();
@@ -90,9 +112,7 @@ Frame draw_with(Gpu& gpu, const Technique& technique, const Scene& scene, const 
         return draw_map_shadows(gpu, scene, plan, recipe);
     }
     if (technique.recipe == nullptr) return technique.run(gpu, scene, plan);
-    StencilRecipe recipe = technique.recipe(scene, plan);
-    if (technique.lighting != nullptr) recipe.lighting = technique.lighting(plan);
-    Frame frame = draw_stencil_shadows(gpu, scene, recipe);
+    Frame frame = draw_by_stencil(gpu, technique, scene, plan);
     if (technique.remark != nullptr) technique.remark(gpu, technique, scene, plan, frame);
     return frame;
 }

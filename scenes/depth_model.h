@@ -28,6 +28,7 @@ struct DepthModel {
     }
     /// Whether what lies past the far plane is lost.
     bool clips_at_far() const { return finite() && !clamp; }
+    friend bool operator==(const DepthModel&, const DepthModel&) = default;
 };
 
 /// How a depth buffer stores window depth.

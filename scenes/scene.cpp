@@ -73,4 +73,13 @@ std::vector<std::uint32_t> masks_of_triangles(const Scene& scene) {
     return masks;
 }
 
+std::vector<Scene> under_lights_before(const Scene& scene) {
+    std::vector<Scene> each;
+    for (std::size_t light = 0; light + 1 < added_lights(scene); ++light) {
+        each.push_back(scene);
+        each.back().light = light;
+    }
+    return each;
+}
+
 } // namespace shadowproof

@@ -206,6 +206,14 @@ inline const Light& chosen_light(const Scene& scene) {
     return scene.lights[scene.light];
 }
 
+/// How many lights the colours of a picture add up: of a bump-lit scene the chosen one and those
+/// before it, of others none.
+inline std::size_t added_lights(const Scene& scene) {
+    return is_bump_lit(scene) ? scene.light + 1 : 0;
+}
+/// The scene under each of them but the chosen one, in their order.
+std::vector<Scene> under_lights_before(const Scene& scene);
+
 /// Index into Scene::meshes of the mesh that holds a triangle.
 std::uint32_t mesh_of(const Scene& scene, std::uint32_t triangle);
 

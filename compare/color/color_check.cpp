@@ -1,7 +1,9 @@
 #include "compare/color/color_check.h"
 
 #include "compare/color/color_judge.h"
+#include "compare/driver/lighting/lighting_arithmetic.h"
 #include "reference/parallel.h"
+#include "reference/shade/added_shader.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,6 +11,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <span>
+#include <vector>
 
 namespace shadowproof {
 
@@ -50,28 +55,38 @@ bool is_unpredicted(ColorVerdict verdict) {
 struct TruePicture {
     const Camera& camera;
     const GroundTruth& truth;
+    const TracedLights& before;
 
     bool is_background(int x, int y) const { return truth.triangle.at(x, y) == no_triangle; }
-    SeenPoint seen(int x, int y) const {
-        return {ray_direction(camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
-                truth.visibility.at(x, y) == Visibility::lit};
+    /// One per light, the chosen one last.
+    std::vector<SeenPoint> seen(int x, int y) const {
+        std::vector<SeenPoint> points;
+        const auto add = [&](const GroundTruth& under) {
+            points.push_back({ray_direction(camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
+                              under.visibility.at(x, y) == Visibility::lit});
+        };
+        for (const auto& light : before) add(light->truth);
+        add(truth);
+        return points;
+    }
+    /// Shaded under the chosen light; background is black.
+    Shading shaded(int x, int y, AddedShader& shader) const {
+        if (is_background(x, y)) return {};
+        const std::vector<SeenPoint> points = seen(x, y);
+        std::vector<Shading> shadings(points.size());
+        shader.shade(points, shadings);
+        return shadings.back();
     }
 };
 
 /// Of the pixels of a row whose colour is only held against what they show, the squared differences
 /// from the true colours.
 double squares_elsewhere(const ColorJudge& judge, const TruePicture& picture, int y,
-                         RayShader& shader, const ColorCheck& check) {
+                         AddedShader& shader, const ColorCheck& check) {
     double squares = 0;
     for (int x = 0; x < check.verdict.width; ++x) {
         if (check.verdict.at(x, y) != ColorVerdict::as_shown) continue;
-        glm::dvec3 right(0);
-        if (!picture.is_background(x, y)) {
-            const SeenPoint seen = picture.seen(x, y);
-            Shading shading;
-            shader.shade({&seen, 1}, {&shading, 1});
-            right = showable(check.model, shading.color());
-        }
+        const glm::dvec3 right = showable(check.model, picture.shaded(x, y, shader).color());
         const glm::dvec3 off = 255.0 * (judge.claim(x, y) - right);
         squares += glm::dot(off, off);
     }
@@ -79,7 +94,7 @@ double squares_elsewhere(const ColorJudge& judge, const TruePicture& picture, in
 }
 
 RowSums check_row(const ColorJudge& judge, const TruePicture& picture, int y, Scrutiny scrutiny,
-                  RayShader& shader, ColorCheck& check, Image<float>& widths) {
+                  AddedShader& shader, ColorCheck& check, Image<float>& widths) {
     std::vector<int> columns;
     std::vector<SeenPoint> points;
     RowSums sums;
@@ -91,7 +106,7 @@ RowSums check_row(const ColorJudge& judge, const TruePicture& picture, int y, Sc
     for (int x = 0; x < check.error.width; ++x) {
         if (!judge.shows_background(x, y)) {
             columns.push_back(x);
-            points.push_back(judge.point(x, y));
+            judge.append_points(x, y, points);
             continue;
         }
         check.verdict.at(x, y) = judge.judged_background(x, y);
@@ -101,19 +116,21 @@ RowSums check_row(const ColorJudge& judge, const TruePicture& picture, int y, Sc
     }
     std::vector<Shading> shadings(points.size());
     shader.shade(points, shadings);
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
         const int x = columns[i];
-        const ColorJudgement found = judge.judged(x, y, shadings[i], scrutiny);
+        const std::size_t lights = shader.lights();
+        const auto at_pixel = std::span<const Shading>(shadings).subspan(i * lights, lights);
+        const ColorJudgement found = judge.judged(x, y, at_pixel, scrutiny);
         check.verdict.at(x, y) = found.verdict;
         if (found.verdict == ColorVerdict::as_shown) continue;
-        add_error(x, showable(check.model, shadings[i].color()));
+        add_error(x, showable(check.model, at_pixel.back().color()));
         widths.at(x, y) = static_cast<float>(width_of(found.bound));
         if (is_unpredicted(found.verdict)) ++sums.unpredicted;
         if (found.verdict == ColorVerdict::within && (found.spread.aside || found.spread.share > 0))
             ++sums.interpolated;
         if (found.verdict == ColorVerdict::beyond) {
             const ColorTerm term =
-                heaviest(judge.weights(shadings[i], points[i].triangle, found.spread));
+                heaviest(judge.weights(at_pixel, points[i * lights].triangle, found.spread));
             ++sums.beyond_by[static_cast<std::size_t>(term)];
         }
     }
@@ -160,28 +177,38 @@ void count(ColorCheck& check, const Image<float>& bound_widths) {
                          .widest = percentile(widths, 1000)};
 }
 
+LightAdded added(const TracedLight& light, const LightBefore& claimed) {
+    LightAdded added{.name = chosen_light(light.scene).name};
+    for (std::size_t i = 0; i < claimed.claim.pixels.size(); ++i)
+        added.differing += claimed.claim.pixels[i] != light.truth.visibility.pixels[i] ? 1 : 0;
+    return added;
+}
+
 } // namespace
 
-ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame) {
+ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                        const TracedLights& before) {
     assert(!frame.color.pixels.empty() && is_bump_lit(tracer.scene()));
     const int width = frame.color.width;
     const int height = frame.color.height;
-    const ColorJudge judge(tracer, truth, frame);
-    const TruePicture picture{tracer.scene().camera, truth};
+    const ColorJudge judge(tracer, truth, before, frame);
+    const TruePicture picture{tracer.scene().camera, truth, before};
     ColorCheck check;
     check.model = frame.color_model;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        check.lights_before.push_back(added(*before[i], frame.lights_before[i]));
     check.error = Image<float>(width, height);
     check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::as_shown);
     Image<float> widths(width, height);
-    std::vector<std::unique_ptr<RayShader>> shaders(static_cast<std::size_t>(tracer.threads()));
+    std::vector<std::unique_ptr<AddedShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
     std::uint64_t unpredicted = 0;
     for (int first = 0; first < height; first += rows_at_once) {
         const int count = std::min(rows_at_once, height - first);
         const Scrutiny scrutiny = scrutiny_after(unpredicted);
         parallel_for(count, tracer.threads(), [&](int i, int thread) {
-            std::unique_ptr<RayShader>& shader = shaders[static_cast<std::size_t>(thread)];
-            if (!shader) shader = std::make_unique<RayShader>(tracer);
+            std::unique_ptr<AddedShader>& shader = shaders[static_cast<std::size_t>(thread)];
+            if (!shader) shader = std::make_unique<AddedShader>(tracer, before);
             const int y = first + i;
             rows[static_cast<std::size_t>(y)] =
                 check_row(judge, picture, y, scrutiny, *shader, check, widths);
@@ -205,29 +232,27 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
 }
 
 ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                               int x, int y) {
-    const ColorJudge judge(tracer, truth, frame);
+                               int x, int y, const TracedLights& before) {
+    const ColorJudge judge(tracer, truth, before, frame);
     const ColorModel& model = frame.color_model;
     ColorAccount account;
     account.claim = judge.claim(x, y);
-    RayShader shader(tracer);
-    if (const TruePicture picture{tracer.scene().camera, truth}; !picture.is_background(x, y)) {
-        const SeenPoint seen = picture.seen(x, y);
-        shader.shade({&seen, 1}, {&account.truth, 1});
-    }
+    AddedShader shader(tracer, before);
+    account.truth = TruePicture{tracer.scene().camera, truth, before}.shaded(x, y, shader);
     account.showable = showable(model, account.truth.color());
     if (judge.shows_background(x, y)) {
         account.verdict = judge.judged_background(x, y);
         return account;
     }
-    Shading shown;
-    const SeenPoint point = judge.point(x, y);
-    shader.shade({&point, 1}, {&shown, 1});
+    std::vector<SeenPoint> points;
+    judge.append_points(x, y, points);
+    std::vector<Shading> shown(points.size());
+    shader.shade(points, shown);
     const ColorJudgement found = judge.judged(x, y, shown, Scrutiny::band);
     account.verdict = found.verdict;
     account.bound = found.bound;
     account.predicted = found.predicted;
-    account.weights = judge.weights(shown, point.triangle, found.spread);
+    account.weights = judge.weights(shown, points.front().triangle, found.spread);
     for (double& weight : account.weights) weight *= 255;
     return account;
 }

@@ -3,11 +3,16 @@
 // arithmetic predicts the colour. Elsewhere: whether it is the colour of what the technique shows.
 #pragma once
 
-#include "compare/driver/lighting/lighting_arithmetic.h"
+#include "compare/driver/interval.h"
+#include "compare/driver/lighting/color_terms.h"
+#include "reference/shade/shading.h"
+#include "reference/trace/lights_before.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace shadowproof {
 
@@ -31,6 +36,12 @@ struct BoundWidth {
     double widest = 0;
 };
 
+/// A light that the colours add to the chosen one's.
+struct LightAdded {
+    std::string name;
+    std::uint64_t differing = 0; ///< pixels at which its claim is not its truth
+};
+
 struct ColorCheck {
     ColorModel model;            ///< how the technique computes them
     Image<float> error;          ///< largest of the channels' differences, in steps of 1/255
@@ -52,15 +63,18 @@ struct ColorCheck {
     std::array<std::uint64_t, all_color_terms.size()> beyond_by{};
     int first_unpredicted_x = 0;
     int first_unpredicted_y = 0;
+    std::vector<LightAdded> lights_before{}; ///< in their order
 };
 
-/// The frame must have colours, and the scene must be bump-lit.
-ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame);
+/// The frame must have colours, and the scene must be bump-lit. `before`: the lights that the frame
+/// has before the chosen one, here and below.
+ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
+                        const TracedLights& before = {});
 
 /// One pixel's colour in full, for `explain`.
 struct ColorAccount {
     ColorVerdict verdict = ColorVerdict::as_shown;
-    Shading truth;
+    Shading truth;                ///< under the chosen light; before_color is what the others add
     glm::dvec3 showable{0, 0, 0}; ///< the truth's colour, clamped as by the frame buffer
     glm::dvec3 claim{0, 0, 0};
     Intervals bound;
@@ -68,6 +82,6 @@ struct ColorAccount {
     ColorTerms weights{}; ///< in steps of 1/255
 };
 ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                               int x, int y);
+                               int x, int y, const TracedLights& before = {});
 
 } // namespace shadowproof

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 namespace shadowproof {
 
@@ -54,30 +56,54 @@ Intervals cut_to_a_step(Intervals bound, const glm::dvec3& truth) {
 
 } // namespace
 
-ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame)
+ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const TracedLights& before,
+                       const Frame& frame)
     : tracer_(tracer), scene_(tracer.scene()), truth_(truth), frame_(frame),
-      tables_(make_lighting_tables(scene_, frame.color_model)) {}
+      tables_(make_lighting_tables(scene_, frame.color_model)) {
+    assert(before.size() == frame.lights_before.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        lights_.push_back({before[i]->scene, before[i]->truth, frame.lights_before[i].claim,
+                           frame.lights_before[i].depth_model});
+    lights_.push_back({scene_, truth, frame.claim, frame.depth_model});
+}
 
 bool ColorJudge::is_as_true(int x, int y) const {
     return !shows_background(x, y) && shown(x, y) == truth_.triangle.at(x, y) &&
-           frame_.claim.at(x, y) == truth_.visibility.at(x, y);
+           std::ranges::all_of(lights_, [&](const AddedLight& light) {
+               return light.claim.at(x, y) == light.truth.visibility.at(x, y);
+           });
 }
 
-SeenPoint ColorJudge::point(int x, int y, const glm::dvec2& beside) const {
-    return {ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y), shown(x, y),
-            frame_.claim.at(x, y) == Visibility::lit};
+glm::dvec3 ColorJudge::direction(int x, int y, const glm::dvec2& beside) const {
+    return ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y);
 }
 
-InputPoint ColorJudge::input_at(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return input_point(scene_, pixel.shading, pixel.triangle, spread);
+void ColorJudge::append_points(int x, int y, std::vector<SeenPoint>& points) const {
+    for (const AddedLight& light : lights_)
+        points.push_back({direction(x, y), shown(x, y), light.claim.at(x, y) == Visibility::lit});
+}
+
+template <class Of>
+auto ColorJudge::of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const {
+    std::vector<decltype(of(std::declval<const InputPoint&>()))> each;
+    each.reserve(lights_.size());
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        each.push_back(
+            of(input_point(lights_[i].scene, pixel.shadings[i], pixel.triangle, spread)));
+    return each;
 }
 
 Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return color_bound(frame_.color_model, budgeted_inputs(tables_, input_at(pixel, spread)));
+    return color_bound(frame_.color_model, of_lights(pixel, spread, [&](const InputPoint& point) {
+                           return budgeted_inputs(tables_, point);
+                       }));
 }
 
 Intervals ColorJudge::predicted(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return predicted_color(frame_.color_model, claimed_inputs(tables_, input_at(pixel, spread)));
+    return predicted_color(frame_.color_model,
+                           of_lights(pixel, spread, [&](const InputPoint& point) {
+                               return claimed_inputs(tables_, point);
+                           }));
 }
 
 /// View depth of the surface shown; where the truth is another, of its plane.
@@ -87,19 +113,29 @@ double ColorJudge::depth(int x, int y) const {
     const glm::dvec3 e = corner(scene_, shown(x, y), 1) - corner(scene_, shown(x, y), 0);
     const glm::dvec3 f = corner(scene_, shown(x, y), 2) - corner(scene_, shown(x, y), 0);
     const glm::dvec3 normal = glm::cross(e, f);
-    return glm::dot(a, normal) / glm::dot(point(x, y).direction, normal);
+    return glm::dot(a, normal) / glm::dot(direction(x, y), normal);
 }
 
+/// Of all lights, which may be drawn by different projections.
 double ColorJudge::lateral(int x, int y) const {
-    return lateral_error(scene_, frame_.depth_model,
-                         scene_.camera.eye + depth(x, y) * point(x, y).direction);
+    const glm::dvec3 at = scene_.camera.eye + depth(x, y) * direction(x, y);
+    double largest = 0;
+    for (const AddedLight& light : lights_)
+        largest = std::max(largest, lateral_error(scene_, light.depth_model, at));
+    return largest;
 }
 
 double ColorJudge::share(int x, int y) const {
-    const SeenPoint seen = point(x, y);
-    return attribute_error(
-        scene_, seen.triangle,
-        {seen.direction, lateral(x, y), drawing_of(scene_, frame_.depth_model, scene_.camera.far)});
+    const double aside = lateral(x, y);
+    double largest = 0;
+    for (const AddedLight& light : lights_) {
+        const double error = attribute_error(
+            light.scene, shown(x, y),
+            {direction(x, y), aside, drawing_of(scene_, light.depth_model, scene_.camera.far)});
+        if (!std::isfinite(error)) return error;
+        largest = std::max(largest, error);
+    }
+    return largest;
 }
 
 double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) const {
@@ -110,19 +146,19 @@ double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) c
 
 /// Nothing of the triangle lies past the horizon of its plane.
 PixelSpread ColorJudge::over(const PixelPlace& pixel, const Square& square, double share) const {
-    const double towards = facing(pixel.triangle, point(pixel.x, pixel.y).direction);
+    const double towards = facing(pixel.triangle, direction(pixel.x, pixel.y));
     PixelSpread spread{.aside = true, .share = share};
     spread.middle =
-        weights_along(scene_, pixel.triangle, point(pixel.x, pixel.y, square.middle).direction);
+        weights_along(scene_, pixel.triangle, direction(pixel.x, pixel.y, square.middle));
     for (std::size_t i = 0; i < corners_of_square.size(); ++i) {
-        const glm::dvec3 direction =
-            point(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]).direction;
-        if (!(towards * facing(pixel.triangle, direction) > 0)) {
+        const glm::dvec3 ray =
+            direction(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
+        if (!(towards * facing(pixel.triangle, ray) > 0)) {
             spread = all_of_it;
             spread.share = share;
             return spread;
         }
-        spread.corners[i] = weights_along(scene_, pixel.triangle, direction);
+        spread.corners[i] = weights_along(scene_, pixel.triangle, ray);
     }
     return spread;
 }
@@ -162,7 +198,7 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, b
         is_predicted =
             is_predicted || somewhere(pixel, square, share, halvings_of_square, predicted_of);
     }
-    const glm::dvec3 truth = pixel.shading.color();
+    const glm::dvec3 truth = pixel.own().color();
     const bool exact = is_exact(frame_.color_model, scene_);
     if (exact) found.bound = cut_to_a_step(found.bound, truth);
     if (!right) {
@@ -176,8 +212,9 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, b
 }
 
 /// A wrong surface or visibility has no right colour, but one that the arithmetic predicts.
-ColorJudgement ColorJudge::judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const {
-    const PixelPlace pixel{x, y, shading, shown(x, y)};
+ColorJudgement ColorJudge::judged(int x, int y, std::span<const Shading> shadings,
+                                  Scrutiny scrutiny) const {
+    const PixelPlace pixel{x, y, shadings, shown(x, y)};
     ColorJudgement found = judged_as_shown(pixel, scrutiny);
     if (is_as_true(x, y)) return found;
     const bool is_predicted = found.verdict == ColorVerdict::within ||
@@ -194,7 +231,7 @@ ColorVerdict ColorJudge::judged_background(int x, int y) const {
 /// As if what is shown were the truth. What holds at the centre, without rounding of interpolated
 /// values, also holds for the whole square with it.
 ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const {
-    const Shading& shading = pixel.shading;
+    const Shading& shading = pixel.own();
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
     const auto look = [&](const PixelSpread& spread) {
         ColorJudgement found{
@@ -221,14 +258,17 @@ ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scr
     return judged_aside(pixel, spread.share, right, is_predicted);
 }
 
-ColorTerms ColorJudge::weights(const Shading& shading, std::uint32_t triangle,
-                               PixelSpread spread) const {
-    const PixelPlace pixel{0, 0, shading, triangle};
-    const InputPoint centre = input_at(pixel, {.middle = shading.weights});
-    const InputPoint freed = input_at(pixel, spread);
-    return weights_of(frame_.color_model, true_inputs(tables_, centre),
-                      single_step_inputs(tables_, centre), claimed_inputs(tables_, centre),
-                      claimed_inputs(tables_, freed));
+ColorTerms ColorJudge::weights(std::span<const Shading> shadings, std::uint32_t triangle,
+                               const PixelSpread& spread) const {
+    const PixelPlace pixel{0, 0, shadings, triangle};
+    const PixelSpread centre{.middle = shadings.back().weights};
+    const auto claimed = [&](const InputPoint& point) { return claimed_inputs(tables_, point); };
+    return weights_of(
+        frame_.color_model,
+        of_lights(pixel, centre, [&](const InputPoint& at) { return true_inputs(tables_, at); }),
+        of_lights(pixel, centre,
+                  [&](const InputPoint& at) { return single_step_inputs(tables_, at); }),
+        of_lights(pixel, centre, claimed), of_lights(pixel, spread, claimed));
 }
 
 } // namespace shadowproof

@@ -5,12 +5,15 @@
 #include "compare/color/color_check.h"
 #include "compare/color/scrutiny.h"
 #include "compare/driver/interpolated.h"
+#include "compare/driver/lighting/color_terms.h"
 #include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/driver/lighting/lighting_inputs.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace shadowproof {
 
@@ -23,25 +26,32 @@ struct ColorJudgement {
     PixelSpread spread;
 };
 
-/// Judges the colours of one frame.
+/// Judges the colours of one frame, which adds up the light of its scene's chosen light and of
+/// those before it.
 class ColorJudge {
 public:
-    ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Frame& frame);
+    /// `before`: as many lights as the frame has.
+    ColorJudge(const Tracer& tracer, const GroundTruth& truth, const TracedLights& before,
+               const Frame& frame);
 
-    /// Whether surface and visibility are the truth's.
+    /// Whether surface and visibility under each light are the truth's.
     bool is_as_true(int x, int y) const;
     bool shows_background(int x, int y) const { return shown(x, y) == no_triangle; }
     glm::dvec3 claim(int x, int y) const { return frame_.color.at(x, y); }
-    /// What the technique shows through the pixel's centre, or `beside` it by so many pixels.
-    SeenPoint point(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+    /// The ray through the pixel's centre, or `beside` it by so many pixels.
+    glm::dvec3 direction(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+    /// Appends what the technique shows through the pixel's centre, one point per light, the chosen
+    /// one last.
+    void append_points(int x, int y, std::vector<SeenPoint>& points) const;
 
-    /// `shading`: of what is shown at the pixel's centre.
-    ColorJudgement judged(int x, int y, const Shading& shading, Scrutiny scrutiny) const;
+    /// `shadings`: of these points.
+    ColorJudgement judged(int x, int y, std::span<const Shading> shadings, Scrutiny scrutiny) const;
     /// The background is what was cleared: no rounding, nothing beside it.
     ColorVerdict judged_background(int x, int y) const;
 
     /// How far each ColorTerm moves the colour.
-    ColorTerms weights(const Shading& shading, std::uint32_t triangle, PixelSpread spread) const;
+    ColorTerms weights(std::span<const Shading> shadings, std::uint32_t triangle,
+                       const PixelSpread& spread) const;
 
 private:
     /// A square of the picture around a pixel's centre, in pixels.
@@ -52,20 +62,32 @@ private:
     struct PixelPlace {
         int x = 0;
         int y = 0;
-        const Shading& shading;
+        std::span<const Shading> shadings; ///< one per light
         std::uint32_t triangle = 0;
+
+        const Shading& own() const { return shadings.back(); }
+    };
+    /// A light whose light is added up: what is true and what is claimed.
+    struct AddedLight {
+        const Scene& scene; ///< with it chosen
+        const GroundTruth& truth;
+        const Image<Visibility>& claim;
+        const DepthModel& depth_model; ///< by which its light was drawn
     };
 
     const Tracer& tracer_;
     const Scene& scene_;
     const GroundTruth& truth_;
     const Frame& frame_;
+    std::vector<AddedLight> lights_; ///< the chosen one last
     LightingTables tables_;
 
     std::uint32_t shown(int x, int y) const { return frame_.triangle.at(x, y); }
     double depth(int x, int y) const;
     ColorJudgement judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const;
-    InputPoint input_at(const PixelPlace& pixel, const PixelSpread& spread) const;
+    /// The result of `of` for the inputs of each light.
+    template <class Of>
+    auto of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;

@@ -103,7 +103,8 @@ TechniqueAtPixel ask(const Technique& technique, const PixelRecord& record,
             if (found.also.contains(words.cause)) at.also.push_back(words.cause);
         at.account = judge->account(record, traced.scene().unit);
         if (!frame.color.pixels.empty())
-            at.color = account_for_color(traced.tracer(), traced.truth(), frame, x, y);
+            at.color = account_for_color(traced.tracer(), traced.truth(), frame, x, y,
+                                         traced.lights_before());
     } catch (const std::bad_alloc&) {
         at.error = at.name + ": " + out_of_memory;
     } catch (const std::runtime_error& error) {

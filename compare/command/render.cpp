@@ -3,6 +3,7 @@
 #include "compare/command/output_files.h"
 #include "compare/command/process/console.h"
 #include "compare/command/process/exit_code.h"
+#include "compare/command/scene_result.h"
 #include "compare/command/truth_exr.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
@@ -63,15 +64,19 @@ Image<Rgb> lit_picture(const RenderOptions& options, const Tracer& tracer,
         return tangent_space_picture(shade_terms(tracer, truth), &Shading::to_light);
     if (options.aov == "half_angle")
         return tangent_space_picture(shade_terms(tracer, truth), &Shading::half);
-    return color_picture(options.samples > 1 ? shade_supersampled(tracer, options.samples).color
-                                             : shade(tracer, truth));
+    const TracedLights before = trace_lights_before(tracer);
+    return color_picture(options.samples > 1
+                             ? shade_supersampled(tracer, options.samples, before).color
+                             : shade(tracer, truth, before));
 }
 
 void write_truth(const RenderOptions& options, const Tracer& tracer, const GroundTruth& truth) {
     const bool lit = wants_lighting(options, tracer.scene());
     if (is_exr(options))
         return write_truth_exr(tracer.scene(), truth,
-                               lit ? shade_terms(tracer, truth) : Image<Shading>(), options.output);
+                               lit ? shade_terms(tracer, truth, trace_lights_before(tracer))
+                                   : Image<Shading>(),
+                               options.output);
     write_file(options.output,
                lit ? to_png(lit_picture(options, tracer, truth)) : to_png(truth.visibility));
 }
@@ -85,6 +90,8 @@ int render_truth(const RenderOptions& options, int watcher) {
     console.progress(options.scene + ": reading");
     const Scene scene = load_scene(options.scene, options.picture.request());
     for (const std::string& note : scene.notes) console.line("note: " + note);
+    if (const auto note = note_on_added_lights(scene); note && wants_lighting(options, scene))
+        console.line("note: " + *note);
     require_scene(options.picture.memory, scene, work_of(options, wants_lighting(options, scene)));
     console.progress(options.scene + ": tracing");
     const Tracer tracer(scene, options.picture.threads);

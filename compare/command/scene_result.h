@@ -3,6 +3,7 @@
 
 #include "compare/cell.h"
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,6 +12,9 @@ namespace shadowproof {
 /// Fills in what the scene itself tells: its light, size, camera, meshes, notes and digest, not its
 /// name nor its truth.
 void describe(SceneResult& result, const Scene& scene);
+
+/// What to say of a scene whose colours add up several lights; nothing of others.
+std::optional<std::string> note_on_added_lights(const Scene& scene);
 
 /// What of a scene under its chosen light decides about its results: the truth's digest, and what
 /// the scene declares to provoke. The second is of a scene that was described.

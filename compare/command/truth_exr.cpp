@@ -36,6 +36,13 @@ struct LitPixel {
 };
 static_assert(sizeof(LitPixel) == 40 + 96);
 
+/// Where lights are added up.
+struct SumPixel {
+    LitPixel lit;
+    float before[3];
+};
+static_assert(sizeof(SumPixel) == sizeof(LitPixel) + 12);
+
 PictureLayout layout_of(const Scene& scene, bool lit) {
     PictureLayout layout{
         .width = scene.camera.width, .height = scene.camera.height, .channels = {}};
@@ -50,6 +57,7 @@ PictureLayout layout_of(const Scene& scene, bool lit) {
          {"", "diffuse.", "specular.", "ambient.", "reflection.", "Albedo."})
         add({group + "R", group + "G", group + "B"});
     add({"Ns.X", "Ns.Y", "Ns.Z", "T.X", "T.Y", "T.Z"});
+    if (added_lights(scene) > 1) add({"before.R", "before.G", "before.B"});
     return layout;
 }
 
@@ -114,7 +122,13 @@ void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<S
     Image<LitPixel> lit_picture(picture.width, picture.height);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         lit_picture.pixels[i] = lit_pixel(picture.pixels[i], shadings.pixels[i]);
-    write_pixels(layout_of(scene, lit), lit_picture, file);
+    if (added_lights(scene) < 2) return write_pixels(layout_of(scene, lit), lit_picture, file);
+    Image<SumPixel> sum_picture(picture.width, picture.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        sum_picture.pixels[i].lit = lit_picture.pixels[i];
+        put(sum_picture.pixels[i].before, shadings.pixels[i].before_color);
+    }
+    write_pixels(layout_of(scene, lit), sum_picture, file);
 }
 
 } // namespace shadowproof

@@ -56,6 +56,8 @@ Json color_of(const ColorCheck& colors) {
         if (const std::uint64_t pixels = colors.beyond_by[static_cast<std::size_t>(term)])
             json["beyond_by"][std::string(name_of(term))] = pixels;
     if (colors.judged > 0) json["largest_at"] = {{"x", colors.largest_x}, {"y", colors.largest_y}};
+    for (const LightAdded& light : colors.lights_before)
+        json["lights_before"].push_back({{"name", light.name}, {"differing", light.differing}});
     if (colors.unpredicted > 0)
         json["first_unpredicted"] = {{"x", colors.first_unpredicted_x},
                                      {"y", colors.first_unpredicted_y}};

@@ -74,10 +74,15 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
 }
 
 std::string words_of(const ColorCheck& colors) {
-    return fmt::format(
-        "colour off by {:.2f}/255 at most (rmse {:.2f}, 99.9 % within {:.2f}; of the "
-        "whole picture rmse {:.2f})",
-        colors.largest, colors.rmse, colors.percentile999, colors.picture_rmse);
+    std::string words =
+        fmt::format("colour off by {:.2f}/255 at most (rmse {:.2f}, 99.9 % within {:.2f}; of the "
+                    "whole picture rmse {:.2f})",
+                    colors.largest, colors.rmse, colors.percentile999, colors.picture_rmse);
+    for (const LightAdded& light : colors.lights_before)
+        if (light.differing > 0)
+            words += fmt::format(", with the shadows of {}, of which {} differ", light.name,
+                                 counted(light.differing, "pixel"));
+    return words;
 }
 
 std::string why_it_fails(const Cell& cell, const Gate& gate) {

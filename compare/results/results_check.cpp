@@ -158,6 +158,10 @@ void beyond_by(const JsonPlace& place) {
     for (const auto& [name, pixels] : place.value.items()) count(place.at(name));
 }
 
+void light_before(const JsonPlace& place) {
+    object(place, {{"name", text}, {"differing", count}});
+}
+
 void color(const JsonPlace& place) {
     object(place, {{"judged", count},
                    {"largest", number},
@@ -177,7 +181,8 @@ void color(const JsonPlace& place) {
                    {"newton_steps", count, Need::optional},
                    {"bumps", text},
                    {"vectors", text, Need::optional}, // absent in results of older versions
-                   {"tangents", text, Need::optional}});
+                   {"tangents", text, Need::optional},
+                   {"lights_before", list_of<light_before>, Need::optional}});
 }
 
 void failed_cell(const JsonPlace& place) {

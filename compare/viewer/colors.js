@@ -51,6 +51,9 @@ function colorLine(scene, cell) {
            `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}; `],
     whole === undefined ? ''
       : `of the whole picture, wrong shadows included, rmse ${whole.toFixed(2)}; `,
+    ...(color.lights_before ?? []).map(({ name, differing }) =>
+      `with the light of ${name}, whose shadows differ from the truth at ` +
+      `${counted(differing, 'pixel')}; `),
     at ? boundWords(color) : '', `${modelWords(color)}.`);
 }
 

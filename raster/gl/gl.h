@@ -30,6 +30,7 @@ struct Platform; // platform.h
     X(PFNGLCLIPCONTROLPROC, ClipControl)                                                           \
     X(PFNGLCOLORMASKPROC, ColorMask)                                                               \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                                       \
+    X(PFNGLCOPYIMAGESUBDATAPROC, CopyImageSubData)                                                 \
     X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                                                       \
     X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                                             \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                       \

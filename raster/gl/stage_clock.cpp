@@ -1,5 +1,7 @@
 #include "raster/gl/stage_clock.h"
 
+#include <algorithm>
+
 namespace shadowproof {
 
 namespace {
@@ -17,7 +19,9 @@ void StageClock::end(std::string_view stage) {
     if (waits_ == Waits::once) return;
     gl_->Finish();
     const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({stage, milliseconds_of(now - last_)});
+    const auto same = std::ranges::find(stages_, stage, &Stage::name);
+    Stage& ended = same == stages_.end() ? stages_.emplace_back(Stage{stage}) : *same;
+    ended.milliseconds += milliseconds_of(now - last_);
     last_ = now;
 }
 

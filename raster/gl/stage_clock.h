@@ -19,7 +19,8 @@ public:
     };
     StageClock(const GlFunctions& gl, Waits waits);
 
-    /// To be called after the stage's last OpenGL call.
+    /// To be called after the stage's last OpenGL call. What has the same name is one stage, in the
+    /// place of the first.
     void end(std::string_view stage);
     void end_frame();
 

@@ -73,6 +73,10 @@ Image<Value> read_framebuffer(const GlFunctions& gl, const Target& target,
 
 } // namespace
 
+Texture make_claim(const GlFunctions& gl, int width, int height) {
+    return make_picture(gl, GL_R8, width, height);
+}
+
 Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
@@ -86,7 +90,7 @@ Target make_target(const GlFunctions& gl, const Camera& camera, bool floating) {
     };
     Target target{.width = camera.width,
                   .height = camera.height,
-                  .claim = picture(GL_R8),
+                  .claim = make_claim(gl, camera.width, camera.height),
                   .triangle = picture(GL_R32UI),
                   .depth_stencil = picture(floating ? GL_DEPTH32F_STENCIL8 : GL_DEPTH24_STENCIL8),
                   .surface = make_framebuffer(gl),
@@ -163,6 +167,11 @@ Frame read_back(const GlFunctions& gl, const Target& target, Counter counter) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     check(gl, "reading back");
     return frame;
+}
+
+Image<Visibility> read_claim(const GlFunctions& gl, const Target& target) {
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    return read_framebuffer<Visibility>(gl, target, target.light, GL_RED, GL_UNSIGNED_BYTE);
 }
 
 Image<float> read_sum(const GlFunctions& gl, const Target& target) {

@@ -26,6 +26,7 @@ struct Target {
     Framebuffer lighting{};      ///< `color` and `depth_stencil`
     bool color_in_bytes = false; ///< RGBA8, linear; otherwise RGBA32F
 };
+Texture make_claim(const GlFunctions& gl, int width, int height);
 Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
 void add_sum(const GlFunctions& gl, Target& target);
 void add_color(const GlFunctions& gl, Target& target, bool in_bytes);
@@ -47,6 +48,9 @@ DepthFormat depth_format(const GlFunctions& gl, const Texture& texture);
 /// The pictures, rows from the top, and what was counted. Counting, depth model and other evidence
 /// are left to the caller.
 Frame read_back(const GlFunctions& gl, const Target& target, Counter counter);
+
+/// What the claim holds, rows from the top.
+Image<Visibility> read_claim(const GlFunctions& gl, const Target& target);
 
 /// The sums, rows from the top.
 Image<float> read_sum(const GlFunctions& gl, const Target& target);

@@ -1,14 +1,17 @@
-// Lighting by bump maps: the resources it needs on the GPU, and the passes that light the visible
-// surfaces. For bump-lit scenes (is_bump_lit).
+// Lighting by bump maps: the passes that light the visible surfaces, by one light or by several in
+// turn. For bump-lit scenes (is_bump_lit).
 #pragma once
 
 #include "raster/gl/shader.h"
+#include "raster/lighting/lit_scene.h"
 #include "raster/passes/passes.h"
 #include "scenes/lighting_settings.h"
-#include "scenes/surface/normalisation_cube.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -46,23 +49,6 @@ std::vector<LightingStep> three_passes(const ShaderText& diffuse, const ShaderTe
 /// The result of such a shader, added everywhere. The recipe's model must have `reflects` set.
 LightingStep add_reflection(const ShaderText& reflection);
 
-/// A run of triangles that are lit alike.
-struct LitRun {
-    std::uint32_t first = 0; ///< triangle of those drawn
-    std::uint32_t count = 0;
-    std::uint32_t material = 0; ///< index into Scene::materials
-    bool receives = true;       ///< shows shadows
-};
-
-/// The bump map of a material, as shaders read it.
-struct BumpMap {
-    Texture texels{};
-    BumpForm form = BumpForm::as_given; ///< as_given where there is no map
-    float scale = 1;
-    float slope_range = 0;
-    float texel_side = 0;
-};
-
 /// A LightingStep, ready to be drawn.
 struct LightingProgram {
     Program program{};
@@ -70,35 +56,28 @@ struct LightingProgram {
     LightingStep::Blend blend = LightingStep::Blend::overwrite;
 };
 
+/// Lighting by one light.
 struct LightingPass {
-    Buffer positions{};   ///< three per triangle
-    Buffer surfaces{};    ///< as Scene::surfaces
-    Buffer texel_sides{}; ///< TexelSides per corner, where heights are in units of space
+    std::shared_ptr<const LitScene> lit{};
     VertexArray corners{};
     Triangles lit_sides{}; ///< indices into the corners
-    std::vector<LitRun> all_runs{};
     std::vector<LitRun> lit_runs{};
-    std::vector<Texture> decals{};       ///< by index into Scene::textures; empty for others
-    std::vector<BumpMap> bumps{};        ///< shared by materials with equal bump maps
-    std::vector<std::size_t> bumps_of{}; ///< index into `bumps`, per material
-    Texture white{};                     ///< a single texel
-    Texture unit_vectors{};              ///< the normalisation cube map
-    Texture normal_table{};              ///< indexed_normal, 256 per row
-    Texture environment{};               ///< where the recipe's model reflects
     std::vector<LightingProgram> steps{};
 };
-/// A GL_RGB8 array texture with one layer per face.
-Texture upload_cube(const GlFunctions& gl, const NormalisationCube& cube);
-
-/// The scene must have an environment where the recipe's model reflects. Throws Error where a
-/// texture is larger than the driver takes, and where a bump map cannot be converted to the form of
-/// the recipe's model.
+/// The scene must have an environment where the recipe's model reflects. `before`: of another
+/// light, drawn before it, to whose light its own is added, without ambient light; null where it is
+/// the first. Throws Error where a texture is larger than the driver takes, and where a bump map
+/// cannot be converted to the form of the recipe's model.
 LightingPass make_lighting_pass(const GlFunctions& gl, const Scene& scene,
-                                const ClipTransform& transform, const LightingRecipe& recipe);
+                                const ClipTransform& transform, const LightingRecipe& recipe,
+                                Between between, const LightingPass* before);
 
-/// Draws the colours (add_color) where the depth is equal, one step of the recipe after the other.
-/// Writes neither stencil nor depth; leaves its own vertex array bound.
-void draw_lighting(const GlFunctions& gl, const LightingPass& pass, const Scene& scene,
-                   const Target& target);
+/// Draws the colours (add_color) where the depth is equal, one step of the recipe after the other;
+/// those that are drawn where it is lit under each light in turn, the chosen one last, and between
+/// two others all together. `shadow`: makes a light's stencil, by its number, and depths to which
+/// its pass is drawn; the first's must be there. Writes neither stencil nor depth itself; leaves a
+/// vertex array of its own bound.
+void draw_lighting(const GlFunctions& gl, std::span<const LightingPass> lights, const Scene& scene,
+                   const Target& target, const std::function<void(std::size_t light)>& shadow);
 
 } // namespace shadowproof

@@ -3,10 +3,14 @@
 #include "raster/gl/stage_clock.h"
 #include "raster/maps/offset_unit.h"
 #include "raster/passes/claim_in_stencil.h"
+#include "raster/passes/kept_claims.h"
 
 #include <algorithm>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace shadowproof {
 
@@ -100,64 +104,118 @@ void draw_into_stencil(const GlFunctions& gl, const Program& shadow, const Targe
     check(gl, "drawing a map's shadows into the stencil");
 }
 
-/// What is drawn with, made once.
-struct Frames {
+/// One light over a scene, and its map.
+struct MappedLight {
     const GlFunctions& gl;
-    DepthModel depth_model;
-    Target target;
+    const Scene& scene; ///< with it chosen
+    bool in_stencil;
     Geometry geometry;
     MapPass map;
-    SurfacePrograms surface;
     Program shadow{}; ///< asks the map, where the stencil keeps the answer
-    Program light;    ///< asks the map, or the stencil
-    bool in_stencil = false;
-    VisibleDepths visible;
-    const Scene& drawn;
-    Program not_lit{};
-    std::optional<LightingPass> lighting{};
+    Program light{};  ///< asks the map, or the stencil
 
-    Frames(Gpu& gpu, const Scene& scene, const MapModel& model, const MapRecipe& recipe)
-        : gl(gpu.gl()), depth_model(eye_depth_model(scene)),
-          target(make_target(gl, scene.camera, depth_model.floating)),
-          geometry(upload(gl, scene, {})),
-          map(make_map_pass(gl, scene, geometry, model, recipe.making)),
-          in_stencil(recipe.in_stencil), visible{static_cast<float>(scene.camera.near),
-                                                 static_cast<float>(scene.camera.far)},
-          drawn(scene) {
-        surface = link_surface(gl, clip_transform(scene, depth_model), geometry);
+    MappedLight(const GlFunctions& functions, const Scene& under, const MapModel& model,
+                const MapRecipe& recipe)
+        : gl(functions), scene(under), in_stencil(recipe.in_stencil),
+          geometry(upload(gl, under, {})),
+          map(make_map_pass(gl, under, geometry, model, recipe.making)) {
         const auto link_pass = [&](std::string_view shader) {
-            return link_light(gl, scene, light_transform(scene, depth_model, model), geometry,
-                              Between::nothing, shader);
+            return link_light(gl, under, light_transform(under, eye_depth_model(under), model),
+                              geometry, Between::nothing, shader);
         };
         light = link_pass(in_stencil ? "light.frag" : light_shader(model));
         if (in_stencil) shadow = link_pass("map_stencil_spot.frag");
-        set_test(gl, in_stencil ? shadow : light, scene, model);
-        if (recipe.lighting) {
-            add_color(gl, target,
-                      recipe.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
-            not_lit = link_not_lit(gl);
-            lighting =
-                make_lighting_pass(gl, scene, clip_transform(scene, depth_model), *recipe.lighting);
-        }
-        check(gl, "making the passes");
+        set_test(gl, in_stencil ? shadow : light, under, model);
     }
 
-    void draw(StageClock& clock) {
-        draw_map(gl, map, geometry);
-        clock.end("map");
-        begin_frame(gl, target, geometry, depth_model);
-        draw_surface(gl, surface, target, geometry, depth_model, visible, 0);
-        clock.end("surface");
+    /// Shows what is lit as such. Surfaces must be drawn.
+    void draw_lit(const Target& target) const {
         gl.BindTextureUnit(2, map.texture.name());
         if (in_stencil) draw_into_stencil(gl, shadow, target, geometry);
         draw_light(gl, light, target, geometry, in_stencil ? Counter::stencil : Counter::none);
         gl.BindTextureUnit(2, 0);
         gl.BindTextureUnit(3, 0);
+    }
+};
+
+DepthModel with_bits(DepthModel depths, Gpu& gpu) {
+    depths.subpixel_bits = gpu.driver().subpixel_bits;
+    return depths;
+}
+
+MapModel model_of(const MapRecipe& recipe, const Plan& plan, const Scene& scene) {
+    return with_settings(recipe.model, plan.asked.map, scene);
+}
+
+/// What one frame is drawn with: the chosen light and, where bumps are lit, those before it.
+struct Frames {
+    const GlFunctions& gl;
+    const Scene& scene;
+    DepthModel depth_model;
+    Target target;
+    std::vector<Scene> others;
+    std::vector<std::unique_ptr<MappedLight>> lights{}; ///< the chosen one last
+    SurfacePrograms surface{};
+    VisibleDepths visible;
+    KeptClaims claims{};
+    Program not_lit{};
+    std::vector<LightingPass> lighting{}; ///< one per light, or none
+
+    Frames(Gpu& gpu, const Scene& drawn, const Plan& plan, const MapRecipe& recipe)
+        : gl(gpu.gl()), scene(drawn), depth_model(eye_depth_model(drawn)),
+          target(make_target(gl, drawn.camera, depth_model.floating)),
+          others(recipe.lighting ? under_lights_before(drawn) : std::vector<Scene>{}),
+          visible{static_cast<float>(drawn.camera.near), static_cast<float>(drawn.camera.far)} {
+        const auto add = [&](const Scene& under) {
+            lights.push_back(
+                std::make_unique<MappedLight>(gl, under, model_of(recipe, plan, under), recipe));
+        };
+        for (const Scene& other : others) add(other);
+        add(drawn);
+        surface = link_surface(gl, clip_transform(drawn, depth_model), lights.back()->geometry);
+        claims = make_kept_claims(gl, target, lights.size());
+        if (recipe.lighting) {
+            add_color(gl, target,
+                      recipe.lighting->model.arithmetic != ColorModel::Arithmetic::floating);
+            not_lit = link_not_lit(gl);
+            for (const auto& light : lights)
+                lighting.push_back(make_lighting_pass(
+                    gl, light->scene, clip_transform(light->scene, depth_model), *recipe.lighting,
+                    Between::nothing, lighting.empty() ? nullptr : &lighting.front()));
+        }
+        check(gl, "making the passes");
+    }
+    Frames(const Frames&) = delete;
+    Frames& operator=(const Frames&) = delete;
+
+    /// Draws the claim of a light and, where bumps are lit, the stencil that it makes.
+    void draw_shadows(std::size_t light, StageClock& clock) {
+        MappedLight& mapped = *lights[light];
+        begin_frame(gl, target, mapped.geometry, depth_model);
+        if (light == 0) {
+            draw_surface(gl, surface, target, mapped.geometry, depth_model, visible, 0);
+            keep_unlit(gl, target, claims);
+        } else {
+            clear_stencil(gl, target, 0);
+            take_unlit(gl, target, claims);
+        }
+        clock.end("surface");
+        mapped.draw_lit(target);
+        keep_claim(gl, target, claims, light);
         clock.end("classes");
-        if (!lighting) return;
-        keep_claim_in_stencil(gl, not_lit, target);
-        draw_lighting(gl, *lighting, drawn, target);
-        gl.BindVertexArray(geometry.vertices.name());
+        if (!lighting.empty()) keep_claim_in_stencil(gl, not_lit, target);
+    }
+
+    void draw(StageClock& clock) {
+        for (const auto& light : lights) draw_map(gl, light->map, light->geometry);
+        clock.end("map");
+        draw_shadows(0, clock);
+        if (lighting.empty()) return;
+        draw_lighting(gl, lighting, scene, target, [&](std::size_t light) {
+            clock.end("lighting");
+            draw_shadows(light, clock);
+        });
+        gl.BindVertexArray(lights.back()->geometry.vertices.name());
         clock.end("lighting");
     }
 };
@@ -165,9 +223,9 @@ struct Frames {
 } // namespace
 
 Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const MapRecipe& recipe) {
-    const MapModel model = with_settings(recipe.model, plan.asked.map, scene);
+    const MapModel model = model_of(recipe, plan, scene);
     assert(!recipe.lighting || model.filter == 0);
-    Frames frames(gpu, scene, model, recipe);
+    Frames frames(gpu, scene, plan, recipe);
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
     compile_all(gl, draw);
@@ -179,17 +237,18 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
         frame.color_model = recipe.lighting->model;
         frame.color_model.bytes = gpu.byte_errors();
     }
+    for (Image<Visibility>& claim : read_claims(gl, frames.target, frames.claims))
+        frame.lights_before.push_back({std::move(claim), with_bits(frames.depth_model, gpu)});
     frame.family = "map";
     frame.mapped =
         MapEvidence{.model = model,
-                    .faces = read_map(gl, frames.map),
-                    .format = format_of(gl, frames.map),
+                    .faces = read_map(gl, frames.lights.back()->map),
+                    .format = format_of(gl, frames.lights.back()->map),
                     .offset_unit = model.offset_units != 0 ? measured_offset_unit(gl, model.format)
                                                            : OffsetUnit{},
                     .map_milliseconds = time.stages.front().milliseconds};
     if (model.filter > 0) frame.share = take_shares(model, frame.claim);
-    frame.depth_model = frames.depth_model;
-    frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
+    frame.depth_model = with_bits(frames.depth_model, gpu);
     frame.milliseconds = time.milliseconds;
     frame.stages = time.stages;
     end_frame(gl);

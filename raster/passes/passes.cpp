@@ -313,6 +313,12 @@ void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const T
     check(gl, "the surface pass");
 }
 
+void clear_stencil(const GlFunctions& gl, const Target& target, std::uint8_t stencil) {
+    const GLint value = stencil;
+    gl.StencilMask(0xff);
+    gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &value);
+}
+
 void draw_light(const GlFunctions& gl, const Program& light, const Target& target,
                 const Geometry& geometry, Counter counter) {
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

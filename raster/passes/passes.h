@@ -149,6 +149,9 @@ void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const T
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil);
 
+/// Sets the stencil alone, for another light over the same surfaces.
+void clear_stencil(const GlFunctions& gl, const Target& target, std::uint8_t stencil);
+
 /// Draws the lit sides again, as Visibility::lit, where the depth is equal and the counter is zero
 /// or the light's shader finds no shadow, or where they receive no shadows. Writes neither stencil
 /// nor depth.

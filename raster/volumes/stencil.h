@@ -10,6 +10,7 @@
 #include "scenes/scene.h"
 
 #include <optional>
+#include <span>
 
 namespace shadowproof {
 
@@ -33,11 +34,19 @@ struct StencilRecipe {
     std::optional<LightingRecipe> lighting{};
 };
 
+/// A light whose light a picture adds up before the scene's own.
+struct StencilLight {
+    const Scene& scene; ///< with it chosen
+    StencilRecipe recipe;
+};
+
 /// Draws one pixel of the frame, so that the driver finishes deferred compilation. Then draws the
 /// whole as often as the Gpu times frames, including the making of what depends on the light; the
 /// quickest is the time. Reads back the pictures, and draws the volumes once more to show and to
-/// measure them. Throws Error where the driver fails.
-Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe);
+/// measure them. `before`: only where the recipe lights bumps; the depth formats must be the same.
+/// Throws Error where the driver fails.
+Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe,
+                           std::span<const StencilLight> before = {});
 
 /// The numbers in which techniques tell depths apart: window depth of 24 bits, up to a far plane or
 /// to infinity; or reversed, up to infinity, in floats.

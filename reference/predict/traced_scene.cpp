@@ -11,9 +11,11 @@ struct TracedScene::State {
     const Tracer& tracer;
     const GroundTruth& truth;
     double far = 0;
+    std::once_flag has_lights{};
     std::once_flag has_silhouette{};
     std::once_flag has_depths{};
     std::once_flag has_volumes{};
+    TracedLights lights_before{};
     std::optional<Silhouette> silhouette{};
     std::optional<ShadowDepths> depths{};
     std::optional<VolumeStore> volumes{};
@@ -36,6 +38,12 @@ const GroundTruth& TracedScene::truth() const {
 }
 double TracedScene::far() const {
     return state_->far;
+}
+
+const TracedLights& TracedScene::lights_before() const {
+    std::call_once(state_->has_lights,
+                   [&] { state_->lights_before = trace_lights_before(state_->tracer); });
+    return state_->lights_before;
 }
 
 const Silhouette& TracedScene::silhouette() const {

@@ -4,6 +4,7 @@
 #include "reference/predict/ledger.h"
 #include "reference/predict/region_ledger.h"
 #include "reference/predict/volume_store.h"
+#include "reference/trace/lights_before.h"
 #include "reference/trace/trace.h"
 
 #include <memory>
@@ -27,6 +28,8 @@ public:
     /// View depth of the finite far plane of the techniques that have one (finite_far).
     double far() const;
 
+    /// The same under the lights whose light its colours add to the chosen one's.
+    const TracedLights& lights_before() const;
     /// The sides of the casters' shadow volumes.
     const Silhouette& silhouette() const;
     /// Shadow depths at the points of each pixel's ray.

@@ -193,6 +193,11 @@ glm::dvec3 PointShader::color(std::size_t lane) const {
     return sum.diffuse + sum.ambient + sum.specular + sum.reflection;
 }
 
+glm::dvec3 PointShader::added_color(std::size_t lane) const {
+    const Summands sum = summands(lane);
+    return sum.diffuse + sum.specular;
+}
+
 Shading PointShader::terms(std::size_t lane) const {
     const Look& look = looks_[lane];
     const Summands sum = summands(lane);

@@ -34,6 +34,8 @@ public:
     /// Shades all points that are set. Afterwards, lane by lane:
     void shade() { light_lanes(tables_->light, lanes_); }
     glm::dvec3 color(std::size_t lane) const;
+    /// What its light adds to ambient light and reflections.
+    glm::dvec3 added_color(std::size_t lane) const;
     Shading terms(std::size_t lane) const;
 
 private:

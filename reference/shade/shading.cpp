@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <memory>
+#include <utility>
 
 namespace shadowproof {
 
@@ -81,7 +82,9 @@ struct Sum {
     int seen = 0;
 };
 
-Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
+/// `of`: the colour of what a ray sees, from a shader and the ray's lane.
+template <class Of>
+Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader, const Of& of) {
     Sum sum;
     const int samples = rays.n * rays.n;
     for (int first = 0; first < samples; first += packet_size) {
@@ -104,23 +107,65 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader) {
             ++sum.seen;
         });
         shader.shade();
-        for_seen([&](std::size_t lane) { sum.color += shader.color(lane); });
+        for_seen([&](std::size_t lane) { sum.color += of(shader, lane); });
     }
     return sum;
 }
 
 } // namespace
 
-Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth) {
-    return shaded<glm::dvec3>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
-        return shader.color(lane);
+namespace {
+
+/// Adds a picture to another; an empty one is nothing.
+void add(const Image<glm::dvec3>& more, Image<glm::dvec3>& sum) {
+    for (std::size_t i = 0; i < more.pixels.size(); ++i) sum.pixels[i] += more.pixels[i];
+}
+
+/// The sum of what `of` gives of each light; empty where there are none.
+template <class Of>
+Image<glm::dvec3> sum_over(const TracedLights& lights, const Of& of) {
+    Image<glm::dvec3> sum;
+    for (const auto& light : lights) {
+        Image<glm::dvec3> more = of(*light);
+        if (sum.pixels.empty())
+            sum = std::move(more);
+        else
+            add(more, sum);
+    }
+    return sum;
+}
+
+/// What lights add, together; empty where there are none.
+Image<glm::dvec3> added_by(const TracedLights& lights) {
+    return sum_over(lights, [](const TracedLight& light) {
+        return shaded<glm::dvec3>(
+            light.tracer, light.truth,
+            [](const PointShader& shader, std::size_t lane) { return shader.added_color(lane); });
     });
 }
 
-Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth) {
-    return shaded<Shading>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
-        return shader.terms(lane);
-    });
+} // namespace
+
+Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth,
+                        const TracedLights& before) {
+    Image<glm::dvec3> colors =
+        shaded<glm::dvec3>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
+            return shader.color(lane);
+        });
+    add(added_by(before), colors);
+    return colors;
+}
+
+Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth,
+                           const TracedLights& before) {
+    Image<Shading> terms =
+        shaded<Shading>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
+            return shader.terms(lane);
+        });
+    const Image<glm::dvec3> more = added_by(before);
+    for (std::size_t i = 0; i < more.pixels.size(); ++i)
+        terms.pixels[i].before_color = more.pixels[i];
+    return terms;
 }
 
 std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction) {
@@ -158,7 +203,11 @@ void RayShader::shade(std::span<const SeenPoint> points, std::span<Shading> shad
     }
 }
 
-Supersampled shade_supersampled(const Tracer& tracer, int n) {
+namespace {
+
+/// The mean of `of` over n x n rays of each pixel.
+template <class Of>
+Supersampled supersampled(const Tracer& tracer, int n, const Of& of) {
     const Tracer::State& state = tracer.state();
     const Camera& camera = state.scene->camera;
     assert(n >= 1 && n <= 32);
@@ -171,12 +220,28 @@ Supersampled shade_supersampled(const Tracer& tracer, int n) {
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
         if (!prober) prober = std::make_unique<Prober>(state);
         for (int x = 0; x < camera.width; ++x) {
-            const Sum sum = sum_of({camera, n, x, y}, *prober, shaders.of(thread));
+            const Sum sum = sum_of({camera, n, x, y}, *prober, shaders.of(thread), of);
             const double samples = n * n;
             result.color.at(x, y) = sum.color / samples;
             result.coverage.at(x, y) = sum.seen / samples;
         }
     });
+    return result;
+}
+
+} // namespace
+
+Supersampled shade_supersampled(const Tracer& tracer, int n, const TracedLights& before) {
+    Supersampled result = supersampled(
+        tracer, n, [](const PointShader& shader, std::size_t lane) { return shader.color(lane); });
+    const Image<glm::dvec3> more = sum_over(before, [&](const TracedLight& light) {
+        return supersampled(light.tracer, n,
+                            [](const PointShader& shader, std::size_t lane) {
+                                return shader.added_color(lane);
+                            })
+            .color;
+    });
+    add(more, result.color);
     return result;
 }
 

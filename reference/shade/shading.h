@@ -40,6 +40,8 @@
 //              + reflection,
 //     visibility 1 where the pixel is lit by trace.h, else 0. Background is black. The colour is
 //     linear, and not clamped.
+//     Where the lights before the chosen one are added up (lights_before.h), what each of them adds
+//     by its own visibility, diffuse and specular, is summed first and added to that.
 // 10. Reflection, where the scene has an environment: reflectance gloss environment(R), with
 //     R = 2 (N' . V) N' - V in world axes, sampled by cube_map.h at level 0. It is there whether
 //     or not the pixel is lit, and knows nothing of the scene's own surfaces. Else 0.
@@ -48,6 +50,7 @@
 // 2001. Reflection after CS448, lecture 11.
 #pragma once
 
+#include "reference/trace/lights_before.h"
 #include "reference/trace/trace.h"
 
 #include <glm/vec3.hpp>
@@ -80,18 +83,23 @@ struct Shading {
     glm::dvec3 specular_color{0, 0, 0};   ///< "
     glm::dvec3 ambient_color{0, 0, 0};    ///< "
     glm::dvec3 reflection_color{0, 0, 0}; ///< "
+    glm::dvec3 before_color{0, 0, 0};     ///< ": what the lights before it add, where that is asked
 
+    /// What its light adds to ambient light and reflections.
+    glm::dvec3 added_color() const { return diffuse_color + specular_color; }
     glm::dvec3 color() const {
-        return diffuse_color + ambient_color + specular_color + reflection_color;
+        return diffuse_color + ambient_color + specular_color + reflection_color + before_color;
     }
 };
 
-/// Linear colours of all pixels; `truth` is the same tracer's. Same bits for any number of threads
-/// and any instruction set, here and below.
-Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth);
+/// Linear colours of all pixels; `truth` is the same tracer's. `before`: the lights whose light is
+/// added, here and below. Same bits for any number of threads and any instruction set, likewise.
+Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth,
+                        const TracedLights& before = {});
 
 /// The same with all terms; background pixels hold zeros.
-Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth);
+Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth,
+                           const TracedLights& before = {});
 
 /// What is seen along one ray, shaded; nothing where that is background.
 std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction);
@@ -126,6 +134,6 @@ struct Supersampled {
     Image<glm::dvec3> color; ///< background counts as black
     Image<double> coverage;  ///< share of the rays that see a surface
 };
-Supersampled shade_supersampled(const Tracer& tracer, int n);
+Supersampled shade_supersampled(const Tracer& tracer, int n, const TracedLights& before = {});
 
 } // namespace shadowproof

@@ -76,6 +76,12 @@ void add_lighting(Hash& hash, const Scene& scene) {
     const Light& light = chosen_light(scene);
     for (const glm::dvec3& v : {scene.ambient, light.color}) hash.add(v);
     for (const double v : {light.intensity, light.inner_cone}) hash.add(v);
+    for (std::size_t before = 0; before + 1 < added_lights(scene); ++before) {
+        const Light& other = scene.lights[before];
+        add_light(hash, other);
+        hash.add(other.color);
+        for (const double v : {other.intensity, other.inner_cone}) hash.add(v);
+    }
     hash.add(scene.inverse_square);
     hash.add(scene.highlight.shadow);
     hash.add(scene.highlight.squarings);

@@ -31,6 +31,8 @@ inline std::vector<std::string> bundled_names() {
     for (const std::string& name : bundled_scene_names())
         if (name == "many_lights")
             names.insert(names.end(), {name + "-key", name + "-fill", name + "-rim"});
+        else if (name == "bumpy_lights")
+            names.insert(names.end(), {name + "-key", name + "-spot"});
         else
             names.push_back(name);
     return names;
@@ -41,7 +43,8 @@ inline std::vector<std::string> bump_lit_scenes() {
     return {"bumpy_sphere",     "bumpy_torus",          "mirrored_skin",    "height_field",
             "stretched_relief", "skewed_relief",        "hammered_silver",  "coarse_curve",
             "grazing_light",    "terminator_highlight", "fine_relief",      "bright_light",
-            "bumpy_near_plane", "bumpy_far_plane",      "bumpy_eye_inside", "walking_figure"};
+            "bumpy_near_plane", "bumpy_far_plane",      "bumpy_eye_inside", "bumpy_lights",
+            "walking_figure"};
 }
 
 } // namespace shadowproof::tests

@@ -211,7 +211,8 @@ TEST(bundled, every_caster_is_closed_and_manifold_but_those_that_are_to_be_fault
 TEST(bundled, only_a_choice_of_time_or_light_and_a_range_are_noted) {
     for (const BundledScene& each : bundled_scenes()) {
         const bool chooses = each.name == "moving_light" || each.name == "many_lights" ||
-                             each.name == "walking_figure" || each.name == "light_range";
+                             each.name == "bumpy_lights" || each.name == "walking_figure" ||
+                             each.name == "light_range";
         EXPECT_EQ(bundled(each.name).notes.size(), chooses ? 1U : 0U) << each.name;
     }
 }

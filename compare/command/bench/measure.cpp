@@ -201,7 +201,7 @@ void add_sampled_truth(BenchTrial& trial) {
         work.console.progress(trial.name + ": " + what);
         try {
             points =
-                work.pieces.piece(what, [&] { return judge_sampled(trial.tracer, mean, sides); });
+                work.pieces.piece(what, [&] { return judge_sampled(trial.traced, mean, sides); });
         } catch (const LostPiece& lost) {
             lose(trial, truth_point, mean.settings, lost);
             return;
@@ -289,8 +289,9 @@ BenchSample take_sample(BenchTrial& trial, std::size_t i) {
         technique == nullptr ? std::string(truth_point) : name_of_point(*technique, settings);
     return work.pieces.piece("measuring " + named, [&]() -> BenchSample {
         if (const int side = side_of(settings); technique == nullptr && side > 0) {
+            const TracedLights& before = trial.traced.lights_before();
             const Stopwatch stopwatch;
-            shade_supersampled(trial.tracer, side);
+            shade_supersampled(trial.tracer, side, before);
             return {stopwatch.milliseconds(), {}};
         }
         if (technique == nullptr) {
@@ -379,7 +380,8 @@ void describe(SceneResult& result, const BenchTrial& trial) {
     describe(result, trial.scene);
     result.left_out = trial.plan.left_out;
     result.bump_lit = is_bump_lit(trial.scene);
-    if (result.bump_lit) result.color = shade(trial.tracer, trial.truth);
+    if (result.bump_lit)
+        result.color = shade(trial.tracer, trial.truth, trial.traced.lights_before());
 }
 
 void print_points(const BenchWork& work, const std::string& scene) {

@@ -44,19 +44,22 @@ BenchColor color_distance(const Supersampled& picture, const Supersampled& yards
             .percentile999 = errors[rank]};
 }
 
-std::vector<BenchPoint> judge_sampled(const Tracer& tracer, const BenchPoint& truth,
+std::vector<BenchPoint> judge_sampled(const TracedScene& traced, const BenchPoint& truth,
                                       const std::vector<int>& sides) {
+    const TracedLights& before = traced.lights_before();
+    const auto sampled = [&](int side) {
+        return shade_supersampled(traced.tracer(), side, before);
+    };
     const Stopwatch stopwatch;
-    const Supersampled yardstick = shade_supersampled(tracer, sides.back());
+    const Supersampled yardstick = sampled(sides.back());
     const double milliseconds = stopwatch.milliseconds();
     std::vector<BenchPoint> points;
     for (const int side : sides) {
         BenchPoint& point = points.emplace_back(truth);
         point.settings = samples_setting(side);
         point.samples.clear();
-        point.error.color = side == sides.back()
-                                ? BenchColor{}
-                                : color_distance(shade_supersampled(tracer, side), yardstick);
+        point.error.color =
+            side == sides.back() ? BenchColor{} : color_distance(sampled(side), yardstick);
     }
     points.back().samples = {milliseconds};
     return points;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "compare/bench/bench_run.h"
+#include "reference/predict/traced_scene.h"
 #include "reference/shade/shading.h"
 
 #include <vector>
@@ -22,7 +23,7 @@ BenchColor color_distance(const Supersampled& picture, const Supersampled& yards
 
 /// A point like `truth`, of the same scene, for each of the sides: its error of colours is its
 /// distance from the last one, which has a sample of time already.
-std::vector<BenchPoint> judge_sampled(const Tracer& tracer, const BenchPoint& truth,
+std::vector<BenchPoint> judge_sampled(const TracedScene& traced, const BenchPoint& truth,
                                       const std::vector<int>& sides);
 
 } // namespace shadowproof

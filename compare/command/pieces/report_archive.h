@@ -42,14 +42,16 @@ SHADOWPROOF_SEND_ALL(ColorModel, arithmetic, axes, normalisation, bump_form, vec
                      reflects, cube_size, newton_steps, bytes)
 SHADOWPROOF_SEND_ALL(BoundWidth, median, percentile999, widest)
 
+SHADOWPROOF_SEND_ALL(LightAdded, name, differing)
+
 template <class Archive>
 void serialize(Archive& archive, ColorCheck& check) {
     auto& [model, ERROR, VERDICT, judged, largest, largest_x, largest_y, rmse, picture_rmse,
            percentile999, beyond, unpredicted, moved, interpolated, bound_width, beyond_by,
-           first_unpredicted_x, first_unpredicted_y] = check;
+           first_unpredicted_x, first_unpredicted_y, lights_before] = check;
     archive(model, judged, largest, largest_x, largest_y, rmse, picture_rmse, percentile999, beyond,
             unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x,
-            first_unpredicted_y);
+            first_unpredicted_y, lights_before);
 }
 
 SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words, pictures)

@@ -172,7 +172,8 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
         return check_relations(scene, result.truth, work.options.scene.threads);
     });
     if (point.relations.changed > 0) result.notes.push_back(words_of(point.relations));
-    if (result.bump_lit) result.color = shade(trial.tracer, result.truth);
+    if (result.bump_lit)
+        result.color = shade(trial.tracer, result.truth, trial.traced.lights_before());
     if (work.pictures != nullptr) work.pictures->begin(result, place);
     for (const Technique* technique : techniques) {
         progress(technique->name);

@@ -184,9 +184,10 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
                         "shadowproof");
         add_note(words_of(agreement));
     }
-    result.bump_lit = is_bump_lit(scene);
-    if (result.bump_lit) result.color = shade(tracer, result.truth);
     trial.emplace(scene, result.truth, std::move(plan), std::move(tracer));
+    result.bump_lit = is_bump_lit(scene);
+    if (result.bump_lit)
+        result.color = shade(trial->tracer, result.truth, trial->traced.lights_before());
 }
 
 /// Judges a technique and writes what the report shows of it, as a piece. One that is lost has a

@@ -198,7 +198,7 @@ LightingInputs budgeted_inputs(const LightingTables& tables, const InputPoint& p
     inputs.half = into(frame, normalised(tables, half, axes));
     inputs.bump = bump_budget(tables, {point, frame, material});
     inputs.bump.distance += perturbed_normal_roundings * v;
-    add_surroundings(inputs, scene, point, frame, tables.model.reflects);
+    add_surroundings(inputs, point, frame, tables.model.reflects);
     return inputs;
 }
 

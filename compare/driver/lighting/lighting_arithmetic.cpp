@@ -1,37 +1,18 @@
 #include "compare/driver/lighting/lighting_arithmetic.h"
 
+#include "compare/driver/lighting/color_ways.h"
 #include "scenes/driver.h"
 
 #include <cassert>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <optional>
+#include <vector>
 
 namespace shadowproof {
 
 namespace {
 
 constexpr double v = float_roundoff;
-
-/// How values kept in 8 bits are rounded.
-enum class Steps : std::uint8_t {
-    none,    ///< not at all
-    nearest, ///< to the nearest of 255 steps
-    within,  ///< to anything, but no further than by the error that is given
-};
-
-/// Which of the technique's differences from the truth are applied.
-struct Ways {
-    Steps steps = Steps::none;
-    /// Whose self-shadowing dims the highlight, where that is not as the scene has it.
-    std::optional<HighlightShadow> highlight_shadow{};
-    bool clamps_early = false;         ///< colours and registers before the last are clamped
-    ByteErrors bytes = llvmpipe_bytes; ///< of the colour buffer
-
-    HighlightShadow shadow(const LightingInputs& in) const {
-        return highlight_shadow.value_or(in.highlight.shadow);
-    }
-};
 
 /// `error`: how many steps a kept value may be off; half a step for the nearest.
 Interval kept(const Interval& a, Steps steps, double error = 0.5) {
@@ -56,9 +37,12 @@ Interval self_shadow(const Interval& z) {
 }
 
 /// Rounding of floats: a dozen products and sums on the way to a colour, of terms no larger than
-/// their sum, any of which may be flushed to 0.
-Interval rounded(const Interval& a) {
-    return widened(a, 12 * (v * std::max(std::abs(a.low), std::abs(a.high)) + float_underflow));
+/// their sum, any of which may be flushed to 0; and, of each light but the first, its sum with
+/// those before.
+Interval rounded(const Interval& a, std::size_t lights = 1) {
+    const double roundings = 11 + static_cast<double>(lights);
+    return widened(a,
+                   roundings * (v * std::max(std::abs(a.low), std::abs(a.high)) + float_underflow));
 }
 
 struct Terms {
@@ -82,61 +66,105 @@ Terms terms_of(const LightingInputs& in, const Ways& ways) {
     return {rounded(diffuse), rounded(specular)};
 }
 
-Intervals in_floats(const LightingInputs& in, const Ways& ways) {
-    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
+/// `at`: under each light in turn. Sums are of nothing negative, so that each is rounded by less
+/// than their last.
+Intervals in_floats(AddedInputs at, const Ways& ways) {
     Intervals color;
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
-        const Interval ambient = around(in.ambient[c]) * in.decal[k];
-        const Interval diffuse = in.radiance[k] * terms.diffuse * in.decal[k];
-        const Interval specular = in.specular[c] * in.radiance[k] * terms.specular * in.gloss;
-        color[k] = rounded(ambient + diffuse + specular + in.reflection[k]);
+        const LightingInputs& any = at.front();
+        color[k] = around(any.ambient[c]) * any.decal[k] + any.reflection[k];
     }
+    for (const LightingInputs& in : at) {
+        if (!in.lit) continue;
+        const Terms terms = terms_of(in, ways);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Interval diffuse = in.radiance[k] * terms.diffuse * in.decal[k];
+            const Interval specular =
+                in.specular[static_cast<int>(k)] * in.radiance[k] * terms.specular * in.gloss;
+            color[k] = color[k] + diffuse + specular;
+        }
+    }
+    for (Interval& channel : color) channel = rounded(channel, at.size());
     return color;
 }
 
-/// What the passes of diffuse light and of highlights send to the frame buffer, by channel.
+/// A colour buffer of 8 bits per channel, and what it does to a number that is sent to it.
+class ByteBuffer {
+public:
+    explicit ByteBuffer(const Ways& ways) : ways_(ways) {}
+
+    Interval overwritten(const Interval& by) const { return stored(by, ways_.bytes.overwriting); }
+    Interval multiplied(const Interval& held, const Interval& by) const {
+        return stored(held * about_to_blend(by), ways_.bytes.multiplying);
+    }
+    /// Sums of two bytes are bytes, but for a float's rounding.
+    Interval added(const Interval& held, const Interval& more) const {
+        const Interval sum = held + about_to_blend(more);
+        return ways_.bytes.rounds_before_blending
+                   ? cut(widened(sum, ways_.bytes.adding / 255), ways_, 0, 1)
+                   : stored(sum, ways_.bytes.adding);
+    }
+
+private:
+    const Ways& ways_;
+
+    Interval stored(const Interval& a, double error) const {
+        return kept(cut(a, ways_, 0, 1), ways_.steps, error);
+    }
+    Interval about_to_blend(const Interval& a) const {
+        const bool any = !ways_.bytes.rounds_before_blending && ways_.steps == Steps::nearest;
+        const Interval sent = cut(a, ways_, 0, 1);
+        return kept(sent, any ? Steps::within : ways_.steps, ways_.bytes.overwriting);
+    }
+};
+
+/// What the passes of diffuse light and of highlights send to the colour buffer under one light, by
+/// channel.
 struct PassColors {
-    Intervals diffuse; ///< with the ambient light
+    Intervals diffuse; ///< with the ambient light, under the first
     Intervals highlight;
 };
 
-/// Three passes over a frame buffer of 8 bits (raster/techniques/bumps/bump_three_pass.cpp).
-Intervals blended(const PassColors& passes, const LightingInputs& in, const Ways& ways) {
-    const ByteErrors& bytes = ways.bytes;
-    const auto stored = [&](const Interval& a, double error) {
-        return kept(cut(a, ways, 0, 1), ways.steps, error);
-    };
-    const auto about_to_blend = [&](const Interval& a) {
-        const bool any = !bytes.rounds_before_blending && ways.steps == Steps::nearest;
-        const Interval sent = cut(a, ways, 0, 1);
-        return kept(sent, any ? Steps::within : ways.steps, bytes.overwriting);
-    };
+/// Passes over a colour buffer of 8 bits (raster/techniques/bumps/bump_three_pass.cpp): ambient and
+/// diffuse light, of each light in turn, then the decal, then the highlights of each.
+Intervals blended(std::span<const PassColors> passes, AddedInputs at, const Ways& ways) {
+    const ByteBuffer buffer(ways);
     Intervals color;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Interval light = stored(passes.diffuse[k], bytes.overwriting);
-        Interval sum = stored(light * about_to_blend(in.decal[k]), bytes.multiplying);
-        if (in.lit) {
-            sum = sum + about_to_blend(passes.highlight[k]);
-            // Sums of two bytes are bytes, but for a float's rounding.
-            sum = bytes.rounds_before_blending ? cut(widened(sum, bytes.adding / 255), ways, 0, 1)
-                                               : stored(sum, bytes.adding);
-        }
-        color[k] = clamped(sum, 0, 1);
+        const LightingInputs& any = at.front();
+        Interval held = buffer.overwritten(any.lit ? passes.front().diffuse[k]
+                                                   : around(any.ambient[static_cast<int>(k)]));
+        for (std::size_t i = 1; i < at.size(); ++i)
+            if (at[i].lit) held = buffer.added(held, passes[i].diffuse[k]);
+        held = buffer.multiplied(held, any.decal[k]);
+        for (std::size_t i = 0; i < at.size(); ++i)
+            if (at[i].lit) held = buffer.added(held, passes[i].highlight[k]);
+        color[k] = clamped(held, 0, 1);
     }
     return color;
 }
 
+/// Ambient light, which is added once: with the first light.
+glm::dvec3 ambient_of(AddedInputs at, std::size_t light) {
+    return light == 0 ? at[light].ambient : glm::dvec3(0);
+}
+
 /// Floats within a pass.
-Intervals in_float_passes(const LightingInputs& in, const Ways& ways) {
-    const Terms terms = in.lit ? terms_of(in, ways) : Terms{};
-    PassColors passes;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const int c = static_cast<int>(k);
-        passes.diffuse[k] = around(in.ambient[c]) + in.radiance[k] * terms.diffuse;
-        passes.highlight[k] = rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss);
+Intervals in_float_passes(AddedInputs at, const Ways& ways) {
+    std::vector<PassColors> passes(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const LightingInputs& in = at[i];
+        if (!in.lit) continue;
+        const Terms terms = terms_of(in, ways);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int c = static_cast<int>(k);
+            passes[i].diffuse[k] = around(ambient_of(at, i)[c]) + in.radiance[k] * terms.diffuse;
+            passes[i].highlight[k] =
+                rounded(in.specular[c] * in.radiance[k] * terms.specular * in.gloss);
+        }
     }
-    return blended(passes, in, ways);
+    return blended(passes, at, ways);
 }
 
 /// A register of the combiners: 8 bits and a sign. Its inputs were computed in floats.
@@ -162,15 +190,10 @@ Interval in_byte(const Interval& a, const Ways& ways) {
 }
 
 /// Passes of two general combiner stages and the final one each (raster/glsl/lighting/
-/// two_stages.glsl).
-Intervals in_two_stages(const LightingInputs& in, const Ways& ways) {
+/// two_stages.glsl), under a light that is seen.
+PassColors two_stages(const LightingInputs& in, const glm::dvec3& ambient, const Ways& ways) {
     const auto q = [&](const Interval& a) { return in_register(a, ways); };
     PassColors passes;
-    if (!in.lit) {
-        for (std::size_t k = 0; k < 3; ++k)
-            passes.diffuse[k] = around(in.ambient[static_cast<int>(k)]);
-        return blended(passes, in, ways);
-    }
     const VectorRange bump = in_bytes(in.bump, ways);
     const VectorRange light = in_bytes(in.light, ways);
     const VectorRange half = in_bytes(in.half, ways);
@@ -190,17 +213,23 @@ Intervals in_two_stages(const LightingInputs& in, const Ways& ways) {
     const Interval gloss = in_byte(in.gloss, ways);
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
-        passes.diffuse[k] =
-            cut(q(diffuse * q(in.radiance[k]) + q(around(in.ambient[c]))), ways, 0, 1);
+        passes.diffuse[k] = cut(q(diffuse * q(in.radiance[k]) + q(around(ambient[c]))), ways, 0, 1);
         const Interval color = q(q(in.specular[c] * in.radiance[k]) * dimmed);
         passes.highlight[k] = rounded(cut(q(color * not_negative(power8)), ways, 0, 1) * gloss);
     }
-    return blended(passes, in, ways);
+    return passes;
+}
+
+Intervals in_two_stages(AddedInputs at, const Ways& ways) {
+    std::vector<PassColors> passes(at.size());
+    for (std::size_t i = 0; i < at.size(); ++i)
+        if (at[i].lit) passes[i] = two_stages(at[i], ambient_of(at, i), ways);
+    return blended(passes, at, ways);
 }
 
 /// Four general combiner stages and the final one (raster/glsl/lighting/four_stages.glsl), after
-/// Kilgard 2001.
-Intervals in_four_stages(const LightingInputs& in, const Ways& ways) {
+/// Kilgard 2001, under a light that is seen.
+Intervals four_stages(const LightingInputs& in, const glm::dvec3& ambient_light, const Ways& ways) {
     const auto q = [&](const Interval& a) { return in_register(a, ways); };
     Intervals color;
     const Interval gloss = in_byte(in.gloss, ways);
@@ -225,14 +254,8 @@ Intervals in_four_stages(const LightingInputs& in, const Ways& ways) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int c = static_cast<int>(k);
         const Interval decal = in_byte(in.decal[k], ways);
-        if (!in.lit) {
-            color[k] = clamped(
-                kept(around(in.ambient[c]) * in.decal[k], ways.steps, ways.bytes.overwriting), 0,
-                1);
-            continue;
-        }
         const Interval primary = q(decal * q(in.radiance[k]));
-        const Interval ambient = q(q(around(in.ambient[c])) * decal);
+        const Interval ambient = q(q(around(ambient_light[c])) * decal);
         const Interval shine = q(q(in.specular[c] * in.radiance[k]) * not_negative(dimmed));
         const Interval lit = q(q(diffuse) * primary);
         const Interval sum = cut(lit + ambient, ways, 0, 1);
@@ -241,23 +264,47 @@ Intervals in_four_stages(const LightingInputs& in, const Ways& ways) {
     return color;
 }
 
+/// Ambient light times the decal, over it all of the first light with both, and the others added.
+Intervals in_four_stages(AddedInputs at, const Ways& ways) {
+    const ByteBuffer buffer(ways);
+    const LightingInputs& first = at.front();
+    Intervals color;
+    if (first.lit) {
+        color = four_stages(first, first.ambient, ways); // registers hold what the buffer holds
+    } else {
+        for (std::size_t k = 0; k < 3; ++k)
+            color[k] =
+                buffer.overwritten(around(first.ambient[static_cast<int>(k)]) * first.decal[k]);
+    }
+    for (std::size_t i = 1; i < at.size(); ++i) {
+        if (!at[i].lit) continue;
+        const Intervals more = four_stages(at[i], glm::dvec3(0), ways);
+        for (std::size_t k = 0; k < 3; ++k) color[k] = buffer.added(color[k], more[k]);
+    }
+    for (Interval& channel : color) channel = clamped(channel, 0, 1);
+    return color;
+}
+
 [[maybe_unused]] bool reflects(const LightingInputs& in) {
     return std::ranges::any_of(in.reflection, [](const Interval& a) { return a.high > 0; });
 }
 
-Intervals color_of(ColorModel::Arithmetic arithmetic, const LightingInputs& in, const Ways& ways) {
-    assert(arithmetic == ColorModel::Arithmetic::floating || !reflects(in));
+} // namespace
+
+Intervals color_of(ColorModel::Arithmetic arithmetic, AddedInputs at, const Ways& ways) {
+    assert(!at.empty());
+    assert(arithmetic == ColorModel::Arithmetic::floating || !reflects(at.front()));
     switch (arithmetic) {
     case ColorModel::Arithmetic::floating:
         break;
     case ColorModel::Arithmetic::three_passes:
-        return in_float_passes(in, ways);
+        return in_float_passes(at, ways);
     case ColorModel::Arithmetic::two_stages:
-        return in_two_stages(in, ways);
+        return in_two_stages(at, ways);
     case ColorModel::Arithmetic::four_stages:
-        return in_four_stages(in, ways);
+        return in_four_stages(at, ways);
     }
-    return in_floats(in, ways);
+    return in_floats(at, ways);
 }
 
 Ways ways_of(const ColorModel& model) {
@@ -271,39 +318,13 @@ Ways ways_of(const ColorModel& model) {
             .bytes = model.bytes};
 }
 
-} // namespace
-
-std::string_view name_of(ColorTerm term) {
-    switch (term) {
-    case ColorTerm::normalisation:
-        return "normalisation";
-    case ColorTerm::vertices:
-        return "vertices";
-    case ColorTerm::tangents:
-        return "tangents";
-    case ColorTerm::bump_form:
-        return "bump_form";
-    case ColorTerm::bump_length:
-        return "bump_length";
-    case ColorTerm::steps:
-        return "steps";
-    case ColorTerm::self_shadow:
-        return "self_shadow";
-    case ColorTerm::clamping:
-        return "clamping";
-    case ColorTerm::interpolation:
-        break;
-    }
-    return "interpolation";
-}
-
-Intervals predicted_color(const ColorModel& model, const LightingInputs& claimed) {
+Intervals predicted_color(const ColorModel& model, AddedInputs claimed) {
     Intervals color = color_of(model.arithmetic, claimed, ways_of(model));
     for (Interval& channel : color) channel = widened(channel, v); // a claim is read as floats
     return color;
 }
 
-Intervals color_bound(const ColorModel& model, const LightingInputs& budgeted) {
+Intervals color_bound(const ColorModel& model, AddedInputs budgeted) {
     const bool floating = model.arithmetic == ColorModel::Arithmetic::floating;
     return color_of(model.arithmetic, budgeted,
                     {.steps = floating ? Steps::none : Steps::within, .bytes = model.bytes});
@@ -335,48 +356,6 @@ bool is_exact(const ColorModel& model, const Scene& scene) {
     return model.arithmetic == ColorModel::Arithmetic::floating &&
            model.normalisation == Normalisation::exact && is_given(model.bump_form) &&
            !is_off_by_nature(model, scene);
-}
-
-ColorTerms weights_of(const ColorModel& model, const LightingInputs& truth,
-                      const SingleStepInputs& single, const LightingInputs& claimed,
-                      const LightingInputs& freed) {
-    const ColorModel::Arithmetic arithmetic = model.arithmetic;
-    const Ways own = ways_of(model);
-    const glm::dvec3 right = middle(color_of(arithmetic, truth, {}));
-    ColorTerms weights{};
-    const auto weigh = [&](ColorTerm term, const LightingInputs& inputs, const Ways& ways) {
-        const glm::dvec3 off = glm::abs(middle(color_of(arithmetic, inputs, ways)) - right);
-        weights[static_cast<std::size_t>(term)] = std::max({off.x, off.y, off.z});
-    };
-    LightingInputs inputs = truth;
-    const auto weigh_vectors = [&](ColorTerm term, const LightingInputs& of) {
-        inputs.light = of.light;
-        inputs.half = of.half;
-        weigh(term, inputs, {});
-    };
-    weigh_vectors(ColorTerm::normalisation, single.normalised);
-    weigh_vectors(ColorTerm::vertices, single.at_vertices);
-    inputs.reflection = single.of_polygons.reflection;
-    weigh_vectors(ColorTerm::tangents, single.of_polygons);
-    const glm::dvec3 bump = middle(claimed.bump.box);
-    const double length = glm::length(bump);
-    inputs = truth;
-    inputs.reflection = single.normalised.reflection;
-    if (length > 0) inputs.bump = {around(bump / length)};
-    weigh(ColorTerm::bump_form, inputs, {});
-    inputs = truth;
-    inputs.bump = {around(length * middle(truth.bump.box))};
-    weigh(ColorTerm::bump_length, inputs, {});
-    weigh(ColorTerm::steps, truth, {.steps = own.steps, .bytes = own.bytes});
-    weigh(ColorTerm::self_shadow, truth, {.highlight_shadow = own.highlight_shadow});
-    weigh(ColorTerm::clamping, truth, {.clamps_early = own.clamps_early});
-    const Intervals centre = color_of(arithmetic, claimed, {});
-    const Intervals around_it = color_of(arithmetic, freed, {});
-    double& interpolation = weights[static_cast<std::size_t>(ColorTerm::interpolation)];
-    for (std::size_t k = 0; k < 3; ++k)
-        interpolation = std::max(
-            {interpolation, centre[k].low - around_it[k].low, around_it[k].high - centre[k].high});
-    return weights;
 }
 
 glm::dvec3 showable(const ColorModel& model, const glm::dvec3& color) {

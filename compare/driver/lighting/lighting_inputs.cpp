@@ -255,7 +255,7 @@ LightingVectors made_at_vertices(const LightingTables& tables, const ColorModel&
         return vector;
     };
     const VertexVectors made =
-        vertex_vectors(*tables.scene, point.triangle, corners, model.vectors, point.spread);
+        vertex_vectors(point.scene, point.triangle, corners, model.vectors, point.spread);
     return {on_seen_side(made.light), on_seen_side(made.half)};
 }
 
@@ -263,12 +263,11 @@ LightingVectors made_at_vertices(const LightingTables& tables, const ColorModel&
 /// vectors are made.
 LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
                           const InputPoint& given) {
-    const Scene& scene = *tables.scene;
     InputPoint point = given;
-    std::span<const Surface, 3> corners = corners_of(scene.surfaces, point.triangle);
+    std::span<const Surface, 3> corners = corners_of(given.scene.surfaces, point.triangle);
     if (model.tangents == TangentSource::polygons) {
         corners = corners_of(tables.polygon_surfaces, point.triangle);
-        point.interpolated = interpolated_at(scene, point.triangle, corners, point.spread);
+        point.interpolated = interpolated_at(given.scene, point.triangle, corners, point.spread);
         point.interpolated.tangent_off += polygon_tangent_error;
     }
     const TangentFrame world = frame_range(point);
@@ -280,7 +279,7 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
     inputs.half = vectors.half;
     inputs.bump = bump_range(tables, point, world);
     inputs.bump.distance += perturbed_normal_roundings * v;
-    add_surroundings(inputs, scene, point, world, model.reflects);
+    add_surroundings(inputs, point, world, model.reflects);
     return inputs;
 }
 
@@ -288,7 +287,7 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
 
 InputPoint input_point(const Scene& scene, const Shading& shading, std::uint32_t triangle,
                        const PixelSpread& spread) {
-    return {shading, triangle, spread,
+    return {scene, shading, triangle, spread,
             interpolated_at(scene, triangle, corners_of(scene.surfaces, triangle), spread)};
 }
 

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -31,6 +32,9 @@ struct LightingInputs {
     Highlight highlight; ///< as the scene has it
     bool lit = false;
 };
+/// Those of one pixel under each light that is added up, the chosen one last. Only vectors to the
+/// light, radiance, and whether it is seen, differ.
+using AddedInputs = std::span<const LightingInputs>;
 
 /// The tables of one scene and one colour model, made once. A model without reflections is not for
 /// a scene with an environment (suits in raster/technique.h).
@@ -50,8 +54,9 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
 RangeOf<glm::dvec2> slope_range(const LightingTables& tables, const Material& material,
                                 const PlaceRange& at);
 
-/// A point that is shaded, and what is interpolated there.
+/// A point that is shaded under a light, and what is interpolated there.
 struct InputPoint {
+    const Scene& scene;     ///< with that light chosen; else as the tables'
     const Shading& shading; ///< with all terms
     std::uint32_t triangle = 0;
     PixelSpread spread;

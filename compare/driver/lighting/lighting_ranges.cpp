@@ -172,8 +172,9 @@ Intervals reflection_range(const Scene& scene, const Material& material, const I
     return shown;
 }
 
-void add_surroundings(LightingInputs& inputs, const Scene& scene, const InputPoint& point,
-                      const TangentFrame& frame, bool reflects) {
+void add_surroundings(LightingInputs& inputs, const InputPoint& point, const TangentFrame& frame,
+                      bool reflects) {
+    const Scene& scene = point.scene;
     const Interpolated& at = point.interpolated;
     const Material& material = material_of(scene, point.triangle);
     inputs.radiance = radiance_range(scene, at);

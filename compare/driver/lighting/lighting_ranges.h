@@ -64,7 +64,7 @@ Intervals reflection_range(const Scene& scene, const Material& material, const I
 /// Fills in what truth and technique read alike at the point: incident light, decal, gloss,
 /// material and ambient light and, where the technique `reflects`, the environment. inputs.bump
 /// must be set. `frame`: takes the perturbed normal into world axes.
-void add_surroundings(LightingInputs& inputs, const Scene& scene, const InputPoint& point,
-                      const TangentFrame& frame, bool reflects);
+void add_surroundings(LightingInputs& inputs, const InputPoint& point, const TangentFrame& frame,
+                      bool reflects);
 
 } // namespace shadowproof

@@ -123,10 +123,57 @@ Stage bumpy_eye_inside() {
     return stage;
 }
 
+/// Two lights whose shadows cross: each surface is in none, in one or in both, and the spot's light
+/// is added to the key's.
+Stage bumpy_lights() {
+    Stage stage = lit_from_the_left("bumpy_lights",
+                                    "Bumps under two lights, whose light is added up and whose "
+                                    "shadows cross.");
+    stage.textures = {{"bumps", png_of(normal_map(64, 64, bumps(2, 2), 7))},
+                      {"stripes", png_of(glossy_stripes(64, 64, bumps(2, 2), {0.93, 0.79, 0.42},
+                                                        {0.55, 0.17, 0.21}))}};
+    add(stage, {{.name = "torus",
+                 .shape = textured_torus(1.187, 0.413, 48, 20, {12, 4}),
+                 .color = {0.95, 0.95, 0.95},
+                 .position = {-0.409, 0.447, 0.343},
+                 .turn_axis = {1, 0, 0},
+                 .turn = 0.0213,
+                 .look = {.bump = 0,
+                          .decal = 1,
+                          .gloss_in_alpha = true,
+                          .specular = glm::dvec3(0.9, 0.85, 0.8)}},
+                {.name = "ball",
+                 .shape = textured_ball({0.713, 0.713, 0.713}, 28, 18, Wearing::around, {6, 3}),
+                 .color = coral,
+                 .position = {-0.393, 1.257, 0.371},
+                 .turn_axis = {0.31, 0.83, 0.47},
+                 .turn = 0.7331,
+                 .look = bumpy},
+                {.name = "block",
+                 .shape = textured_box({0.313, 0.917, 0.313}, 3),
+                 .color = teal,
+                 .position = {1.513, 0.941, -0.371},
+                 .turn = 0.171,
+                 .look = bumpy}});
+    stage.target = {0.141, 0.641, 0.013};
+    stage.yfov = 0.3637;
+    stage.light.name = "key";
+    stage.light.color = {0.71, 0.63, 0.51};
+    stage.more_lights = {{.name = "spot",
+                          .type = "spot",
+                          .position = {4.171, 5.871, 5.313},
+                          .target = {0.313, 0.571, 0.171},
+                          .color = {0.37, 0.49, 0.67},
+                          .intensity = 900,
+                          .outer_cone = 0.2371,
+                          .moves_to = {}}};
+    return stage;
+}
+
 } // namespace
 
 std::vector<Stage> stages_of_shadowed_bumps() {
-    return {bumpy_near_plane(), bumpy_far_plane(), bumpy_eye_inside()};
+    return {bumpy_near_plane(), bumpy_far_plane(), bumpy_eye_inside(), bumpy_lights()};
 }
 
 } // namespace shadowproof::author

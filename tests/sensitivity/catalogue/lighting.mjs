@@ -1,6 +1,8 @@
 // The terms and tables of bump lighting.
 const glsl = 'raster/glsl/lighting/lighting.glsl';
 const cpp = 'raster/lighting/lighting.cpp';
+const uploads = 'raster/lighting/lit_scene.cpp';
+const ambientSet = 'set_color(gl, made.program, 23, is_added ? glm::dvec3(0) : scene.ambient);';
 const forms = 'scenes/surface/bump_forms.cpp';
 const cubes = 'scenes/surface/normalisation_cube.cpp';
 const inBytes = 'static_cast<float>(std::round(255 * number) / 255)';
@@ -52,8 +54,14 @@ export const faults = [
   { name: 'inverse_square_ignored', file: glsl, right: 'inverse_square ? light / dot(surface.to_light, surface.to_light) : light', wrong: 'light' },
   { name: 'inverse_distance', file: glsl, right: 'inverse_square ? light / dot(surface.to_light, surface.to_light) : light', wrong: 'inverse_square ? light / length(surface.to_light) : light' },
   { name: 'specular_color_ignored', file: glsl, right: 'specular * decal.a * specular_color', wrong: 'vec3(specular * decal.a)' },
-  { name: 'ambient_1_percent_off', file: cpp, right: 'set_color(gl, made.program, 23, scene.ambient);', wrong: 'set_color(gl, made.program, 23, 1.01 * scene.ambient);' },
-  { name: 'ambient_missing', file: cpp, right: 'set_color(gl, made.program, 23, scene.ambient);', wrong: ';' },
+  { name: 'ambient_1_percent_off', file: cpp, right: ambientSet, wrong: 'set_color(gl, made.program, 23, is_added ? glm::dvec3(0) : 1.01 * scene.ambient);' },
+  { name: 'ambient_missing', file: cpp, right: ambientSet, wrong: ';' },
+  { name: 'ambient_with_each_light', file: cpp, right: ambientSet, wrong: 'set_color(gl, made.program, 23, scene.ambient);' },
+  { name: 'another_light_overwrites', file: cpp, right: 'is_added ? LightingStep::Blend::add : step.blend', wrong: 'step.blend' },
+  { name: 'another_light_is_not_added', file: cpp, right: 'draw_step(gl, lights[light], lights[light].steps[each], scene);', wrong: 'if (light == 0) draw_step(gl, lights[light], lights[light].steps[each], scene);' },
+  { name: 'another_light_is_the_first', file: cpp, right: 'draw_step(gl, lights[light], lights[light].steps[each], scene);', wrong: 'draw_step(gl, lights[0], lights[0].steps[each], scene);' },
+  { name: 'another_lights_stencil_is_the_first', file: cpp, right: 'shadow(light);', wrong: 'shadow(0);' },
+  { name: 'shadows_of_the_last_light_for_all_highlights', file: cpp, right: 'shadow(light);', wrong: 'if (step < 2) shadow(light);', techniques: 'bump_three_pass,bump_three_pass_per_pixel,bump_three_pass+zpass' },
   { name: 'light_half_a_percent_off', file: cpp, right: 'inverse_square ? light.color * light.intensity : light.color', wrong: '(inverse_square ? light.color * light.intensity : light.color) * 1.005' },
   { name: 'specular_1_percent_off', file: cpp, right: 'set_color(gl, program, 7, material.specular);', wrong: 'set_color(gl, program, 7, 0.99 * material.specular);' },
   { name: 'reflectance_1_percent_off', file: cpp, right: 'set_color(gl, program, 24, material.reflectance);', wrong: 'set_color(gl, program, 24, 0.99 * material.reflectance);' },
@@ -105,8 +113,8 @@ export const faults = [
   { name: 'lit_in_shadow_too', file: cpp, right: 'gl.StencilFunc(run.receives ? GL_EQUAL : GL_ALWAYS, 0, ~0U);', wrong: 'gl.StencilFunc(GL_ALWAYS, 0, ~0U);' },
   { name: 'colors_cleared_to_red', file: cpp, right: clearing, wrong: 'constexpr std::array<GLfloat, 4> red{1, 0, 0, 0}; gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, red.data());' },
   { name: 'colors_cleared_a_step_off', file: cpp, right: clearing, wrong: 'constexpr std::array<GLfloat, 4> step{0, 0, 1 / 255.F, 0}; gl.ClearNamedFramebufferfv(target.lighting.name(), GL_COLOR, 0, step.data());' },
-  { name: 'cube_of_8_texels', file: cpp, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(8))' },
-  { name: 'cube_of_16_texels', file: cpp, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(16))' },
+  { name: 'cube_of_8_texels', file: uploads, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(8))' },
+  { name: 'cube_of_16_texels', file: uploads, right: cubeMade, wrong: 'upload_cube(gl, make_normalisation_cube(16))' },
   { name: 'cube_of_4_bits', file: cubes, right: compressed, wrong: 'static_cast<std::uint8_t>(17 * std::lround(15 * (0.5 + 0.5 * n[c])))' },
   { name: 'cube_of_6_bits', file: cubes, right: compressed, wrong: 'static_cast<std::uint8_t>(std::lround(255.0 / 63 * std::lround(63 * (0.5 + 0.5 * n[c]))))' },
   { name: 'cube_truncated', file: cubes, right: compressed, wrong: 'static_cast<std::uint8_t>(255 * (0.5 + 0.5 * n[c]))' },

@@ -62,5 +62,5 @@ export const faults = [
   { name: 'volume_picture_without_coincident', kind: 'figures', file: measure, right: shownDepth, wrong: 'gl.DepthFunc(reversed ? GL_GREATER : GL_LESS);' },
   { name: 'volume_picture_of_front_faces', kind: 'figures', file: measure, right: 'set_worth(gl, *pass, 1, 1);', wrong: 'set_worth(gl, *pass, 1, 0);' },
   { name: 'volume_picture_of_counters', kind: 'figures', file: measure, right: 'read_sum(gl, target)', wrong: 'converted<float>(frame.counted->counter, [](std::uint32_t counted) { return static_cast<float>(counted); })' },
-  { name: 'volumes_measured_without_turned', kind: 'figures', file: 'raster/volumes/stencil.cpp', right: 'part->volumes.draw();\n                    part->volumes.draw_flipped();', wrong: 'part->volumes.draw();' },
+  { name: 'volumes_measured_without_turned', kind: 'figures', file: 'raster/volumes/counted_light.cpp', right: 'part->volumes.draw();\n                part->volumes.draw_flipped();', wrong: 'part->volumes.draw();' },
 ].map((fault) => ({ kind: 'numbers', ...fault }));

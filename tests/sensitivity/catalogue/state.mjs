@@ -1,5 +1,6 @@
 // What a technique sets in OpenGL.
-const file = 'raster/volumes/stencil.cpp';
+const file = 'raster/volumes/counted_light.cpp';
+const shadows = 'raster/volumes/stencil.cpp';
 const passes = 'raster/passes/passes.cpp';
 const steps = 'return test == Counting::Test::depth_pass ? Steps{+1, -1} : Steps{-1, +1};';
 const wrap = 'return step > 0 ? GL_INCR_WRAP : GL_DECR_WRAP;';
@@ -11,6 +12,7 @@ const tested = 'gl.StencilFunc(stencil ? GL_EQUAL : GL_ALWAYS, 0, ~0U);';
 const mask = 'gl.StencilMask((1U << static_cast<unsigned>(recipe.counting.bits)) - 1);';
 const clearDepth = 'gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);';
 const clearColor = 'gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());';
+const clearStencil = 'gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &value);';
 const lightDepth = 'gl.DepthFunc(GL_EQUAL);';
 export const faults = [
   { name: 'steps_exchanged', file, right: steps, wrong: 'return test == Counting::Test::depth_pass ? Steps{-1, +1} : Steps{+1, -1};' },
@@ -35,12 +37,16 @@ export const faults = [
   { name: 'near_not_hidden_under_clamp', file, right: 'if (clamp) visible.near = static_cast<float>(camera.near);', wrong: 'static_cast<void>(clamp);', why: 'No bundled scene has a surface before the near plane where depths are clamped.' },
   { name: 'far_not_hidden', file, right: 'if (clamp || !recipe.depth_model.finite()) visible.far = static_cast<float>(camera.far);', wrong: ';' },
   { name: 'far_hidden_early', file, right: 'if (clamp || !recipe.depth_model.finite()) visible.far = static_cast<float>(camera.far);', wrong: 'visible.far = static_cast<float>(0.999 * camera.far);' },
-  { name: 'flipped_sides_not_flipped', file, right: 'set_steps(gl, kind, part->caster.test, {.front = steps.back, .back = steps.front});', wrong: ';' },
-  { name: 'occluders_count_down', techniques: 'zp_plus', file, right: 'gl.StencilOp(GL_KEEP, GL_KEEP, operation(+1, kind));', wrong: 'gl.StencilOp(GL_KEEP, GL_KEEP, operation(-1, kind));' },
-  { name: 'eye_count_one_more', techniques: 'zpass_eye_count', file, right: 'start = static_cast<std::uint8_t>(volumes_around_eye(parts.front()->scene));', wrong: 'start = static_cast<std::uint8_t>(1 + volumes_around_eye(parts.front()->scene));' },
-  { name: 'eye_count_left_out', techniques: 'zpass_eye_count', file, right: 'start = static_cast<std::uint8_t>(volumes_around_eye(parts.front()->scene));', wrong: ';' },
-  { name: 'no_ledge', techniques: 'zpass_capped', file, right: 'gl.DepthRange(recipe.depth_model.front, 1);', wrong: 'gl.DepthRange(0, 1);' },
-  { name: 'sum_depth_or_equal', techniques: 'zfail_float', file, right: 'const GLenum others = recipe.depth_model.reversed() ? GL_LEQUAL : GL_GEQUAL;'.replace(/^.*= (.*);$/, '$1'), wrong: 'recipe.depth_model.reversed() ? GL_LESS : GL_GREATER' },
+  { name: 'flipped_sides_not_flipped', file, right: 'set_steps(gl_, kind, part->caster.test, {.front = steps.back, .back = steps.front});', wrong: ';' },
+  { name: 'occluders_count_down', techniques: 'zp_plus', file, right: 'gl_.StencilOp(GL_KEEP, GL_KEEP, operation(+1, kind));', wrong: 'gl_.StencilOp(GL_KEEP, GL_KEEP, operation(-1, kind));' },
+  { name: 'eye_count_one_more', techniques: 'zpass_eye_count', file, right: 'start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));', wrong: 'start_ = static_cast<std::uint8_t>(1 + volumes_around_eye(parts_.front()->scene));' },
+  { name: 'eye_count_left_out', techniques: 'zpass_eye_count', file, right: 'start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));', wrong: ';' },
+  { name: 'no_ledge', techniques: 'zpass_capped', file, right: 'gl_.DepthRange(recipe_.depth_model.front, 1);', wrong: 'gl_.DepthRange(0, 1);' },
+  { name: 'sum_depth_or_equal', techniques: 'zfail_float', file, right: 'const GLenum others = recipe_.depth_model.reversed() ? GL_LEQUAL : GL_GEQUAL;'.replace(/^.*= (.*);$/, '$1'), wrong: 'recipe_.depth_model.reversed() ? GL_LESS : GL_GREATER' },
+  { name: 'stencil_of_the_light_before', file: passes, right: clearStencil, wrong: ';' },
+  { name: 'another_light_starts_from_1', file: passes, right: clearStencil, wrong: 'const GLint one = value + 1; gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &one);' },
+  { name: 'claim_of_the_light_before', file: shadows, right: 'take_unlit(gl, target, claims);', wrong: ';' },
+  { name: 'claims_not_kept', file: shadows, right: 'keep_claim(gl, target, claims, light);', wrong: ';' },
 
   { name: 'clip_control_minus_one', file: passes, right: 'gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);', wrong: 'gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);' },
   { name: 'clip_control_upper_left', file: passes, right: 'gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);', wrong: 'gl.ClipControl(GL_UPPER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);' },

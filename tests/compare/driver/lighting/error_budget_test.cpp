@@ -4,6 +4,7 @@
 #include "compare/driver/lighting/lighting_tables.h"
 #include "reference/trace/trace.h"
 #include "scenes/load/catalog.h"
+#include "tests/compare/driver/lighting/one_light.h"
 #include "tests/dice.h"
 
 #include <gtest/gtest.h>
@@ -177,15 +178,15 @@ TEST(ErrorBudget, knows_nothing_of_what_stands_in_the_tables) {
     wrong.cube = with_bits(wrong.cube, 2);
     bool claims_differ = false;
     pixel.visit([&](const InputPoint& point) {
-        const Intervals bound = color_bound(combiners, budgeted_inputs(tables, point));
-        const Intervals same = color_bound(combiners, budgeted_inputs(wrong, point));
+        const Intervals bound = tests::bound_by_one(combiners, budgeted_inputs(tables, point));
+        const Intervals same = tests::bound_by_one(combiners, budgeted_inputs(wrong, point));
         for (std::size_t k = 0; k < 3; ++k) {
             ASSERT_EQ(bound[k].low, same[k].low);
             ASSERT_EQ(bound[k].high, same[k].high);
         }
-        claims_differ =
-            claims_differ || predicted_color(combiners, claimed_inputs(tables, point))[0].low !=
-                                 predicted_color(combiners, claimed_inputs(wrong, point))[0].low;
+        claims_differ = claims_differ ||
+                        tests::predicted_by_one(combiners, claimed_inputs(tables, point))[0].low !=
+                            tests::predicted_by_one(combiners, claimed_inputs(wrong, point))[0].low;
     });
     EXPECT_TRUE(claims_differ);
 }
@@ -204,7 +205,8 @@ TEST(ErrorBudget, holds_the_truth_under_every_setting) {
                                            .bump_form = form};
                     const LightingTables tables = make_lighting_tables(pixel.scene, model);
                     pixel.visit([&](const InputPoint& point) {
-                        const Intervals bound = color_bound(model, budgeted_inputs(tables, point));
+                        const Intervals bound =
+                            tests::bound_by_one(model, budgeted_inputs(tables, point));
                         const glm::dvec3 truth = showable(model, point.shading.color());
                         for (std::size_t k = 0; k < 3; ++k)
                             ASSERT_TRUE(
@@ -222,7 +224,7 @@ TEST(ErrorBudget, holds_the_truth_for_any_cube_and_any_number_of_steps) {
         EXPECT_EQ(tables.cube.size,
                   model.normalisation == Normalisation::cube_map ? model.cube_size : 0);
         pixel.visit([&](const InputPoint& point) {
-            const Intervals bound = color_bound(model, budgeted_inputs(tables, point));
+            const Intervals bound = tests::bound_by_one(model, budgeted_inputs(tables, point));
             const glm::dvec3 truth = showable(model, point.shading.color());
             for (std::size_t k = 0; k < 3; ++k)
                 ASSERT_TRUE(widened(bound[k], 1e-6).contains(truth[static_cast<int>(k)]))

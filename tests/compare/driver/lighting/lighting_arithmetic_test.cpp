@@ -1,5 +1,6 @@
 // What the judge admits of a driver that keeps colours in bytes.
 #include "compare/driver/lighting/lighting_arithmetic.h"
+#include "tests/compare/driver/lighting/one_light.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ std::ostream& operator<<(std::ostream& out, const Bytes& bytes) {
 
 Bytes admitted(ColorModel::Arithmetic arithmetic, const ByteErrors& bytes, double steps) {
     const ColorModel model{.arithmetic = arithmetic, .bytes = bytes};
-    const Interval red = predicted_color(model, shadowed(steps))[0];
+    const Interval red = tests::predicted_by_one(model, shadowed(steps))[0];
     return {static_cast<int>(std::ceil(255 * red.low)),
             static_cast<int>(std::floor(255 * red.high))};
 }
