@@ -40,8 +40,11 @@ struct Part {
     const char* remedy = "";
 };
 
-/// Bytes per pixel of each light before the chosen one: its truth and its claim.
+/// Bytes per pixel of each light before the chosen one: its truth and, in the program and in
+/// OpenGL, its claim.
 constexpr std::uint64_t pixel_bytes_of_light = 20;
+/// Once, where there are such lights: the sum of what they add, and what an .exr holds of it.
+constexpr std::uint64_t pixel_bytes_of_sum = 24 + 12;
 
 std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     const bool lit = is_bump_lit(scene);
@@ -59,7 +62,8 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
     const std::uint64_t lights = std::max<std::size_t>(added_lights(scene), 1);
     // Truth and techniques hold the scene once for each light before the chosen one.
     const std::uint64_t copies = 2 * (lights - 1);
-    return {Part{pixels * (pixel_bytes(work, lit) + (lights - 1) * pixel_bytes_of_light),
+    return {Part{pixels * (pixel_bytes(work, lit) + (lights - 1) * pixel_bytes_of_light +
+                           (lights > 1 ? pixel_bytes_of_sum : 0)),
                  fmt::format("a picture of {}x{}", scene.camera.width, scene.camera.height),
                  "try a smaller --size"},
             Part{lights * (triangles * triangle_bytes(work, lit) +
@@ -67,7 +71,7 @@ std::array<Part, 3> parts_of(const Scene& scene, Workload work) {
                            scene.surfaces.size() * sizeof(Surface) * 2),
                  fmt::format("{} triangles", triangles), "give the scene fewer triangles"},
             Part{texels * (texel_bytes(work) + (1 + copies) * sizeof(glm::vec4)) +
-                     of_masks * copies_of_masks * sizeof(float),
+                     of_masks * lights * copies_of_masks * sizeof(float),
                  fmt::format("{} texels", texels + of_masks), "make its textures smaller"}};
 }
 
@@ -82,9 +86,9 @@ std::size_t pixel_bytes(Workload work, bool lit) {
     case Workload::colors:
         return 56;
     case Workload::terms:
-        return 470;
+        return 494;
     case Workload::lit_truth:
-        return 690;
+        return 714;
     case Workload::comparison:
         break;
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -82,24 +83,41 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
                 "name bump_reflective, or take extras.shadowproof.environment out of the file");
 }
 
-} // namespace
-
-namespace {
-
-Plan plan_under(const Scene& scene, const Plan& asked) {
-    Plan plan = make_plan(scene);
-    plan.asked = asked.asked;
-    return plan;
+/// A recipe for each light, the chosen one last, all to the same depths: the surfaces are drawn
+/// once.
+std::vector<StencilRecipe> recipes_of(const Technique& technique, const Scene& scene,
+                                      const std::vector<Scene>& others, const Plan& plan) {
+    std::vector<Plan> plans;
+    for (const Scene& other : others) {
+        plans.push_back(make_plan(other));
+        plans.back().asked = plan.asked;
+    }
+    plans.push_back(plan);
+    const auto made = [&] {
+        std::vector<StencilRecipe> recipes;
+        for (std::size_t i = 0; i < plans.size(); ++i)
+            recipes.push_back(technique.recipe(i < others.size() ? others[i] : scene, plans[i]));
+        return recipes;
+    };
+    std::vector<StencilRecipe> recipes = made();
+    if (std::ranges::all_of(recipes, [&](const StencilRecipe& recipe) {
+            return recipe.depth_model == recipes.back().depth_model;
+        }))
+        return recipes;
+    for (Plan& each : plans) each.to_infinity = true;
+    return made();
 }
 
 Frame draw_by_stencil(Gpu& gpu, const Technique& technique, const Scene& scene, const Plan& plan) {
-    StencilRecipe recipe = technique.recipe(scene, plan);
-    if (technique.lighting == nullptr) return draw_stencil_shadows(gpu, scene, recipe);
-    recipe.lighting = technique.lighting(plan);
+    if (technique.lighting == nullptr)
+        return draw_stencil_shadows(gpu, scene, technique.recipe(scene, plan));
     const std::vector<Scene> others = under_lights_before(scene);
+    std::vector<StencilRecipe> recipes = recipes_of(technique, scene, others, plan);
+    StencilRecipe recipe = std::move(recipes.back());
+    recipe.lighting = technique.lighting(plan);
     std::vector<StencilLight> before;
-    for (const Scene& other : others)
-        before.push_back({other, technique.recipe(other, plan_under(other, plan))});
+    for (std::size_t i = 0; i < others.size(); ++i)
+        before.push_back({others[i], std::move(recipes[i])});
     return draw_stencil_shadows(gpu, scene, recipe, before);
 }
 

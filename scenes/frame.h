@@ -42,12 +42,6 @@ struct Stage {
     double milliseconds = 0;
 };
 
-/// A light that was drawn before the one that is judged.
-struct LightBefore {
-    Image<Visibility> claim;
-    DepthModel depth_model; ///< by which its depths were made
-};
-
 struct Frame {
     /// The name of its family of claims (compare/families.inc), which decides how it is judged.
     std::string_view family;
@@ -67,7 +61,7 @@ struct Frame {
     ColorModel color_model{}; ///< how they were made
     /// What is claimed under the lights before the chosen one, in their order, where the colours
     /// add them up (added_lights in scene.h).
-    std::vector<LightBefore> lights_before{};
+    std::vector<Image<Visibility>> claims_before{};
     // The evidence, one member per family that has any:
     std::optional<CounterEvidence> counted;  ///< shadow volumes: the counter read back
     std::optional<PicturedShadows> pictured; ///< pictures: how bright they are

@@ -187,7 +187,7 @@ struct MapEvidence {
     std::vector<Image<float>> faces;
     DepthFormat format{};        ///< of the texture, as the driver names it
     OffsetUnit offset_unit{};    ///< of the driver, where the model asks for units
-    double map_milliseconds = 0; ///< drawing the map, in a frame that waited for it
+    double map_milliseconds = 0; ///< drawing the maps of all lights, in a frame that waited for it
 };
 
 /// The values of the source documents where the user asked for nothing: the bias is 0.15 world

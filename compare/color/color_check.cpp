@@ -177,10 +177,10 @@ void count(ColorCheck& check, const Image<float>& bound_widths) {
                          .widest = percentile(widths, 1000)};
 }
 
-LightAdded added(const TracedLight& light, const LightBefore& claimed) {
-    LightAdded added{.name = chosen_light(light.scene).name};
-    for (std::size_t i = 0; i < claimed.claim.pixels.size(); ++i)
-        added.differing += claimed.claim.pixels[i] != light.truth.visibility.pixels[i] ? 1 : 0;
+LightAdded added(const TracedLight& light, const Image<Visibility>& claim) {
+    LightAdded added{.name = chosen_light(light.scene).choice};
+    for (std::size_t i = 0; i < claim.pixels.size(); ++i)
+        added.differing += claim.pixels[i] != light.truth.visibility.pixels[i] ? 1 : 0;
     return added;
 }
 
@@ -196,10 +196,11 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     ColorCheck check;
     check.model = frame.color_model;
     for (std::size_t i = 0; i < before.size(); ++i)
-        check.lights_before.push_back(added(*before[i], frame.lights_before[i]));
+        check.lights_before.push_back(added(*before[i], frame.claims_before[i]));
     check.error = Image<float>(width, height);
     check.verdict = Image<ColorVerdict>(width, height, ColorVerdict::as_shown);
     Image<float> widths(width, height);
+    const AddedShader first_shader(tracer, before);
     std::vector<std::unique_ptr<AddedShader>> shaders(static_cast<std::size_t>(tracer.threads()));
     std::vector<RowSums> rows(static_cast<std::size_t>(height));
     std::uint64_t unpredicted = 0;
@@ -208,7 +209,7 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
         const Scrutiny scrutiny = scrutiny_after(unpredicted);
         parallel_for(count, tracer.threads(), [&](int i, int thread) {
             std::unique_ptr<AddedShader>& shader = shaders[static_cast<std::size_t>(thread)];
-            if (!shader) shader = std::make_unique<AddedShader>(tracer, before);
+            if (!shader) shader = std::make_unique<AddedShader>(first_shader);
             const int y = first + i;
             rows[static_cast<std::size_t>(y)] =
                 check_row(judge, picture, y, scrutiny, *shader, check, widths);

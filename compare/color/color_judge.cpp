@@ -60,11 +60,10 @@ ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Tra
                        const Frame& frame)
     : tracer_(tracer), scene_(tracer.scene()), truth_(truth), frame_(frame),
       tables_(make_lighting_tables(scene_, frame.color_model)) {
-    assert(before.size() == frame.lights_before.size());
+    assert(before.size() == frame.claims_before.size());
     for (std::size_t i = 0; i < before.size(); ++i)
-        lights_.push_back({before[i]->scene, before[i]->truth, frame.lights_before[i].claim,
-                           frame.lights_before[i].depth_model});
-    lights_.push_back({scene_, truth, frame.claim, frame.depth_model});
+        lights_.push_back({before[i]->scene, before[i]->truth, frame.claims_before[i]});
+    lights_.push_back({scene_, truth, frame.claim});
 }
 
 bool ColorJudge::is_as_true(int x, int y) const {
@@ -116,22 +115,19 @@ double ColorJudge::depth(int x, int y) const {
     return glm::dot(a, normal) / glm::dot(direction(x, y), normal);
 }
 
-/// Of all lights, which may be drawn by different projections.
 double ColorJudge::lateral(int x, int y) const {
-    const glm::dvec3 at = scene_.camera.eye + depth(x, y) * direction(x, y);
-    double largest = 0;
-    for (const AddedLight& light : lights_)
-        largest = std::max(largest, lateral_error(scene_, light.depth_model, at));
-    return largest;
+    return lateral_error(scene_, frame_.depth_model,
+                         scene_.camera.eye + depth(x, y) * direction(x, y));
 }
 
+/// Of all lights, to which other vectors are interpolated each.
 double ColorJudge::share(int x, int y) const {
+    const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     const double aside = lateral(x, y);
     double largest = 0;
     for (const AddedLight& light : lights_) {
-        const double error = attribute_error(
-            light.scene, shown(x, y),
-            {direction(x, y), aside, drawing_of(scene_, light.depth_model, scene_.camera.far)});
+        const double error =
+            attribute_error(light.scene, shown(x, y), {direction(x, y), aside, drawing});
         if (!std::isfinite(error)) return error;
         largest = std::max(largest, error);
     }

@@ -72,7 +72,6 @@ private:
         const Scene& scene; ///< with it chosen
         const GroundTruth& truth;
         const Image<Visibility>& claim;
-        const DepthModel& depth_model; ///< by which its light was drawn
     };
 
     const Tracer& tracer_;

@@ -7,6 +7,7 @@
 #include "compare/command/process/console.h"
 #include "compare/command/process/exit_code.h"
 #include "compare/command/process/standard_output.h"
+#include "compare/command/scene_result.h"
 #include "compare/families.h"
 #include "compare/memory.h"
 #include "compare/output/write_file.h"
@@ -266,6 +267,8 @@ std::string as_text(const Scene& scene, const PixelRecord& record,
                                    record.y, scene.camera.width, scene.camera.height);
     for (const std::string& note : scene.notes)
         text += fmt::format("  note      {}\n", printable(note));
+    if (const auto note = note_on_added_lights(scene))
+        text += fmt::format("  note      {}\n", printable(*note));
     return text + ray_text(scene, record) + ledger_text(scene, record) + masks_text(record) +
            techniques_text(techniques);
 }

@@ -39,15 +39,15 @@ void describe(SceneResult& result, const Scene& scene) {
     result.meshes = scene.meshes;
     result.provokes = names_of(scene.provokes);
     result.notes = scene.notes;
-    if (const auto note = note_on_added_lights(scene)) result.notes.push_back(*note);
 }
 
 std::optional<std::string> note_on_added_lights(const Scene& scene) {
     if (added_lights(scene) < 2) return std::nullopt;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i + 1 < added_lights(scene); ++i) names.push_back(scene.lights[i].name);
+    for (std::size_t i = 0; i + 1 < added_lights(scene); ++i)
+        names.push_back(scene.lights[i].choice);
     return fmt::format("colours add the light of {} to that of {}", fmt::join(names, ", "),
-                       chosen_light(scene).name);
+                       chosen_light(scene).choice);
 }
 
 std::string content_of(const Scene& scene) {

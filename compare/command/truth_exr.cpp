@@ -104,6 +104,12 @@ LitPixel lit_pixel(const Pixel& pixel, const Shading& shading) {
     return lit;
 }
 
+SumPixel sum_pixel(const Pixel& pixel, const Shading& shading) {
+    SumPixel sum{lit_pixel(pixel, shading), {}};
+    put(sum.before, shading.before_color);
+    return sum;
+}
+
 template <class T>
 void write_pixels(const PictureLayout& layout, const Image<T>& picture,
                   const std::filesystem::path& file) {
@@ -119,16 +125,15 @@ void write_truth_exr(const Scene& scene, const GroundTruth& truth, const Image<S
         for (int x = 0; x < picture.width; ++x) picture.at(x, y) = pixel_of(scene, truth, x, y);
     const bool lit = !shadings.pixels.empty();
     if (!lit) return write_pixels(layout_of(scene, lit), picture, file);
-    Image<LitPixel> lit_picture(picture.width, picture.height);
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-        lit_picture.pixels[i] = lit_pixel(picture.pixels[i], shadings.pixels[i]);
-    if (added_lights(scene) < 2) return write_pixels(layout_of(scene, lit), lit_picture, file);
-    Image<SumPixel> sum_picture(picture.width, picture.height);
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        sum_picture.pixels[i].lit = lit_picture.pixels[i];
-        put(sum_picture.pixels[i].before, shadings.pixels[i].before_color);
-    }
-    write_pixels(layout_of(scene, lit), sum_picture, file);
+    const auto write = [&](auto lit_picture, const auto& pixel) {
+        for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+            lit_picture.pixels[i] = pixel(picture.pixels[i], shadings.pixels[i]);
+        write_pixels(layout_of(scene, lit), lit_picture, file);
+    };
+    if (added_lights(scene) < 2)
+        write(Image<LitPixel>(picture.width, picture.height), lit_pixel);
+    else
+        write(Image<SumPixel>(picture.width, picture.height), sum_pixel);
 }
 
 } // namespace shadowproof

@@ -9,7 +9,6 @@
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -131,17 +130,13 @@ struct MappedLight {
     /// Shows what is lit as such. Surfaces must be drawn.
     void draw_lit(const Target& target) const {
         gl.BindTextureUnit(2, map.texture.name());
+        gl.BindTextureUnit(3, map.ramp.name()); // lighting binds another there
         if (in_stencil) draw_into_stencil(gl, shadow, target, geometry);
         draw_light(gl, light, target, geometry, in_stencil ? Counter::stencil : Counter::none);
         gl.BindTextureUnit(2, 0);
         gl.BindTextureUnit(3, 0);
     }
 };
-
-DepthModel with_bits(DepthModel depths, Gpu& gpu) {
-    depths.subpixel_bits = gpu.driver().subpixel_bits;
-    return depths;
-}
 
 MapModel model_of(const MapRecipe& recipe, const Plan& plan, const Scene& scene) {
     return with_settings(recipe.model, plan.asked.map, scene);
@@ -190,30 +185,33 @@ struct Frames {
 
     /// Draws the claim of a light and, where bumps are lit, the stencil that it makes.
     void draw_shadows(std::size_t light, StageClock& clock) {
-        MappedLight& mapped = *lights[light];
-        begin_frame(gl, target, mapped.geometry, depth_model);
-        if (light == 0) {
-            draw_surface(gl, surface, target, mapped.geometry, depth_model, visible, 0);
-            keep_unlit(gl, target, claims);
-        } else {
-            clear_stencil(gl, target, 0);
-            take_unlit(gl, target, claims);
-        }
-        clock.end("surface");
-        mapped.draw_lit(target);
+        lights[light]->draw_lit(target);
         keep_claim(gl, target, claims, light);
         clock.end("classes");
         if (!lighting.empty()) keep_claim_in_stencil(gl, not_lit, target);
     }
 
+    /// Once more, or of another light, over the same surfaces.
+    void draw_shadows_anew(std::size_t light, StageClock& clock) {
+        begin_frame(gl, target, lights[light]->geometry, depth_model);
+        clear_stencil(gl, target, 0);
+        take_unlit(gl, target, claims);
+        draw_shadows(light, clock);
+    }
+
     void draw(StageClock& clock) {
         for (const auto& light : lights) draw_map(gl, light->map, light->geometry);
         clock.end("map");
+        const Geometry& geometry = lights.front()->geometry;
+        begin_frame(gl, target, geometry, depth_model);
+        draw_surface(gl, surface, target, geometry, depth_model, visible, 0);
+        keep_unlit(gl, target, claims);
+        clock.end("surface");
         draw_shadows(0, clock);
         if (lighting.empty()) return;
         draw_lighting(gl, lighting, scene, target, [&](std::size_t light) {
             clock.end("lighting");
-            draw_shadows(light, clock);
+            draw_shadows_anew(light, clock);
         });
         gl.BindVertexArray(lights.back()->geometry.vertices.name());
         clock.end("lighting");
@@ -237,8 +235,7 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
         frame.color_model = recipe.lighting->model;
         frame.color_model.bytes = gpu.byte_errors();
     }
-    for (Image<Visibility>& claim : read_claims(gl, frames.target, frames.claims))
-        frame.lights_before.push_back({std::move(claim), with_bits(frames.depth_model, gpu)});
+    frame.claims_before = read_claims(gl, frames.target, frames.claims);
     frame.family = "map";
     frame.mapped =
         MapEvidence{.model = model,
@@ -248,7 +245,8 @@ Frame draw_map_shadows(Gpu& gpu, const Scene& scene, const Plan& plan, const Map
                                                            : OffsetUnit{},
                     .map_milliseconds = time.stages.front().milliseconds};
     if (model.filter > 0) frame.share = take_shares(model, frame.claim);
-    frame.depth_model = with_bits(frames.depth_model, gpu);
+    frame.depth_model = frames.depth_model;
+    frame.depth_model.subpixel_bits = gpu.driver().subpixel_bits;
     frame.milliseconds = time.milliseconds;
     frame.stages = time.stages;
     end_frame(gl);

@@ -101,7 +101,7 @@ StencilRecipe recipe_by(const Scene& scene, const Plan& plan,
     made.sides = VolumeFaces::Sides::half_edges;
     made.counting.dark_cap = true;
     made.counting.casters = counted_as(scene, plans);
-    if (std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
+    if (!plan.to_infinity && std::none_of(plans.begin(), plans.end(), is_counted_behind)) {
         // Faces past the far plane are not counted.
         made.counting.test = Counting::Test::depth_pass;
         made.depth_model.projection = DepthModel::Projection::finite_reversed;

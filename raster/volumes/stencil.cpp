@@ -5,6 +5,7 @@
 #include "raster/volumes/counted_light.h"
 #include "scenes/plan/plan.h"
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 
@@ -16,16 +17,14 @@ namespace {
 struct Frames {
     const GlFunctions& gl;
     const Scene& scene;
-    const StencilRecipe& recipe;
     Target target;
     std::vector<std::unique_ptr<CountedLight>> lights; ///< the chosen one last
     KeptClaims claims;
     std::vector<LightingPass> lighting; ///< one per light, or none
-    std::size_t shown = 0;              ///< the light to whose depths the surfaces are drawn
 
     Frames(Gpu& gpu, const Scene& drawn, const StencilRecipe& with,
            std::span<const StencilLight> before)
-        : gl(gpu.gl()), scene(drawn), recipe(with),
+        : gl(gpu.gl()), scene(drawn),
           target(make_target(gl, drawn.camera, with.depth_model.floating)) {
         add_sum(gl, target);
         for (const StencilLight& light : before)
@@ -45,38 +44,35 @@ struct Frames {
     Frames(const Frames&) = delete;
     Frames& operator=(const Frames&) = delete;
 
-    const DepthModel& depths_of(std::size_t light) const {
-        return lights[light]->recipe().depth_model;
-    }
-
     /// Counts a light's volumes, and shows where it is lit.
     void draw_shadows(std::size_t light, StageClock& clock) {
-        CountedLight& counted = *lights[light];
-        counted.begin();
-        if (light == 0 || depths_of(light) != depths_of(shown)) {
-            counted.draw_surfaces();
-            keep_unlit(gl, target, claims);
-            shown = light;
-        } else {
-            counted.clear_stencil();
-            take_unlit(gl, target, claims);
-        }
-        clock.end("surface");
-        counted.count();
+        lights[light]->count();
         clock.end("counting");
-        counted.draw_lit();
+        lights[light]->draw_lit();
         keep_claim(gl, target, claims, light);
         clock.end("classes");
+    }
+
+    /// Once more, or of another light, over the same surfaces.
+    void draw_shadows_anew(std::size_t light, StageClock& clock) {
+        lights[light]->begin();
+        lights[light]->clear_stencil();
+        take_unlit(gl, target, claims);
+        draw_shadows(light, clock);
     }
 
     void draw(StageClock& clock) {
         for (const auto& light : lights) light->update();
         clock.end("volumes");
+        lights.front()->begin();
+        lights.front()->draw_surfaces();
+        keep_unlit(gl, target, claims);
+        clock.end("surface");
         draw_shadows(0, clock);
         if (lighting.empty()) return;
         draw_lighting(gl, lighting, scene, target, [&](std::size_t light) {
             clock.end("lighting");
-            draw_shadows(light, clock);
+            draw_shadows_anew(light, clock);
         });
         lights.back()->begin(); // what is drawn to show the volumes needs their vertices
         clock.end("lighting");
@@ -103,7 +99,10 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
            (recipe.counting.operation == Counting::Operation::wrap &&
             recipe.counting.start == Counting::Start::zero && recipe.counting.bits == 24));
     assert(!recipe.lighting || recipe.counter == Counter::stencil);
-    assert(before.empty() || recipe.lighting);
+    assert(std::ranges::all_of(before, [&](const StencilLight& light) {
+        return recipe.lighting && light.recipe.depth_model == recipe.depth_model &&
+               light.recipe.making == recipe.making;
+    }));
     Frames frames(gpu, scene, recipe, before);
     const GlFunctions& gl = gpu.gl();
     const auto draw = [&](StageClock& clock) { frames.draw(clock); };
@@ -115,11 +114,7 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
         frame.color_model = recipe.lighting->model;
         frame.color_model.bytes = gpu.byte_errors();
     }
-    for (Image<Visibility>& claim : read_claims(gl, frames.target, frames.claims)) {
-        DepthModel depths = before[frame.lights_before.size()].recipe.depth_model;
-        depths.subpixel_bits = gpu.driver().subpixel_bits;
-        frame.lights_before.push_back({std::move(claim), depths});
-    }
+    frame.claims_before = read_claims(gl, frames.target, frames.claims);
     frame.family = "stencil";
     frame.counted->counting = recipe.counting;
     frame.counted->volume_faces = faces_of(recipe);

@@ -43,8 +43,8 @@ struct StencilLight {
 /// Draws one pixel of the frame, so that the driver finishes deferred compilation. Then draws the
 /// whole as often as the Gpu times frames, including the making of what depends on the light; the
 /// quickest is the time. Reads back the pictures, and draws the volumes once more to show and to
-/// measure them. `before`: only where the recipe lights bumps; the depth formats must be the same.
-/// Throws Error where the driver fails.
+/// measure them. `before`: only where the recipe lights bumps; all must make volumes alike, and be
+/// drawn to the same depths. Throws Error where the driver fails.
 Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& recipe,
                            std::span<const StencilLight> before = {});
 

@@ -6,25 +6,28 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace shadowproof {
 
-/// A shader of each light, the chosen one's last. For one thread.
+/// For one thread.
 class AddedShader {
 public:
     AddedShader(const Tracer& tracer, const TracedLights& before);
+    /// For another thread; shares what it is made of.
+    AddedShader(const AddedShader& other);
+    AddedShader& operator=(const AddedShader&) = delete;
+    ~AddedShader();
 
-    std::size_t lights() const { return shaders_.size(); }
+    /// The tracer's own and those before it.
+    std::size_t lights() const;
 
-    /// `points`, `shadings`: of each place one per light, side by side. The last of a place holds
-    /// in before_color what the others add.
+    /// `points`, `shadings`: of each place one per light, side by side, the tracer's own last. The
+    /// last of a place holds in before_color what the others add.
     void shade(std::span<const SeenPoint> points, std::span<Shading> shadings);
 
 private:
-    std::vector<std::unique_ptr<RayShader>> shaders_;
-    std::vector<SeenPoint> points_; ///< of one light
-    std::vector<Shading> shadings_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace shadowproof

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace shadowproof {
 
@@ -44,16 +45,24 @@ T blend(const glm::dvec3& weights, const std::array<T, 3>& values) {
 } // namespace
 
 ShadingTables make_shading_tables(const Tracer& tracer) {
+    const Scene& scene = tracer.scene();
+    auto slopes = std::make_shared<std::vector<Image<glm::dvec2>>>();
+    for (const Material& material : scene.materials)
+        slopes->push_back(material.bump == Bump::height_field
+                              ? slopes_of(scene.textures[material.bump_map], material.bump_scale)
+                              : Image<glm::dvec2>());
+    ShadingTables tables;
+    tables.slopes = std::move(slopes);
+    return make_shading_tables(tracer, tables);
+}
+
+ShadingTables make_shading_tables(const Tracer& tracer, const ShadingTables& other) {
     const Tracer::State& state = tracer.state();
     const Scene& scene = *state.scene;
     assert(is_bump_lit(scene));
     ShadingTables tables;
     tables.state = &state;
-    for (const Material& material : scene.materials)
-        tables.slopes.push_back(
-            material.bump == Bump::height_field
-                ? slopes_of(scene.textures[material.bump_map], material.bump_scale)
-                : Image<glm::dvec2>());
+    tables.slopes = other.slopes;
     tables.light = lane_light(state);
     const Light& light = chosen_light(scene);
     tables.light_color = scene.inverse_square ? light.color * light.intensity : light.color;
@@ -72,7 +81,7 @@ void PointShader::learn(std::uint32_t triangle, Known& known) const {
     const Mesh& mesh = scene.meshes[mesh_of(scene, triangle)];
     known.triangle = triangle;
     known.material = &scene.materials[mesh.material];
-    known.slopes = &tables_->slopes[mesh.material];
+    known.slopes = &(*tables_->slopes)[mesh.material];
     known.side = state.from_eye.side[triangle] > 0 ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const Surface& surface = scene.surfaces[std::size_t{3} * triangle + k];

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <memory>
 #include <vector>
 
 namespace shadowproof {
@@ -16,12 +17,15 @@ namespace shadowproof {
 /// What shading needs in addition to the scene, made once.
 struct ShadingTables {
     const Tracer::State* state = nullptr;
-    std::vector<Image<glm::dvec2>> slopes; ///< one per material; empty where it has no height field
+    /// One per material; empty where it has no height field.
+    std::shared_ptr<const std::vector<Image<glm::dvec2>>> slopes;
     LaneLight light;
     glm::dvec3 light_color{1, 1, 1}; ///< times the intensity, where that counts
 };
 
 ShadingTables make_shading_tables(const Tracer& tracer);
+/// Of the same scene under another light: shares what does not depend on it.
+ShadingTables make_shading_tables(const Tracer& tracer, const ShadingTables& other);
 
 /// Shades the points of one thread; keeps what it has computed of triangles.
 class PointShader {

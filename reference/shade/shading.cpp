@@ -27,30 +27,31 @@ private:
     std::vector<std::unique_ptr<PointShader>> shaders_;
 };
 
-/// The result of `of` for every pixel that sees a surface, from a shader and the pixel's lane.
-template <class T, class Of>
-Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
+/// Calls `use` for every pixel that sees a surface, with its index, a shader and the pixel's lane.
+template <class Use>
+void shade_seen(const Tracer& tracer, const GroundTruth& truth, const Use& use) {
     const Camera& camera = tracer.scene().camera;
     assert(truth.triangle.width == camera.width && truth.triangle.height == camera.height);
     const ShadingTables tables = make_shading_tables(tracer);
     Shaders shaders(tables, tracer.threads());
     const PixelRays rays(camera);
-    Image<T> picture(camera.width, camera.height, T{});
     const auto shade_tile = [&](const Tile& tile, PointShader& shader) {
+        const auto pixel = [&](std::size_t lane) {
+            return truth.triangle.index(tile.x(lane), tile.y(lane));
+        };
         std::uint32_t seen = 0;
         for (std::size_t lane = 0; lane < packet_size; ++lane) {
             if ((tile.lanes >> lane & 1U) == 0) continue;
-            const std::size_t pixel = picture.index(tile.x(lane), tile.y(lane));
-            const std::uint32_t triangle = truth.triangle.pixels[pixel];
+            const std::uint32_t triangle = truth.triangle.pixels[pixel(lane)];
             if (triangle == no_triangle) continue;
             shader.set(lane, tile.directions[lane], triangle,
-                       truth.visibility.pixels[pixel] == Visibility::lit);
+                       truth.visibility.pixels[pixel(lane)] == Visibility::lit);
             seen |= 1U << lane;
         }
         if (seen == 0) return;
         shader.shade();
         for (std::size_t lane = 0; lane < packet_size; ++lane)
-            if ((seen >> lane & 1U) != 0) picture.at(tile.x(lane), tile.y(lane)) = of(shader, lane);
+            if ((seen >> lane & 1U) != 0) use(pixel(lane), shader, lane);
     };
     const int rows = (camera.height + tile_side - 1) / tile_side;
     parallel_for(rows, tracer.threads(), [&](int row, int thread) {
@@ -60,7 +61,25 @@ Image<T> shaded(const Tracer& tracer, const GroundTruth& truth, const Of& of) {
             shade_tile(tile, shaders.of(thread));
         }
     });
-    return picture;
+}
+
+/// What lights add, together; empty where there are none.
+Image<glm::dvec3> added_by(const TracedLights& lights) {
+    Image<glm::dvec3> sum;
+    for (const auto& light : lights) {
+        const Image<std::uint32_t>& size = light->truth.triangle;
+        if (sum.pixels.empty()) sum = Image<glm::dvec3>(size.width, size.height, glm::dvec3(0));
+        shade_seen(light->tracer, light->truth,
+                   [&](std::size_t pixel, const PointShader& shader, std::size_t lane) {
+                       sum.pixels[pixel] += shader.added_color(lane);
+                   });
+    }
+    return sum;
+}
+
+/// Adds a picture to another; an empty one is nothing.
+void add(const Image<glm::dvec3>& more, Image<glm::dvec3>& sum) {
+    for (std::size_t i = 0; i < more.pixels.size(); ++i) sum.pixels[i] += more.pixels[i];
 }
 
 /// n x n rays of one pixel, sixteen at a time.
@@ -112,35 +131,26 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader, const Of
     return sum;
 }
 
-} // namespace
-
-namespace {
-
-/// Adds a picture to another; an empty one is nothing.
-void add(const Image<glm::dvec3>& more, Image<glm::dvec3>& sum) {
-    for (std::size_t i = 0; i < more.pixels.size(); ++i) sum.pixels[i] += more.pixels[i];
-}
-
-/// The sum of what `of` gives of each light; empty where there are none.
-template <class Of>
-Image<glm::dvec3> sum_over(const TracedLights& lights, const Of& of) {
-    Image<glm::dvec3> sum;
-    for (const auto& light : lights) {
-        Image<glm::dvec3> more = of(*light);
-        if (sum.pixels.empty())
-            sum = std::move(more);
-        else
-            add(more, sum);
-    }
-    return sum;
-}
-
-/// What lights add, together; empty where there are none.
-Image<glm::dvec3> added_by(const TracedLights& lights) {
-    return sum_over(lights, [](const TracedLight& light) {
-        return shaded<glm::dvec3>(
-            light.tracer, light.truth,
-            [](const PointShader& shader, std::size_t lane) { return shader.added_color(lane); });
+/// The mean of `of` over n x n rays of each pixel, added to `color`. `seen`: takes the share of the
+/// rays that see a surface.
+template <class Of, class Seen>
+void add_means(const Tracer& tracer, int n, Image<glm::dvec3>& color, const Of& of,
+               const Seen& seen) {
+    const Tracer::State& state = tracer.state();
+    const Camera& camera = state.scene->camera;
+    assert(n >= 1 && n <= 32);
+    const ShadingTables tables = make_shading_tables(tracer);
+    Shaders shaders(tables, state.threads);
+    std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
+    parallel_for(camera.height, state.threads, [&](int y, int thread) {
+        std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
+        if (!prober) prober = std::make_unique<Prober>(state);
+        for (int x = 0; x < camera.width; ++x) {
+            const Sum sum = sum_of({camera, n, x, y}, *prober, shaders.of(thread), of);
+            const double samples = n * n;
+            color.at(x, y) += sum.color / samples;
+            seen(x, y, sum.seen / samples);
+        }
     });
 }
 
@@ -148,20 +158,20 @@ Image<glm::dvec3> added_by(const TracedLights& lights) {
 
 Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth,
                         const TracedLights& before) {
-    Image<glm::dvec3> colors =
-        shaded<glm::dvec3>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
-            return shader.color(lane);
-        });
+    Image<glm::dvec3> colors(truth.triangle.width, truth.triangle.height, glm::dvec3(0));
+    shade_seen(tracer, truth, [&](std::size_t pixel, const PointShader& shader, std::size_t lane) {
+        colors.pixels[pixel] = shader.color(lane);
+    });
     add(added_by(before), colors);
     return colors;
 }
 
 Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth,
                            const TracedLights& before) {
-    Image<Shading> terms =
-        shaded<Shading>(tracer, truth, [](const PointShader& shader, std::size_t lane) {
-            return shader.terms(lane);
-        });
+    Image<Shading> terms(truth.triangle.width, truth.triangle.height, Shading{});
+    shade_seen(tracer, truth, [&](std::size_t pixel, const PointShader& shader, std::size_t lane) {
+        terms.pixels[pixel] = shader.terms(lane);
+    });
     const Image<glm::dvec3> more = added_by(before);
     for (std::size_t i = 0; i < more.pixels.size(); ++i)
         terms.pixels[i].before_color = more.pixels[i];
@@ -203,44 +213,21 @@ void RayShader::shade(std::span<const SeenPoint> points, std::span<Shading> shad
     }
 }
 
-namespace {
-
-/// The mean of `of` over n x n rays of each pixel.
-template <class Of>
-Supersampled supersampled(const Tracer& tracer, int n, const Of& of) {
-    const Tracer::State& state = tracer.state();
-    const Camera& camera = state.scene->camera;
-    assert(n >= 1 && n <= 32);
-    const ShadingTables tables = make_shading_tables(tracer);
-    Shaders shaders(tables, state.threads);
-    std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
-    Supersampled result{Image<glm::dvec3>(camera.width, camera.height, glm::dvec3(0)),
-                        Image<double>(camera.width, camera.height, 0)};
-    parallel_for(camera.height, state.threads, [&](int y, int thread) {
-        std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
-        if (!prober) prober = std::make_unique<Prober>(state);
-        for (int x = 0; x < camera.width; ++x) {
-            const Sum sum = sum_of({camera, n, x, y}, *prober, shaders.of(thread), of);
-            const double samples = n * n;
-            result.color.at(x, y) = sum.color / samples;
-            result.coverage.at(x, y) = sum.seen / samples;
-        }
-    });
-    return result;
-}
-
-} // namespace
-
 Supersampled shade_supersampled(const Tracer& tracer, int n, const TracedLights& before) {
-    Supersampled result = supersampled(
-        tracer, n, [](const PointShader& shader, std::size_t lane) { return shader.color(lane); });
-    const Image<glm::dvec3> more = sum_over(before, [&](const TracedLight& light) {
-        return supersampled(light.tracer, n,
-                            [](const PointShader& shader, std::size_t lane) {
-                                return shader.added_color(lane);
-                            })
-            .color;
-    });
+    const Camera& camera = tracer.scene().camera;
+    const Image<glm::dvec3> black(camera.width, camera.height, glm::dvec3(0));
+    Supersampled result{black, Image<double>(camera.width, camera.height, 0)};
+    add_means(
+        tracer, n, result.color,
+        [](const PointShader& shader, std::size_t lane) { return shader.color(lane); },
+        [&](int x, int y, double share) { result.coverage.at(x, y) = share; });
+    if (before.empty()) return result;
+    Image<glm::dvec3> more = black;
+    for (const auto& light : before)
+        add_means(
+            light->tracer, n, more,
+            [](const PointShader& shader, std::size_t lane) { return shader.added_color(lane); },
+            [](int, int, double) {});
     add(more, result.color);
     return result;
 }

@@ -19,6 +19,8 @@ struct Plan {
     /// From triangles_around_light. Unlike the rest it is a requirement: these triangles must be
     /// flipped.
     std::vector<std::uint8_t> around_light{};
+    /// Whether depths must reach to infinity because of another light of the same picture.
+    bool to_infinity = false;
     TechniqueSettings asked{};
     std::vector<std::string> left_out; ///< "tangents: no normal map", ... one clause each
     std::vector<std::string> faults;   ///< "caster 'lid' is open: ...", one line per faulty caster

@@ -154,6 +154,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     plan.asked = options.technique.asked;
     result.notes.insert(result.notes.end(), plan.faults.begin(), plan.faults.end());
     result.left_out = plan.left_out;
+    if (const auto note = note_on_added_lights(scene)) result.notes.push_back(*note);
     announce(run.setup.console, result, options.output.verbose);
 
     run.progress(result.name + ": tracing");

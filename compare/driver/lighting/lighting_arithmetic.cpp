@@ -37,12 +37,12 @@ Interval self_shadow(const Interval& z) {
 }
 
 /// Rounding of floats: a dozen products and sums on the way to a colour, of terms no larger than
-/// their sum, any of which may be flushed to 0; and, of each light but the first, its sum with
-/// those before.
+/// their sum; and, of each light but the first, its sum with those before. Any of the dozen may be
+/// flushed to 0 under each light.
 Interval rounded(const Interval& a, std::size_t lights = 1) {
-    const double roundings = 11 + static_cast<double>(lights);
-    return widened(a,
-                   roundings * (v * std::max(std::abs(a.low), std::abs(a.high)) + float_underflow));
+    const auto each = static_cast<double>(lights);
+    return widened(a, (11 + each) * v * std::max(std::abs(a.low), std::abs(a.high)) +
+                          12 * each * float_underflow);
 }
 
 struct Terms {
@@ -167,8 +167,10 @@ Intervals in_float_passes(AddedInputs at, const Ways& ways) {
     return blended(passes, at, ways);
 }
 
-/// A register of the combiners: 8 bits and a sign. Its inputs were computed in floats.
+/// A register of the combiners: 8 bits and a sign. Its inputs were computed in floats. Of 0 it
+/// loses nothing.
 Interval in_register(const Interval& a, const Ways& ways) {
+    if (a.low == 0 && a.high == 0) return a;
     return cut(kept(rounded(a), ways.steps), ways, -1, 1);
 }
 
@@ -264,17 +266,28 @@ Intervals four_stages(const LightingInputs& in, const glm::dvec3& ambient_light,
     return color;
 }
 
+/// Whether no light may arrive, as outside a spot's cone; and whether some may.
+bool may_be_dark(const LightingInputs& in) {
+    return std::ranges::all_of(in.radiance, [](const Interval& a) { return a.low <= 0; });
+}
+bool may_be_lit(const LightingInputs& in) {
+    return std::ranges::any_of(in.radiance, [](const Interval& a) { return a.high > 0; });
+}
+
 /// Ambient light times the decal, over it all of the first light with both, and the others added.
+/// Where no light arrives the pass draws nothing. At the very edge of a cone floats decide that,
+/// and whether the claim is `lit`: there the pixel may hold either.
 Intervals in_four_stages(AddedInputs at, const Ways& ways) {
     const ByteBuffer buffer(ways);
     const LightingInputs& first = at.front();
-    Intervals color;
-    if (first.lit) {
+    Intervals unlit;
+    for (std::size_t k = 0; k < 3; ++k)
+        unlit[k] = buffer.overwritten(around(first.ambient[static_cast<int>(k)]) * first.decal[k]);
+    const bool at_edge = may_be_dark(first) && may_be_lit(first);
+    Intervals color = unlit;
+    if (at_edge || (first.lit && may_be_lit(first))) {
         color = four_stages(first, first.ambient, ways); // registers hold what the buffer holds
-    } else {
-        for (std::size_t k = 0; k < 3; ++k)
-            color[k] =
-                buffer.overwritten(around(first.ambient[static_cast<int>(k)]) * first.decal[k]);
+        if (at_edge) color = hull(color, unlit);
     }
     for (std::size_t i = 1; i < at.size(); ++i) {
         if (!at[i].lit) continue;

@@ -227,7 +227,9 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
         light.choice = is_told_by_name ? light.name : std::to_string(number);
     }
     if (lights.empty()) add_default_light(scene);
-    if (!lights.empty()) note_range(document, lights[scene.light], scene);
+    // Where bumps are lit, those before it count, too.
+    if (!lights.empty())
+        for (std::size_t i = 0; i <= scene.light; ++i) note_range(document, lights[i], scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));

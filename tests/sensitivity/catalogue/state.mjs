@@ -12,6 +12,7 @@ const tested = 'gl.StencilFunc(stencil ? GL_EQUAL : GL_ALWAYS, 0, ~0U);';
 const mask = 'gl.StencilMask((1U << static_cast<unsigned>(recipe.counting.bits)) - 1);';
 const clearDepth = 'gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);';
 const clearColor = 'gl.ClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, background.data());';
+const bumps = 'bump_tangent_space,bump_three_pass,bump_three_pass+zpass';
 const clearStencil = 'gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &value);';
 const lightDepth = 'gl.DepthFunc(GL_EQUAL);';
 export const faults = [
@@ -43,10 +44,10 @@ export const faults = [
   { name: 'eye_count_left_out', techniques: 'zpass_eye_count', file, right: 'start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));', wrong: ';' },
   { name: 'no_ledge', techniques: 'zpass_capped', file, right: 'gl_.DepthRange(recipe_.depth_model.front, 1);', wrong: 'gl_.DepthRange(0, 1);' },
   { name: 'sum_depth_or_equal', techniques: 'zfail_float', file, right: 'const GLenum others = recipe_.depth_model.reversed() ? GL_LEQUAL : GL_GEQUAL;'.replace(/^.*= (.*);$/, '$1'), wrong: 'recipe_.depth_model.reversed() ? GL_LESS : GL_GREATER' },
-  { name: 'stencil_of_the_light_before', file: passes, right: clearStencil, wrong: ';' },
-  { name: 'another_light_starts_from_1', file: passes, right: clearStencil, wrong: 'const GLint one = value + 1; gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &one);' },
-  { name: 'claim_of_the_light_before', file: shadows, right: 'take_unlit(gl, target, claims);', wrong: ';' },
-  { name: 'claims_not_kept', file: shadows, right: 'keep_claim(gl, target, claims, light);', wrong: ';' },
+  { name: 'stencil_of_the_light_before', techniques: bumps, file: passes, right: clearStencil, wrong: ';' },
+  { name: 'another_light_starts_from_1', techniques: bumps, file: passes, right: clearStencil, wrong: 'const GLint one = value + 1; gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &one);' },
+  { name: 'claim_of_the_light_before', techniques: bumps, file: shadows, right: 'take_unlit(gl, target, claims);', wrong: ';' },
+  { name: 'claims_not_kept', techniques: bumps, file: shadows, right: 'keep_claim(gl, target, claims, light);', wrong: ';' },
 
   { name: 'clip_control_minus_one', file: passes, right: 'gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);', wrong: 'gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);' },
   { name: 'clip_control_upper_left', file: passes, right: 'gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);', wrong: 'gl.ClipControl(GL_UPPER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);' },
