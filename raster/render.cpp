@@ -65,8 +65,8 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
 [[noreturn]] void refuse_scene(const Technique& technique, const Scene& scene) {
     const std::string file = scene.file.empty() ? scene.name : scene.file.string();
     const std::string name(technique.name);
-    if (!is_for_lights(technique, scene))
-        throw Error(file, "has a light that is not one for " + name,
+    if (const Light* light = unsuited_light(technique, scene))
+        throw Error(file, "has a light that is not one for " + name + ": " + light->choice,
                     "leave the technique out; it needs " + std::string(technique.needs));
     if (!is_bump_lit(scene))
         throw Error(file, "has no bump map, and " + name + " is for those that do",

@@ -62,19 +62,18 @@ inline bool is_for(const Technique& technique, Light::Kind kind) {
     return lights.empty() || std::find(lights.begin(), lights.end(), kind) != lights.end();
 }
 
-/// Whether it is for the light that is judged and, if it lights bumps, for those before it that are
-/// added up.
-inline bool is_for_lights(const Technique& technique, const Scene& scene) {
-    if (!is_for(technique, chosen_light(scene).kind)) return false;
-    const std::size_t lights = technique.lighting != nullptr ? added_lights(scene) : 0;
-    return std::all_of(scene.lights.begin(),
-                       scene.lights.begin() + static_cast<std::ptrdiff_t>(lights),
-                       [&](const Light& light) { return is_for(technique, light.kind); });
+/// The first light that it is not for, of the one that is judged and, if it lights bumps, of those
+/// before it that are added up; null: it is for all.
+inline const Light* unsuited_light(const Technique& technique, const Scene& scene) {
+    const std::size_t first = technique.lighting != nullptr && is_bump_lit(scene) ? 0 : scene.light;
+    for (std::size_t i = first; i <= scene.light; ++i)
+        if (!is_for(technique, scene.lights[i].kind)) return &scene.lights[i];
+    return nullptr;
 }
 
 /// Whether a technique is for such a scene; if not, it is left out unless requested by name.
 inline bool suits(const Technique& technique, const Scene& scene) {
-    if (!is_for_lights(technique, scene)) return false;
+    if (unsuited_light(technique, scene) != nullptr) return false;
     if (!technique.needs_bump_maps) return true;
     return is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value() &&
            !(technique.squares_thrice && scene.highlight.exponent() != 8);

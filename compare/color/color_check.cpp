@@ -238,6 +238,10 @@ ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, c
     const ColorModel& model = frame.color_model;
     ColorAccount account;
     account.claim = judge.claim(x, y);
+    for (std::size_t i = 0; i < before.size(); ++i)
+        account.lights_before.push_back({chosen_light(before[i]->scene).choice,
+                                         before[i]->truth.visibility.at(x, y),
+                                         frame.claims_before[i].at(x, y)});
     AddedShader shader(tracer, before);
     account.truth = TruePicture{tracer.scene().camera, truth, before}.shaded(x, y, shader);
     account.showable = showable(model, account.truth.color());

@@ -71,6 +71,13 @@ struct ColorCheck {
 ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
                         const TracedLights& before = {});
 
+/// What a light that is added shows at a pixel.
+struct AddedAtPixel {
+    std::string name;
+    Visibility truth = Visibility::background;
+    Visibility claim = Visibility::background;
+};
+
 /// One pixel's colour in full, for `explain`.
 struct ColorAccount {
     ColorVerdict verdict = ColorVerdict::as_shown;
@@ -80,6 +87,7 @@ struct ColorAccount {
     Intervals bound;
     Intervals predicted;
     ColorTerms weights{}; ///< in steps of 1/255
+    std::vector<AddedAtPixel> lights_before{};
 };
 ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
                                int x, int y, const TracedLights& before = {});

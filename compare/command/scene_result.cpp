@@ -43,10 +43,13 @@ void describe(SceneResult& result, const Scene& scene) {
 
 std::optional<std::string> note_on_added_lights(const Scene& scene) {
     if (added_lights(scene) < 2) return std::nullopt;
+    constexpr std::size_t most = 3;
+    const std::size_t before = added_lights(scene) - 1;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i + 1 < added_lights(scene); ++i)
+    for (std::size_t i = 0; i < std::min(before, most); ++i)
         names.push_back(scene.lights[i].choice);
-    return fmt::format("colours add the light of {} to that of {}", fmt::join(names, ", "),
+    const std::string more = before > most ? fmt::format(" and {} more", before - most) : "";
+    return fmt::format("colours add the light of {}{} to that of {}", fmt::join(names, ", "), more,
                        chosen_light(scene).choice);
 }
 

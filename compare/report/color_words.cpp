@@ -1,5 +1,7 @@
 #include "compare/report/color_words.h"
 
+#include "scenes/printable.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -82,9 +84,23 @@ std::string_view name_of(ColorVerdict verdict) {
     return "unexplained";
 }
 
+namespace {
+
+/// A line for each light that is added.
+std::string added_lines(const ColorAccount& account) {
+    std::string lines;
+    for (const AddedAtPixel& light : account.lights_before)
+        lines += fmt::format("    added     light of {}: {}, claimed {}\n", printable(light.name),
+                             name_of(light.truth), name_of(light.claim));
+    return lines;
+}
+
+} // namespace
+
 std::string to_text(const ColorAccount& account, const std::string& technique) {
     if (account.verdict == ColorVerdict::as_shown)
-        return fmt::format("  colour of {}: {}\n", technique, meaning_of(account.verdict));
+        return fmt::format("  colour of {}: {}\n", technique, meaning_of(account.verdict)) +
+               added_lines(account);
     std::string text =
         fmt::format("  colour of {}: {}\n    true      {}\n    claimed   {}\n    bound     {}\n"
                     "    predicted  {}\n    moved by ",
@@ -95,13 +111,17 @@ std::string to_text(const ColorAccount& account, const std::string& technique) {
         text += fmt::format("{} {} {:.2f}/255", separator, name_of(term), weight_of(account, term));
         separator = ",";
     }
-    return text + "\n";
+    return text + "\n" + added_lines(account);
 }
 
 nlohmann::ordered_json to_json(const ColorAccount& account) {
     Json json{{"verdict", name_of(account.verdict)},
               {"true", color_json(account.showable)},
               {"claimed", color_json(account.claim)}};
+    for (const AddedAtPixel& light : account.lights_before)
+        json["added"].push_back({{"light", light.name},
+                                 {"truth", name_of(light.truth)},
+                                 {"claim", name_of(light.claim)}});
     if (account.verdict == ColorVerdict::as_shown) return json;
     json["bound"] = ends_json(account.bound);
     json["predicted"] = ends_json(account.predicted);

@@ -39,6 +39,11 @@ std::string folder_of(const SceneResult& scene) {
                            (c >= '0' && c <= '9') || c == '-' || c == '_';
         if (!plain) c = '_';
     }
+    // File systems take 255 bytes. The end tells one light's from another's.
+    constexpr std::size_t longest = 200;
+    constexpr std::size_t end = 60;
+    if (folder.size() > longest)
+        folder = folder.substr(0, longest - end - 1) + "_" + folder.substr(folder.size() - end);
     return folder.empty() ? "scene" : folder;
 }
 

@@ -80,7 +80,7 @@ std::string words_of(const ColorCheck& colors) {
                     colors.largest, colors.rmse, colors.percentile999, colors.picture_rmse);
     for (const LightAdded& light : colors.lights_before)
         if (light.differing > 0)
-            words += fmt::format(", with the shadows of {}, of which {} differ", light.name,
+            words += fmt::format(", with wrong shadows of {} at {}", light.name,
                                  counted(light.differing, "pixel"));
     return words;
 }
