@@ -46,6 +46,8 @@ Effect effect_of(const Frame& right, const Frame& faulty) {
     Effect effect;
     effect.of_map = right.mapped.has_value();
     effect.claims = differing(right.claim, faulty.claim);
+    for (std::size_t light = 0; light < right.claims_before.size(); ++light)
+        effect.claims += differing(right.claims_before[light], faulty.claims_before[light]);
     if (right.counted) effect.evidence = differing(right.counted->counter, faulty.counted->counter);
     for (std::size_t face = 0; right.mapped && face < right.mapped->faces.size(); ++face)
         effect.evidence += differing(right.mapped->faces[face], faulty.mapped->faces[face]);

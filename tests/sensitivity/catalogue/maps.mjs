@@ -118,5 +118,4 @@ export const faults = [
     { name: 'not_asked', file: shadows, right: 'in_stencil ? Counter::stencil : Counter::none', wrong: 'Counter::none' },
     { name: 'of_all_depths', file: shadows, right: 'gl.DepthFunc(GL_EQUAL);', wrong: 'gl.DepthFunc(GL_ALWAYS);', why: 'The shader asks for the triangle that is seen.' },
   ].map((fault) => ({ ...fault, name: `map_stencil_${fault.name}`, techniques: 'spot_map_stencil' })),
-  { name: 'map_claim_of_the_light_before', techniques: 'bump_one_pass+cube_map_six_pass', file: shadows, right: 'take_unlit(gl, target, claims);', wrong: ';' },
 ].map((fault) => ({ kind: 'map', ...fault }));
