@@ -1,5 +1,6 @@
 #include "compare/picture/reading/light_fit.h"
 
+#include "compare/picture/reading/typical_colors.h"
 #include "compare/picture/surface_colors.h"
 
 #include <algorithm>
@@ -19,85 +20,8 @@ constexpr double most_fall_off = 4;
 /// One of twenty pixels may be otherwise than its surface.
 constexpr double unusual = 0.05;
 
-/// What a share of the values do not reach.
-template <class T>
-T quantile(std::vector<T> values, double share) {
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
-template <class T>
-T median(std::vector<T> values) {
-    return quantile(std::move(values), 0.5);
-}
-
-std::optional<Typical> typical(const std::vector<glm::dvec3>& colors) {
-    if (colors.empty()) return std::nullopt;
-    Typical found;
-    std::vector<double> values(colors.size());
-    for (int k = 0; k < 3; ++k) {
-        std::transform(colors.begin(), colors.end(), values.begin(),
-                       [&](const glm::dvec3& color) { return color[k]; });
-        found.color[k] = median(values);
-    }
-    std::transform(colors.begin(), colors.end(), values.begin(),
-                   [&](const glm::dvec3& color) { return glm::distance(color, found.color); });
-    found.scatter = median(values);
-    return found;
-}
-
-/// Pixels that face the light at about one angle.
-using AngleGroup = std::vector<const Observed*>;
-using AngleGroups = std::array<AngleGroup, angle_groups>;
-
-template <class Keep>
-std::vector<glm::dvec3> values_of(const AngleGroup& group, const Keep& keep) {
-    std::vector<glm::dvec3> values;
-    for (const Observed* pixel : group)
-        if (keep(*pixel)) values.push_back(pixel->value);
-    return values;
-}
-
-struct TwoGroups {
-    AngleGroup dark;
-    AngleGroup bright;
-};
-
-/// The two groups into which colours fall by their brightness (2-means); nothing where they are
-/// one. Of colours that are spread evenly, the groups' means lie twice as far apart as the colours
-/// of both lie from their medians; groups that are two lie twice as far again.
-std::optional<TwoGroups> two_groups(const AngleGroup& all, double step) {
-    if (all.size() < 2 * enough_pixels) return std::nullopt;
-    const auto [least, greatest] =
-        std::minmax_element(all.begin(), all.end(), [](const Observed* a, const Observed* b) {
-            return brightness(a->value) < brightness(b->value);
-        });
-    double between = 0.5 * (brightness((*least)->value) + brightness((*greatest)->value));
-    TwoGroups groups;
-    constexpr int rounds = 8;
-    for (int round = 0; round < rounds; ++round) {
-        groups = {};
-        for (const Observed* pixel : all)
-            (brightness(pixel->value) < between ? groups.dark : groups.bright).push_back(pixel);
-        if (groups.dark.size() < enough_pixels || groups.bright.size() < enough_pixels)
-            return std::nullopt;
-        const auto mean = [](const AngleGroup& group) {
-            double sum = 0;
-            for (const Observed* pixel : group) sum += brightness(pixel->value);
-            return sum / static_cast<double>(group.size());
-        };
-        between = 0.5 * (mean(groups.dark) + mean(groups.bright));
-    }
-    const auto any = [](const Observed&) { return true; };
-    const Typical low = *typical(values_of(groups.dark, any));
-    const Typical high = *typical(values_of(groups.bright, any));
-    const double apart = glm::distance(low.color, high.color);
-    if (apart <= 4 * (low.scatter + high.scatter) || apart <= fewest_steps * step)
-        return std::nullopt;
-    return groups;
-}
+/// What less of the light shows would only make noise larger.
+constexpr double least_share_in_cone = 0.25;
 
 /// The sine that a share of the pixels do not reach.
 double sine_at(const AngleGroup& pixels, std::size_t normals, double share) {
@@ -162,6 +86,7 @@ LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
     AngleGroup certain;
     AngleGroup brighter;
     for (const Observed* const pixel : all) {
+        if (mesh.share_in_cone(*pixel) < least_share_in_cone) continue;
         const double above = mesh.above_shadow(pixel->value);
         const double least_told = mesh.least_difference(pixel->step);
         if (above > least_told) brighter.push_back(pixel);
@@ -211,7 +136,7 @@ double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
         for (const Observed* const pixel : angle.lit) {
             const double above = mesh.above_shadow(pixel->value);
             if (!(pixel->distance > 0) || !(above > 0)) continue;
-            light.push_back(std::log(above));
+            light.push_back(std::log(above / mesh.share_in_cone(*pixel)));
             sine.push_back(std::log(pixel->lies[mesh.normals].sine));
             distance.push_back(std::log(pixel->distance));
         }
@@ -237,7 +162,7 @@ LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
     std::vector<double> added;
     std::vector<double> per_sine;
     for (const Observed* const pixel : lit) {
-        added.push_back(mesh.above_shadow(pixel->value) * std::pow(pixel->distance, mesh.fall_off));
+        added.push_back(mesh.above_shadow(pixel->value) / mesh.share_at(*pixel));
         per_sine.push_back(added.back() / pixel->lies[mesh.normals].sine);
     }
     LightAt at;
@@ -339,10 +264,12 @@ AngleGroups by_angle(const Useful& useful, std::size_t normals) {
     return groups;
 }
 
-MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
+MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown,
+                    std::vector<ConeShare> cone) {
     MeshLight mesh;
     mesh.shadow = shadow;
     mesh.normals = normals;
+    mesh.cone = std::move(cone);
     const AngleGroups groups = by_angle(useful, normals);
     std::array<LitAtAngle, angle_groups> angles;
     std::transform(groups.begin(), groups.end(), angles.begin(), [&](const AngleGroup& group) {
@@ -358,6 +285,78 @@ MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& sh
             mesh = std::move(falling);
     }
     return mesh;
+}
+
+/// Pixels between a spot's cones that are certainly lit.
+std::vector<const Observed*> between_cones(const Useful& useful) {
+    std::vector<const Observed*> between;
+    for (const Observed* const pixel : useful.facing)
+        if (pixel->into_cone > 0 && pixel->into_cone < 1 && pixel->certainly == Visibility::lit)
+            between.push_back(pixel);
+    return between;
+}
+
+/// By how much pixels between a spot's cones typically differ from what light is said to add, over
+/// that.
+double misfit_in_cone(const MeshLight& mesh, std::span<const Observed* const> between) {
+    std::vector<double> errors;
+    for (const Observed* const pixel : between) {
+        const double said = mesh.light_at(*pixel).typical;
+        if (!(said > mesh.least_difference(pixel->step))) continue;
+        errors.push_back(std::abs(mesh.above_shadow(pixel->value) / said - 1));
+    }
+    return errors.size() < enough_pixels ? std::numeric_limits<double>::infinity()
+                                         : median(std::move(errors));
+}
+
+/// Which shares of the light pixels show so far into a spot's cone, over what they would show with
+/// all of it; the largest is 1.
+std::vector<ConeShare> cone_of(const MeshLight& mesh, const Useful& useful) {
+    constexpr std::size_t parts = 16;
+    std::array<std::vector<double>, parts + 1> shares; // the last: within the inner cone
+    std::array<std::vector<double>, parts + 1> into_cone;
+    for (const Observed* const pixel : useful.facing) {
+        const double all = mesh.light_at(*pixel).typical / mesh.share_in_cone(*pixel);
+        if (pixel->certainly != Visibility::lit || !(all > 0) || !std::isfinite(all)) continue;
+        const auto part = static_cast<std::size_t>(parts * pixel->into_cone);
+        shares[part].push_back(std::max(mesh.above_shadow(pixel->value) / all, 0.0));
+        into_cone[part].push_back(pixel->into_cone);
+    }
+    std::vector<ConeShare> cone;
+    double largest = 0;
+    for (std::size_t part = 0; part <= parts; ++part) {
+        if (shares[part].size() < enough_pixels) continue;
+        cone.push_back({median(std::move(into_cone[part])), median(std::move(shares[part]))});
+        largest = std::max(largest, cone.back().share);
+    }
+    if (!(largest > 0)) return {};
+    for (ConeShare& each : cone) each.share /= largest;
+    return cone;
+}
+
+/// Where pixels lie between a spot's cones, how light falls off there is fitted in turn with how it
+/// depends on angles, which the other divides out. Where that does not say within a quarter how
+/// bright most are, it is not known.
+MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
+    MeshLight best = fitted_by(normals, useful, shadow, shown, {});
+    if (std::ranges::all_of(useful.facing,
+                            [](const Observed* pixel) { return !(pixel->into_cone < 1); }))
+        return best;
+    const std::vector<const Observed*> between = between_cones(useful);
+    double least = misfit_in_cone(best, between);
+    constexpr int rounds = 6;
+    MeshLight mesh = best;
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<ConeShare> cone = cone_of(mesh, useful);
+        if (cone.empty()) break;
+        mesh = fitted_by(normals, useful, shadow, shown, std::move(cone));
+        const double misfit = misfit_in_cone(mesh, between);
+        if (!(misfit < least)) continue;
+        least = misfit;
+        best = mesh;
+    }
+    best.knows_cone = least < 0.25;
+    return best;
 }
 
 /// Whether normals lie to the light as some before them do, at all pixels.

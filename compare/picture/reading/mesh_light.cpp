@@ -1,5 +1,7 @@
 #include "compare/picture/reading/mesh_light.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -25,6 +27,38 @@ double MeshLight::least_difference(double step) const {
     return fewest_steps * step + 4 * shadow->scatter;
 }
 
+namespace {
+
+/// The known shares on both sides of a pixel; from nothing, and to the last.
+std::array<ConeShare, 2> beside(const std::vector<ConeShare>& cone, double into_cone) {
+    ConeShare below;
+    for (const ConeShare& above : cone) {
+        if (into_cone < above.into_cone) return {below, above};
+        below = above;
+    }
+    return {below, below};
+}
+
+} // namespace
+
+double MeshLight::share_in_cone(const Observed& pixel) const {
+    if (cone.empty()) return 1;
+    const auto [below, above] = beside(cone, pixel.into_cone);
+    if (!(below.into_cone < above.into_cone)) return below.share;
+    return glm::mix(below.share, above.share,
+                    (pixel.into_cone - below.into_cone) / (above.into_cone - below.into_cone));
+}
+
+double MeshLight::least_in_cone(const Observed& pixel) const {
+    if (cone.empty()) return 1;
+    const auto [below, above] = beside(cone, pixel.into_cone);
+    return std::min(below.share, above.share);
+}
+
+double MeshLight::share_at(const Observed& pixel) const {
+    return std::pow(pixel.distance, -fall_off) * share_in_cone(pixel);
+}
+
 LightAt MeshLight::light_at(const Observed& pixel) const {
     const Lie& lie = pixel.lies[normals];
     const LightByAngle& own = in_highlight[highlight_group(lie)];
@@ -43,7 +77,8 @@ LightAt MeshLight::light_at(const Observed& pixel) const {
         below = above;
     }
     const double weaker = std::pow(pixel.distance, -fall_off);
-    return {sine, at.typical * weaker, at.least * weaker};
+    return {sine, at.typical * weaker * share_in_cone(pixel),
+            at.least * weaker * least_in_cone(pixel)};
 }
 
 ShownLight MeshLight::shown_light(const Observed& pixel) const {
@@ -53,7 +88,9 @@ ShownLight MeshLight::shown_light(const Observed& pixel) const {
     if (!(lit.typical > least_told)) return {};
     const double above = above_shadow(pixel.value);
     const double share = above / lit.typical;
-    return {share, share >= 0.5 || (lit.least > least_told && above < 0.5 * lit.least)};
+    if (share >= 0.5) return {share, true};
+    const bool is_known = knows_cone || !(pixel.into_cone < 1);
+    return {share, is_known && lit.least > least_told && above < 0.5 * lit.least};
 }
 
 ShownLight shown_light(std::span<const MeshLight> fits, const Observed& pixel) {

@@ -35,7 +35,10 @@ struct Observed {
     glm::dvec3 value{0, 0, 0};
     float step = 0; ///< what a step of the file's integers changes `value` by
     Lies lies{};
-    float distance = 1;       ///< from the light; 1 where it is directional
+    float distance = 1; ///< from the light; 1 where it is directional
+    /// How far a spot's light has come from its outer cone (0) to its inner one (1), evenly by the
+    /// cosine of the angle to its axis; 1 of other lights.
+    float into_cone = 1;
     bool is_ratio = false;    ///< `value` is a difference over the twin's brightness
     bool faces_light = false; ///< others are dark in any case
     /// Truly, and so are all pixels around, so that no outline of another renderer has it
@@ -71,8 +74,15 @@ double brightness(const glm::dvec3& color);
 struct ShownLight {
     double share = 0;
     /// False where light adds too little, or the pixel is brighter than half the least light, and
-    /// darker than half the typical.
+    /// darker than half the typical; and of dark ones between a spot's cones, where the fall-off is
+    /// not known.
     bool told = false;
+};
+
+/// Which share of a spot's light is there, so far into its cone.
+struct ConeShare {
+    double into_cone = 0;
+    double share = 0;
 };
 
 struct MeshLight {
@@ -80,13 +90,21 @@ struct MeshLight {
     std::size_t normals = 0;       ///< by which of all_normals_by the surface is lit
     LightByAngle light;            ///< of all pixels
     std::array<LightByAngle, highlight_groups> in_highlight; ///< where enough pixels tell it
-    double fall_off = 0; ///< with which power of the distance light gets weaker
+    double fall_off = 0;         ///< with which power of the distance light gets weaker
+    std::vector<ConeShare> cone; ///< by growing Observed::into_cone; empty: all is there at once
+    bool knows_cone = true; ///< whether that tells how bright pixels between a spot's cones are
 
     /// How much lighter than shadow: a distance of colours, negative where it is darker.
     double above_shadow(const glm::dvec3& value) const;
     /// What tells light from shadow, at least: four steps of the file's integers, and four times
     /// what shadows scatter.
     double least_difference(double step) const;
+    /// Which share of a spot's light is there: between those that are known it grows evenly, and
+    /// from nothing at the outer cone. `least`: no less than that, however it grows.
+    double share_in_cone(const Observed& pixel) const;
+    double least_in_cone(const Observed& pixel) const;
+    /// Which share of its light at distance 1, and where all of a spot's is there, arrives.
+    double share_at(const Observed& pixel) const;
     /// What light adds at a pixel: between angles that are known it grows evenly, and from nothing
     /// where it only grazes. Nothing where no angle is known.
     LightAt light_at(const Observed& pixel) const;

@@ -5,6 +5,7 @@
 #include "compare/picture/surface_colors.h"
 #include "reference/shade/shading.h"
 #include "scenes/camera.h"
+#include "scenes/spot_cone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,12 @@ private:
     std::vector<Shading> shadings_;
 };
 
+double into_cone(const Light& light, const glm::dvec3& point) {
+    const SpotCone cone = spot_cone(light);
+    const double cosine = glm::dot(glm::normalize(point - light.position), light.direction);
+    return std::clamp((cosine - cone.cos_outer) * cone.scale, 0.0, 1.0);
+}
+
 /// Whether a pixel beside it sees another mesh or a surface that lies otherwise, whose colour an
 /// antialiased picture mixes in.
 bool is_at_crease(const SeenPixels& pixels, int x, int y) {
@@ -146,6 +153,8 @@ SeenPixels seen_pixels(const TracedScene& traced) {
             seen.observed.lies = lies_at(scene, normals, triangle, point, bumped.at(x));
             if (light.kind != Light::Kind::directional)
                 seen.observed.distance = static_cast<float>(glm::distance(point, light.position));
+            if (light.kind == Light::Kind::spot)
+                seen.observed.into_cone = static_cast<float>(into_cone(light, point));
             seen.observed.faces_light = sides_of(traced.tracer(), triangle).faces_light();
         }
     }

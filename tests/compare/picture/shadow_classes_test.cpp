@@ -4,6 +4,7 @@
 #include "compare/picture/reading/shadow_classes.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/error.h"
+#include "scenes/spot_cone.h"
 #include "tests/compare/traced_bundled.h"
 #include "tests/scenes/over_scenes.h"
 
@@ -28,6 +29,7 @@ struct Point {
     double distance = 1;    ///< from the light, over the nearest point's; 1 where it is directional
     double smooth_sine = 0; ///< the same by normals that are smooth across triangles, at least 0
     double on_half = 0;     ///< cosine of that normal and the way half between light and eye
+    double into_cone = 1;   ///< from a spot's outer cone (0) to its inner one (1), by the cosine
     double albedo = 1;      ///< of a texture with dark and light texels, each as large as a pixel
     std::uint32_t mesh = 0; ///< known of all surfaces
 };
@@ -44,6 +46,7 @@ struct Style {
     std::function<double(double)> encode = srgb;
     bool textured = false;
     bool needs_twins = false; ///< both of them
+    bool of_spots = false;    ///< else as "diffuse"
     /// What some meshes are darker by, and shine by themselves, as others do not.
     double paint = 1;
     double glow = 0;
@@ -72,10 +75,19 @@ const std::vector<Style>& styles() {
         {"metal",
          [](const Point& p) { return p.smooth_sine > 0 ? 0.8 * std::pow(p.on_half, 12) : 0; }, 0.1,
          srgb, false, true},
-        {"painted", lambert, 0.1, srgb, false, false, 0.7},
-        {"faintly_painted", lambert, 0.1, srgb, false, false, 0.95},
-        {"glowing", lambert, 0.1, srgb, false, false, 1, 0.2},
-        {"faintly_glowing", lambert, 0.1, srgb, false, false, 1, 0.02},
+        {"painted", lambert, 0.1, srgb, false, false, false, 0.7},
+        {"faintly_painted", lambert, 0.1, srgb, false, false, false, 0.95},
+        {"glowing", lambert, 0.1, srgb, false, false, false, 1, 0.2},
+        {"faintly_glowing", lambert, 0.1, srgb, false, false, false, 1, 0.02},
+        {"spot_squared", [](const Point& p) { return 0.5 * p.sine * std::pow(p.into_cone, 2); },
+         0.1, srgb, false, false, true},
+        {"spot_smooth",
+         [](const Point& p) {
+             return 0.5 * p.sine * std::pow(p.into_cone, 2) * (3 - 2 * p.into_cone);
+         },
+         0.1, srgb, false, false, true},
+        {"spot_steep", [](const Point& p) { return 0.5 * p.sine * std::pow(p.into_cone, 6); }, 0.1,
+         srgb, false, false, true},
         // As bumps that nobody knows make it.
         {"rough", [](const Point& p) { return 0.5 * p.sine * (0.3 + 0.7 * p.albedo); }},
     };
@@ -110,6 +122,11 @@ Image<Point> points_of(const TracedScene& traced) {
             made.on_half = std::max(
                 0.0, glm::dot(normal,
                               glm::normalize(to_light + glm::normalize(scene.camera.eye - point))));
+            if (chosen_light(scene).kind == Light::Kind::spot) {
+                const SpotCone cone = spot_cone(chosen_light(scene));
+                const double cosine = -glm::dot(to_light, chosen_light(scene).direction);
+                made.into_cone = std::clamp((cosine - cone.cos_outer) * cone.scale, 0.0, 1.0);
+            }
             made.distance = light.w > 0 ? glm::length(way) : 1;
             made.albedo = 0.05 + 0.95 * ((x * 7919 + y * 104729) % 97) / 97.0;
             nearest = std::min(nearest, made.distance);
@@ -198,6 +215,10 @@ protected:
     const TracedScene& traced = tests::traced_bundled(GetParam()).traced;
     const Image<Point> points = points_of(traced);
 
+    /// Whether the style differs from others here.
+    bool is_of_use(const Style& style) const {
+        return !style.of_spots || chosen_light(traced.scene()).kind == Light::Kind::spot;
+    }
     /// Where the light lies on a surface, it falls off to nothing at once.
     bool is_blinding(const Style& style) const {
         return style.name == std::string("falling_off") && GetParam() == "light_on_face";
@@ -213,7 +234,7 @@ TEST_P(PictureOf, a_right_renderer_shows_no_wrong_pixel) {
     for (const Style& style : styles())
         for (const Given given : all_given) {
             if ((style.textured && given == Given::alone) || is_blinding(style) ||
-                (style.needs_twins && given != Given::both) ||
+                !is_of_use(style) || (style.needs_twins && given != Given::both) ||
                 (style.name == std::string("rough") && given == Given::unshadowed))
                 continue;
             const Read found = read(traced, style, points, traced.truth().visibility, given);
@@ -230,6 +251,7 @@ TEST_P(WellLitPictureOf, leaves_open_less_than_one_pixel_in_a_hundred) {
     const auto facing = static_cast<std::size_t>(
         std::ranges::count_if(points.pixels, [](const Point& point) { return point.sine > 0; }));
     for (const Style& style : styles()) {
+        if (!is_of_use(style)) continue;
         // What is smooth turns away, and what falls off fades, where nothing tells.
         if (!(style.light({.sine = 1, .distance = 1e3, .smooth_sine = 0}) > 0.1)) continue;
         for (const Given given : {Given::alone, Given::unlit}) {
@@ -270,7 +292,7 @@ TEST_P(FaultyPictureOf, is_seen_to_be_falsely_dark) {
             }
     const std::string lambert = "diffuse";
     for (const Style& style : styles()) {
-        if (is_blinding(style)) continue;
+        if (is_blinding(style) || !is_of_use(style)) continue;
         for (const Given given : {Given::unlit, Given::both}) {
             if (style.needs_twins && given != Given::both) continue;
             // Where light grazes, all depends on normals, and nobody tells which.
@@ -293,7 +315,7 @@ TEST_P(FaultyPictureOf, is_seen_to_be_falsely_dark) {
 TEST_P(FaultyPictureOf, is_seen_to_lack_shadows) {
     const Image<Visibility> classes = with_shadows_off(traced);
     for (const Style& style : styles()) {
-        if (is_blinding(style)) continue;
+        if (is_blinding(style) || !is_of_use(style)) continue;
         for (const Given given : all_given)
             if ((given != Given::alone || !style.textured) &&
                 (given == Given::both || !style.needs_twins)) {
