@@ -291,7 +291,7 @@ MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& sh
 std::vector<const Observed*> between_cones(const Useful& useful) {
     std::vector<const Observed*> between;
     for (const Observed* const pixel : useful.facing)
-        if (pixel->into_cone > 0 && pixel->into_cone < 1 && pixel->certainly == Visibility::lit)
+        if (is_between_cones(*pixel) && pixel->certainly == Visibility::lit)
             between.push_back(pixel);
     return between;
 }
@@ -340,7 +340,7 @@ std::vector<ConeShare> cone_of(const MeshLight& mesh, const Useful& useful) {
 MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
     MeshLight best = fitted_by(normals, useful, shadow, shown, {});
     if (std::ranges::all_of(useful.facing,
-                            [](const Observed* pixel) { return !(pixel->into_cone < 1); }))
+                            [](const Observed* pixel) { return !is_between_cones(*pixel); }))
         return best;
     const std::vector<const Observed*> between = between_cones(useful);
     double least = misfit_in_cone(best, between);

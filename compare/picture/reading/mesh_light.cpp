@@ -42,7 +42,7 @@ std::array<ConeShare, 2> beside(const std::vector<ConeShare>& cone, double into_
 } // namespace
 
 double MeshLight::share_in_cone(const Observed& pixel) const {
-    if (cone.empty()) return 1;
+    if (cone.empty() || !is_between_cones(pixel)) return 1;
     const auto [below, above] = beside(cone, pixel.into_cone);
     if (!(below.into_cone < above.into_cone)) return below.share;
     return glm::mix(below.share, above.share,
@@ -50,7 +50,7 @@ double MeshLight::share_in_cone(const Observed& pixel) const {
 }
 
 double MeshLight::least_in_cone(const Observed& pixel) const {
-    if (cone.empty()) return 1;
+    if (cone.empty() || !is_between_cones(pixel)) return 1;
     const auto [below, above] = beside(cone, pixel.into_cone);
     return std::min(below.share, above.share);
 }
@@ -89,7 +89,7 @@ ShownLight MeshLight::shown_light(const Observed& pixel) const {
     const double above = above_shadow(pixel.value);
     const double share = above / lit.typical;
     if (share >= 0.5) return {share, true};
-    const bool is_known = knows_cone || !(pixel.into_cone < 1);
+    const bool is_known = knows_cone || !is_between_cones(pixel);
     return {share, is_known && lit.least > least_told && above < 0.5 * lit.least};
 }
 

@@ -37,7 +37,7 @@ struct Observed {
     Lies lies{};
     float distance = 1; ///< from the light; 1 where it is directional
     /// How far a spot's light has come from its outer cone (0) to its inner one (1), evenly by the
-    /// cosine of the angle to its axis; 1 of other lights.
+    /// cosine of the angle to its axis; 0 outside, 1 of other lights.
     float into_cone = 1;
     bool is_ratio = false;    ///< `value` is a difference over the twin's brightness
     bool faces_light = false; ///< others are dark in any case
@@ -79,7 +79,12 @@ struct ShownLight {
     bool told = false;
 };
 
-/// Which share of a spot's light is there, so far into its cone.
+/// Whether a spot's light is there, but perhaps not all of it.
+inline bool is_between_cones(const Observed& pixel) {
+    return pixel.into_cone > 0 && pixel.into_cone < 1;
+}
+
+/// Which share of a spot's light is there, so far into its cone; the largest is 1.
 struct ConeShare {
     double into_cone = 0;
     double share = 0;
@@ -100,7 +105,8 @@ struct MeshLight {
     /// what shadows scatter.
     double least_difference(double step) const;
     /// Which share of a spot's light is there: between those that are known it grows evenly, and
-    /// from nothing at the outer cone. `least`: no less than that, however it grows.
+    /// from nothing at the outer cone. Outside, false light would be all there. `least`: no less
+    /// than that, however it grows.
     double share_in_cone(const Observed& pixel) const;
     double least_in_cone(const Observed& pixel) const;
     /// Which share of its light at distance 1, and where all of a spot's is there, arrives.

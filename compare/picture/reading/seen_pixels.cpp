@@ -90,10 +90,12 @@ private:
     std::vector<Shading> shadings_;
 };
 
-double into_cone(const Light& light, const glm::dvec3& point) {
+/// Of a point that is in the cone.
+float into_cone(const Light& light, const glm::dvec3& point) {
+    constexpr double at_edge = 1e-6; // which truth, not rounding, says it has passed
     const SpotCone cone = spot_cone(light);
     const double cosine = glm::dot(glm::normalize(point - light.position), light.direction);
-    return std::clamp((cosine - cone.cos_outer) * cone.scale, 0.0, 1.0);
+    return static_cast<float>(std::clamp((cosine - cone.cos_outer) * cone.scale, at_edge, 1.0));
 }
 
 /// Whether a pixel beside it sees another mesh or a surface that lies otherwise, whose colour an
@@ -154,7 +156,8 @@ SeenPixels seen_pixels(const TracedScene& traced) {
             if (light.kind != Light::Kind::directional)
                 seen.observed.distance = static_cast<float>(glm::distance(point, light.position));
             if (light.kind == Light::Kind::spot)
-                seen.observed.into_cone = static_cast<float>(into_cone(light, point));
+                seen.observed.into_cone =
+                    in_cone(traced.truth(), truth.index(x, y)) ? into_cone(light, point) : 0;
             seen.observed.faces_light = sides_of(traced.tracer(), triangle).faces_light();
         }
     }
