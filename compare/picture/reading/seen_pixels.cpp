@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -92,10 +93,11 @@ private:
 
 /// Of a point that is in the cone.
 float into_cone(const Light& light, const glm::dvec3& point) {
-    constexpr double at_edge = 1e-6; // which truth, not rounding, says it has passed
+    // The truth says, exactly, that it is in: 0 would say that it is not.
+    constexpr double least = std::numeric_limits<float>::min();
     const SpotCone cone = spot_cone(light);
     const double cosine = glm::dot(glm::normalize(point - light.position), light.direction);
-    return static_cast<float>(std::clamp((cosine - cone.cos_outer) * cone.scale, at_edge, 1.0));
+    return static_cast<float>(std::clamp((cosine - cone.cos_outer) * cone.scale, least, 1.0));
 }
 
 /// Whether a pixel beside it sees another mesh or a surface that lies otherwise, whose colour an
