@@ -302,8 +302,10 @@ std::optional<Cause> cause_of(ColorVerdict verdict) {
 /// the rasterizer may have drawn instead is `edge`.
 void check_colors(const Case& tried, Comparison& comparison) {
     const TracedScene& traced = tried.claim.traced;
-    comparison.colors =
-        check_colors(tried.tracer(), traced.truth(), tried.claim.frame, traced.lights_before());
+    const Frame& frame = tried.claim.frame;
+    const bool wants_means = filters(frame.color_model) || asks_for_mipmaps(traced.scene());
+    comparison.colors = check_colors(tried.tracer(), traced.truth(), frame, traced.lights_before(),
+                                     wants_means ? &traced.pixel_means() : nullptr);
     const Image<ColorVerdict>& verdicts = comparison.colors->verdict;
     for (int y = 0; y < verdicts.height; ++y)
         for (int x = 0; x < verdicts.width; ++x)

@@ -37,6 +37,7 @@ struct Technique {
     /// It reflects the scene's environment. A technique that lights bump maps without reflections
     /// is only for scenes without an environment.
     bool needs_environment = false;
+    bool needs_mipmaps = false; ///< it filters bump maps, and is for files that ask for mipmaps
     /// The numbers in which it tells apart the depths of volumes and surfaces; null: it counts no
     /// volumes.
     DepthModel (*depth_model)(const Scene& scene) = nullptr;
@@ -75,6 +76,7 @@ inline const Light* unsuited_light(const Technique& technique, const Scene& scen
 inline bool suits(const Technique& technique, const Scene& scene) {
     if (unsuited_light(technique, scene) != nullptr) return false;
     if (!technique.needs_bump_maps) return true;
+    if (technique.needs_mipmaps && !(is_bump_lit(scene) && asks_for_mipmaps(scene))) return false;
     return is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value() &&
            !(technique.squares_thrice && scene.highlight.exponent() != 8);
 }

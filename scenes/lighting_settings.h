@@ -1,5 +1,6 @@
 // Settings of the techniques that light bump maps: where the vectors are made and how they are
-// normalised, which tangents they are carried by, and in which form the bumps are stored.
+// normalised, which tangents they are carried by, in which form the bumps are stored, and how they
+// are filtered.
 #pragma once
 
 #include "scenes/byte_blending.h"
@@ -34,6 +35,19 @@ enum class BumpForm : std::uint8_t {
     indexed,      ///< 16-bit indices into a table of normals
 };
 
+/// What stands for the bumps where a pixel is as large as several texels.
+enum class BumpFilter : std::uint8_t {
+    none,         ///< those of level 0 around its centre, mixed bilinearly
+    renormalised, ///< the mean normal of a mipmap, normalised
+    dimmed,       ///< its direction; its length dims the diffuse term (Kilgard 2001)
+    toksvig,      ///< its direction; its length widens and dims highlights (Toksvig 2005)
+    lean, ///< mean slopes; how far slopes vary widens and dims highlights (Olano & Baker 2010)
+};
+
+/// Lookups along a pixel's longer side, at most; 1: as many texels are taken along both.
+inline constexpr int usual_anisotropy = 1;
+inline constexpr int largest_anisotropy = 16;
+
 /// Where the vector to the light and the half-angle vector are made, of techniques that light in
 /// tangent space.
 enum class VectorOrigin : std::uint8_t {
@@ -56,6 +70,22 @@ inline constexpr std::array all_normalisations{Normalisation::exact, Normalisati
 inline constexpr std::array all_bump_forms{BumpForm::as_given, BumpForm::height_field,
                                            BumpForm::normal_map, BumpForm::derivatives,
                                            BumpForm::indexed};
+
+constexpr std::string_view name_of(BumpFilter filter) {
+    switch (filter) {
+    case BumpFilter::none:
+        return "none";
+    case BumpFilter::renormalised:
+        return "renormalised";
+    case BumpFilter::dimmed:
+        return "dimmed";
+    case BumpFilter::toksvig:
+        return "toksvig";
+    case BumpFilter::lean:
+        return "lean";
+    }
+    return "";
+}
 
 constexpr std::string_view name_of(Normalisation normalisation) {
     switch (normalisation) {
@@ -115,6 +145,7 @@ struct LightingSettings {
     std::optional<BumpForm> bump_form{};
     std::optional<VectorOrigin> vectors{};
     std::optional<TangentSource> tangents{};
+    std::optional<int> anisotropy{}; ///< 1 to largest_anisotropy; of techniques that filter
 };
 
 /// How a technique computes its colours, from which they are predicted.
@@ -136,6 +167,8 @@ struct ColorModel {
     VectorOrigin vectors = VectorOrigin::per_pixel; ///< another only where `axes` is world
     TangentSource tangents = TangentSource::vertices;
     bool reflects = false;                 ///< the scene's environment
+    BumpFilter filter = BumpFilter::none;  ///< another only where axes are the world's
+    int anisotropy = usual_anisotropy;     ///< where it filters
     int cube_size = usual_cube_size;       ///< of Normalisation::cube_map
     int newton_steps = usual_newton_steps; ///< of Normalisation::newton_raphson
     ByteErrors bytes = llvmpipe_bytes;     ///< taken from the driver
@@ -147,6 +180,12 @@ constexpr bool makes_vectors_as_truth(const ColorModel& model) {
     return model.vectors == VectorOrigin::per_pixel && model.tangents == TangentSource::vertices;
 }
 
+/// Whether its colours stand for all of a pixel, of which the truth is the mean. Others stand for
+/// the pixel's centre.
+constexpr bool filters(const ColorModel& model) {
+    return model.filter != BumpFilter::none;
+}
+
 /// A technique's own model, except for what the user asked for.
 constexpr ColorModel with_settings(ColorModel model, const LightingSettings& settings) {
     model.normalisation = settings.normalisation.value_or(model.normalisation);
@@ -154,6 +193,7 @@ constexpr ColorModel with_settings(ColorModel model, const LightingSettings& set
     model.newton_steps = settings.newton_steps.value_or(model.newton_steps);
     model.bump_form = settings.bump_form.value_or(model.bump_form);
     model.tangents = settings.tangents.value_or(model.tangents);
+    if (filters(model)) model.anisotropy = settings.anisotropy.value_or(model.anisotropy);
     if (model.axes == ColorModel::Axes::world)
         model.vectors = settings.vectors.value_or(model.vectors);
     return model;

@@ -202,6 +202,15 @@ inline bool has_heights_in_space(const Scene& scene) {
     return false;
 }
 
+/// Whether a material that is drawn has a bump map that its file asks to be mipmapped.
+inline bool asks_for_mipmaps(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[mesh.material];
+        if (material.bump != Bump::none && scene.textures[material.bump_map].mipmaps) return true;
+    }
+    return false;
+}
+
 inline const Light& chosen_light(const Scene& scene) {
     return scene.lights[scene.light];
 }

@@ -23,6 +23,7 @@ struct TextureImage {
     Wrap wrap_t = Wrap::repeat; ///< down the rows
     int bits = 8;               ///< per channel, in the file
     bool nearest = false;       ///< magFilter; evaluated in alpha masks alone
+    bool mipmaps = false;       ///< whether minFilter asks for them
 };
 
 /// What glTF's alphaMode MASK leaves out of a surface: all places where alpha is below `least`.

@@ -86,7 +86,7 @@ double squares_elsewhere(const ColorJudge& judge, const TruePicture& picture, in
     double squares = 0;
     for (int x = 0; x < check.verdict.width; ++x) {
         if (check.verdict.at(x, y) != ColorVerdict::as_shown) continue;
-        const glm::dvec3 right = showable(check.model, picture.shaded(x, y, shader).color());
+        const glm::dvec3 right = judge.right_color(x, y, picture.shaded(x, y, shader).color());
         const glm::dvec3 off = 255.0 * (judge.claim(x, y) - right);
         squares += glm::dot(off, off);
     }
@@ -123,14 +123,14 @@ RowSums check_row(const ColorJudge& judge, const TruePicture& picture, int y, Sc
         const ColorJudgement found = judge.judged(x, y, at_pixel, scrutiny);
         check.verdict.at(x, y) = found.verdict;
         if (found.verdict == ColorVerdict::as_shown) continue;
-        add_error(x, showable(check.model, at_pixel.back().color()));
+        add_error(x, judge.right_color(x, y, at_pixel.back().color()));
         widths.at(x, y) = static_cast<float>(width_of(found.bound));
         if (is_unpredicted(found.verdict)) ++sums.unpredicted;
         if (found.verdict == ColorVerdict::within && (found.spread.aside || found.spread.share > 0))
             ++sums.interpolated;
         if (found.verdict == ColorVerdict::beyond) {
             const ColorTerm term =
-                heaviest(judge.weights(at_pixel, points[i * lights].triangle, found.spread));
+                heaviest(judge.weights(x, y, at_pixel, points[i * lights].triangle, found.spread));
             ++sums.beyond_by[static_cast<std::size_t>(term)];
         }
     }
@@ -187,11 +187,11 @@ LightAdded added(const TracedLight& light, const Image<Visibility>& claim) {
 } // namespace
 
 ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                        const TracedLights& before) {
+                        const TracedLights& before, const PixelMeans* means) {
     assert(!frame.color.pixels.empty() && is_bump_lit(tracer.scene()));
     const int width = frame.color.width;
     const int height = frame.color.height;
-    const ColorJudge judge(tracer, truth, before, frame);
+    const ColorJudge judge(tracer, truth, before, frame, means);
     const TruePicture picture{tracer.scene().camera, truth, before};
     ColorCheck check;
     check.model = frame.color_model;
@@ -229,12 +229,15 @@ ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Fr
     }
     if (check.judged > 0) check.rmse = std::sqrt(squares / (3 * static_cast<double>(check.judged)));
     check.picture_rmse = std::sqrt(all_squares / (3.0 * width * height));
+    if (means != nullptr) check.means = check_means(*means, frame, check.verdict);
     return check;
 }
 
 ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
                                int x, int y, const TracedLights& before) {
-    const ColorJudge judge(tracer, truth, before, frame);
+    PixelMeans means;
+    if (filters(frame.color_model)) means = shade_pixel(tracer, truth, x, y, before);
+    const ColorJudge judge(tracer, truth, before, frame, &means);
     const ColorModel& model = frame.color_model;
     ColorAccount account;
     account.claim = judge.claim(x, y);
@@ -244,7 +247,8 @@ ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, c
                                          frame.claims_before[i].at(x, y)});
     AddedShader shader(tracer, before);
     account.truth = TruePicture{tracer.scene().camera, truth, before}.shaded(x, y, shader);
-    account.showable = showable(model, account.truth.color());
+    account.showable = judge.right_color(x, y, account.truth.color());
+    if (filters(model)) account.rays = means.rays.at(x, y);
     if (judge.shows_background(x, y)) {
         account.verdict = judge.judged_background(x, y);
         return account;
@@ -257,7 +261,7 @@ ColorAccount account_for_color(const Tracer& tracer, const GroundTruth& truth, c
     account.verdict = found.verdict;
     account.bound = found.bound;
     account.predicted = found.predicted;
-    account.weights = judge.weights(shown, points.front().triangle, found.spread);
+    account.weights = judge.weights(x, y, shown, points.front().triangle, found.spread);
     for (double& weight : account.weights) weight *= 255;
     return account;
 }

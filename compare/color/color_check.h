@@ -3,30 +3,22 @@
 // arithmetic predicts the colour. Elsewhere: whether it is the colour of what the technique shows.
 #pragma once
 
+#include "compare/color/color_verdict.h"
+#include "compare/color/mean_check.h"
 #include "compare/driver/interval.h"
 #include "compare/driver/lighting/color_terms.h"
+#include "reference/shade/pixel_means.h"
 #include "reference/shade/shading.h"
 #include "reference/trace/lights_before.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace shadowproof {
-
-/// The verdict on one pixel's colour.
-enum class ColorVerdict : std::uint8_t {
-    as_shown,    ///< background, or a wrong surface or visibility: what the technique's arithmetic
-                 ///< predicts for what it shows
-    within,      ///< within the bound
-    beyond,      ///< beyond the bound, but predicted by the technique's arithmetic
-    unpredicted, ///< not predicted by that arithmetic, though within the bound
-    unexplained, ///< beyond the bound, or of what has none, and not predicted
-    moved, ///< beyond 1/255 of the truth, which a technique that uses floats alone may not be; but
-           ///< predicted, and right for a place that the rasterizer may have drawn instead
-};
 
 /// Width of the intervals within which colours count as right: that of the widest channel, in steps
 /// of 1/255.
@@ -64,12 +56,14 @@ struct ColorCheck {
     int first_unpredicted_x = 0;
     int first_unpredicted_y = 0;
     std::vector<LightAdded> lights_before{}; ///< in their order
+    std::optional<MeanCheck> means{};        ///< where these are known
 };
 
 /// The frame must have colours, and the scene must be bump-lit. `before`: the lights that the frame
-/// has before the chosen one, here and below.
+/// has before the chosen one, here and below. `means`: the right colours of a frame whose model
+/// filters; null where none does.
 ColorCheck check_colors(const Tracer& tracer, const GroundTruth& truth, const Frame& frame,
-                        const TracedLights& before = {});
+                        const TracedLights& before = {}, const PixelMeans* means = nullptr);
 
 /// What a light that is added shows at a pixel.
 struct AddedAtPixel {
@@ -82,7 +76,8 @@ struct AddedAtPixel {
 struct ColorAccount {
     ColorVerdict verdict = ColorVerdict::as_shown;
     Shading truth;                ///< under the chosen light; before_color is what the others add
-    glm::dvec3 showable{0, 0, 0}; ///< the truth's colour, clamped as by the frame buffer
+    glm::dvec3 showable{0, 0, 0}; ///< the right colour, clamped as by the frame buffer
+    glm::ivec2 rays{0, 0}; ///< columns and rows of which that is a mean; 0: it is the centre's
     glm::dvec3 claim{0, 0, 0};
     Intervals bound;
     Intervals predicted;

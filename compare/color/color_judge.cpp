@@ -22,8 +22,6 @@ bool contains(const Intervals& limits, const glm::dvec3& color) {
            limits[2].contains(color.z);
 }
 
-constexpr Interval any_number{-std::numeric_limits<double>::infinity(),
-                              std::numeric_limits<double>::infinity()};
 constexpr Intervals anything{any_number, any_number, any_number};
 
 constexpr std::array<glm::dvec2, 4> corners_of_square{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -57,10 +55,12 @@ Intervals cut_to_a_step(Intervals bound, const glm::dvec3& truth) {
 } // namespace
 
 ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const TracedLights& before,
-                       const Frame& frame)
+                       const Frame& frame, const PixelMeans* means)
     : tracer_(tracer), scene_(tracer.scene()), truth_(truth), frame_(frame),
+      means_(filters(frame.color_model) ? means : nullptr),
       tables_(make_lighting_tables(scene_, frame.color_model)) {
     assert(before.size() == frame.claims_before.size());
+    assert(means != nullptr || !filters(frame.color_model));
     for (std::size_t i = 0; i < before.size(); ++i)
         lights_.push_back({before[i]->scene, before[i]->truth, frame.claims_before[i]});
     lights_.push_back({scene_, truth, frame.claim});
@@ -92,7 +92,13 @@ auto ColorJudge::of_lights(const PixelPlace& pixel, const PixelSpread& spread, c
     return each;
 }
 
+glm::dvec3 ColorJudge::right_color(int x, int y, const glm::dvec3& at_centre) const {
+    return showable(frame_.color_model, means_ != nullptr ? means_->color.at(x, y) : at_centre);
+}
+
+/// A technique that filters has neither bytes nor tables: it is right within a step.
 Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
+    if (means_ != nullptr) return around(means_->color.at(pixel.x, pixel.y), one_step);
     return color_bound(frame_.color_model, of_lights(pixel, spread, [&](const InputPoint& point) {
                            return budgeted_inputs(tables_, point);
                        }));
@@ -121,17 +127,46 @@ double ColorJudge::lateral(int x, int y) const {
 }
 
 /// Of all lights, to which other vectors are interpolated each.
-double ColorJudge::share(int x, int y) const {
+/// At the place beside the pixel's centre, of the triangle that is shown there.
+double ColorJudge::share(int x, int y, const glm::dvec2& beside) const {
     const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     const double aside = lateral(x, y);
     double largest = 0;
     for (const AddedLight& light : lights_) {
         const double error =
-            attribute_error(light.scene, shown(x, y), {direction(x, y), aside, drawing});
+            attribute_error(light.scene, shown(x, y), {direction(x, y, beside), aside, drawing});
         if (!std::isfinite(error)) return error;
         largest = std::max(largest, error);
     }
     return largest;
+}
+
+/// What a pixel that filters may read of its neighbours. Where the spread is the pixel's centre
+/// alone, that is what exact numbers have there.
+void ColorJudge::add_quad(const PixelPlace& pixel, const Square& square,
+                          PixelSpread& spread) const {
+    if (means_ == nullptr) return;
+    const auto [column, row] = quad_neighbours(pixel.x, pixel.y, frame_.color.height);
+    const auto way = [&](double columns, double rows) {
+        return direction(pixel.x, pixel.y, {columns, rows}) - direction(pixel.x, pixel.y);
+    };
+    QuadRays quad{.to_column = way(column, 0), .to_row = way(0, row)};
+    for (std::size_t i = 0; i < corners_of_square.size(); ++i)
+        quad.rays[i] =
+            direction(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
+    if (spread.share > 0) quad.share = pixel.quad_share;
+    if (spread.aside) quad.stretch = pixel.quad_stretch;
+    spread.quad = quad;
+}
+
+void ColorJudge::find_quad_errors(PixelPlace& pixel, double own_share) const {
+    if (means_ == nullptr) return;
+    const auto [x, y] = std::pair(pixel.x, pixel.y);
+    const auto [column, row] = quad_neighbours(x, y, frame_.color.height);
+    pixel.quad_share = std::max({own_share, share(x, y, {column, 0}), share(x, y, {0, row})});
+    const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
+    pixel.quad_stretch =
+        drawn_stretch(scene_, pixel.triangle, {direction(x, y), lateral(x, y), drawing});
 }
 
 double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) const {
@@ -156,6 +191,7 @@ PixelSpread ColorJudge::over(const PixelPlace& pixel, const Square& square, doub
         }
         spread.corners[i] = weights_along(scene_, pixel.triangle, ray);
     }
+    add_quad(pixel, square, spread);
     return spread;
 }
 
@@ -226,7 +262,7 @@ ColorVerdict ColorJudge::judged_background(int x, int y) const {
 
 /// As if what is shown were the truth. What holds at the centre, without rounding of interpolated
 /// values, also holds for the whole square with it.
-ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const {
+ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) const {
     const Shading& shading = pixel.own();
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
     const auto look = [&](const PixelSpread& spread) {
@@ -242,29 +278,42 @@ ColorJudgement ColorJudge::judged_as_shown(const PixelPlace& pixel, Scrutiny scr
         return found;
     };
     PixelSpread spread{.middle = shading.weights};
+    add_quad(pixel, {}, spread);
+    // A bound about a mean is the same wherever the rasterizer drew.
+    const auto is_settled = [&](ColorVerdict verdict) {
+        return verdict == ColorVerdict::within ||
+               (means_ != nullptr && verdict == ColorVerdict::beyond);
+    };
     const ColorJudgement exactly = look(spread);
-    if (exactly.verdict == ColorVerdict::within) return exactly;
+    if (is_settled(exactly.verdict)) return exactly;
     spread.share = share(pixel.x, pixel.y);
     const bool finite = std::isfinite(spread.share);
+    find_quad_errors(pixel, spread.share);
+    add_quad(pixel, {}, spread);
     ColorJudgement rounded = exactly;
     if (finite) rounded = look(spread);
-    if (rounded.verdict == ColorVerdict::within || scrutiny == Scrutiny::centre) return rounded;
+    if (is_settled(rounded.verdict) || scrutiny == Scrutiny::centre) return rounded;
     const bool right = rounded.verdict == ColorVerdict::unpredicted;
     const bool is_predicted = rounded.verdict == ColorVerdict::beyond;
     return judged_aside(pixel, spread.share, right, is_predicted);
 }
 
-ColorTerms ColorJudge::weights(std::span<const Shading> shadings, std::uint32_t triangle,
-                               const PixelSpread& spread) const {
-    const PixelPlace pixel{0, 0, shadings, triangle};
-    const PixelSpread centre{.middle = shadings.back().weights};
+ColorTerms ColorJudge::weights(int x, int y, std::span<const Shading> shadings,
+                               std::uint32_t triangle, const PixelSpread& spread) const {
+    const PixelPlace pixel{x, y, shadings, triangle};
+    PixelSpread centre{.middle = shadings.back().weights};
+    add_quad(pixel, {}, centre);
     const auto claimed = [&](const InputPoint& point) { return claimed_inputs(tables_, point); };
-    return weights_of(
-        frame_.color_model,
-        of_lights(pixel, centre, [&](const InputPoint& at) { return true_inputs(tables_, at); }),
-        of_lights(pixel, centre,
-                  [&](const InputPoint& at) { return single_step_inputs(tables_, at); }),
-        of_lights(pixel, centre, claimed), of_lights(pixel, spread, claimed));
+    const auto truth =
+        of_lights(pixel, centre, [&](const InputPoint& at) { return true_inputs(tables_, at); });
+    const auto single = of_lights(
+        pixel, centre, [&](const InputPoint& at) { return single_step_inputs(tables_, at); });
+    const auto at_centre = of_lights(pixel, centre, claimed);
+    const auto freed = of_lights(pixel, spread, claimed);
+    const ColorSteps steps{truth, single, at_centre, freed};
+    if (means_ == nullptr) return weights_of(frame_.color_model, steps);
+    return weights_of(frame_.color_model, steps,
+                      PixelColors{means_->color.at(x, y), means_->alike.at(x, y)});
 }
 
 } // namespace shadowproof

@@ -30,9 +30,9 @@ struct ColorJudgement {
 /// those before it.
 class ColorJudge {
 public:
-    /// `before`: as many lights as the frame has.
+    /// `before`: as many lights as the frame has. `means`: not null where its model filters.
     ColorJudge(const Tracer& tracer, const GroundTruth& truth, const TracedLights& before,
-               const Frame& frame);
+               const Frame& frame, const PixelMeans* means);
 
     /// Whether surface and visibility under each light are the truth's.
     bool is_as_true(int x, int y) const;
@@ -49,8 +49,12 @@ public:
     /// The background is what was cleared: no rounding, nothing beside it.
     ColorVerdict judged_background(int x, int y) const;
 
-    /// How far each ColorTerm moves the colour.
-    ColorTerms weights(std::span<const Shading> shadings, std::uint32_t triangle,
+    /// The colour that is right, as the frame can show it: of the pixel's centre, where the ray's
+    /// colour is given; of all of it, where the frame's model filters.
+    glm::dvec3 right_color(int x, int y, const glm::dvec3& at_centre) const;
+
+    /// How far each ColorTerm moves the colour of a pixel that shows the triangle.
+    ColorTerms weights(int x, int y, std::span<const Shading> shadings, std::uint32_t triangle,
                        const PixelSpread& spread) const;
 
 private:
@@ -64,6 +68,9 @@ private:
         int y = 0;
         std::span<const Shading> shadings; ///< one per light
         std::uint32_t triangle = 0;
+        /// As QuadRays has them, where the model filters: of all that the rasterizer may draw.
+        double quad_share = 0;
+        double quad_stretch = 0;
 
         const Shading& own() const { return shadings.back(); }
     };
@@ -78,19 +85,22 @@ private:
     const Scene& scene_;
     const GroundTruth& truth_;
     const Frame& frame_;
+    const PixelMeans* means_;        ///< null where the model does not filter
     std::vector<AddedLight> lights_; ///< the chosen one last
     LightingTables tables_;
 
     std::uint32_t shown(int x, int y) const { return frame_.triangle.at(x, y); }
     double depth(int x, int y) const;
-    ColorJudgement judged_as_shown(const PixelPlace& pixel, Scrutiny scrutiny) const;
+    ColorJudgement judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) const;
     /// The result of `of` for the inputs of each light.
     template <class Of>
     auto of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
     Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;
-    double share(int x, int y) const;
+    double share(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+    void find_quad_errors(PixelPlace& pixel, double share) const;
+    void add_quad(const PixelPlace& pixel, const Square& square, PixelSpread& spread) const;
     double facing(std::uint32_t triangle, const glm::dvec3& direction) const;
     PixelSpread over(const PixelPlace& pixel, const Square& square, double share) const;
     template <class Limit>

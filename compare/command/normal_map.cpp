@@ -7,6 +7,7 @@
 #include "compare/output/write_file.h"
 #include "scenes/error.h"
 #include "scenes/load/picture/picture.h"
+#include "scenes/surface/mipmap.h"
 #include "scenes/surface/relief.h"
 
 #include <fmt/format.h>

@@ -148,6 +148,13 @@ void add_lighting_flags(CLI::App& command, LightingSettings& settings) {
             },
             "Whose tangents lighting uses (vertices)")
         ->type_name(names_of(all_tangent_sources, "|"));
+    command
+        .add_option("--anisotropy", settings.anisotropy,
+                    fmt::format("Lookups along a pixel's longer side, at most, of techniques that "
+                                "filter bump maps ({})",
+                                usual_anisotropy))
+        ->type_name("N")
+        ->check(CLI::Range(1, largest_anisotropy));
 }
 
 /// The least of numbers above zero.
@@ -412,6 +419,7 @@ std::vector<std::string> settings(const TechniqueSettings& asked) {
     if (lighting.bump_form) add("--bumps", std::string(name_of(*lighting.bump_form)));
     if (lighting.vectors) add("--vectors", std::string(name_of(*lighting.vectors)));
     if (lighting.tangents) add("--tangents", std::string(name_of(*lighting.tangents)));
+    if (lighting.anisotropy) add("--anisotropy", fmt::format("{}", *lighting.anisotropy));
     if (const std::optional<double>& extrusion = asked.volumes.extrusion)
         add("--extrusion", fmt::format("{}", *extrusion));
     const MapSettings& map = asked.map;

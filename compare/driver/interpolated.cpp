@@ -94,10 +94,13 @@ Interpolated interpolated_at(const Scene& scene, std::uint32_t triangle,
     at.to_light_off = off_by(to_light, at.to_light, spread);
     at.normal_off = off_by(normals, at.normal, spread);
     at.tangent_off = off_by(tangents, at.tangent, spread);
-    at.bump_at =
-        place_range(at_corners([&](int k) { return glm::dvec2(surface[k].bump_at); }), spread);
-    at.decal_at =
-        place_range(at_corners([&](int k) { return glm::dvec2(surface[k].decal_at); }), spread);
+    const auto bumps_at = at_corners([&](int k) { return glm::dvec2(surface[k].bump_at); });
+    const auto decals_at = at_corners([&](int k) { return glm::dvec2(surface[k].decal_at); });
+    at.bump_at = place_range(bumps_at, spread);
+    at.decal_at = place_range(decals_at, spread);
+    if (!spread.quad) return at;
+    at.bump_steps = quad_steps(scene, triangle, bumps_at, *spread.quad);
+    at.decal_steps = quad_steps(scene, triangle, decals_at, *spread.quad);
     return at;
 }
 

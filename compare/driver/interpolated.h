@@ -3,11 +3,13 @@
 #pragma once
 
 #include "compare/driver/interval.h"
+#include "compare/driver/quad_steps.h"
 #include "scenes/scene.h"
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 
 namespace shadowproof {
@@ -21,6 +23,7 @@ struct PixelSpread {
     std::array<glm::dvec3, 4> corners{}; ///< of the polygon
     bool aside = false;                  ///< whether there is a polygon, not the middle alone
     double share = 0;                    ///< relative rounding error: attribute_error
+    std::optional<QuadRays> quad{};      ///< where steps between neighbours count
 };
 
 /// The weights where the ray along `direction` meets the triangle's plane; none of them is clamped.
@@ -39,6 +42,8 @@ struct Interpolated {
     double tangent_off = 0;
     PlaceRange bump_at{};
     PlaceRange decal_at{};
+    PlaceSteps bump_steps{}; ///< any, without a quad
+    PlaceSteps decal_steps{};
 };
 
 /// The three corners' surfaces, as the scene has them.

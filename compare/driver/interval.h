@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <limits>
 
 namespace shadowproof {
 
@@ -17,6 +18,8 @@ struct Interval {
     bool contains(double value) const { return low <= value && value <= high; }
     double middle() const { return 0.5 * (low + high); }
 };
+inline constexpr Interval any_number{-std::numeric_limits<double>::infinity(),
+                                     std::numeric_limits<double>::infinity()};
 using Intervals = std::array<Interval, 3>; ///< a colour's or a vector's components
 
 /// Texture coordinates along and down the rows.

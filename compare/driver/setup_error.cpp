@@ -25,19 +25,6 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Whether it comes within `reach` of the pixel.
-bool may_reach(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
-    const double area =
-        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec2 from = triangle[i].place;
-        const glm::dvec2 along = triangle[(i + 1) % 3].place - from;
-        const double inside = cross(along, pixel - from) * (area < 0 ? -1 : 1);
-        if (inside < -reach * glm::length(along)) return false;
-    }
-    return true;
-}
-
 // llvmpipe makes a triangle's depth a plane over the picture: with differences x01, y01, z01 of its
 // first two corners and x20, y20, z20 of the third and first, A = x01 y20 - x20 y01, and
 //   dz/dx = z01 (y20 / A) - z20 (y01 / A),   dz/dy = z20 (x01 / A) - z01 (x20 / A),
@@ -241,6 +228,18 @@ std::vector<PictureTriangle> fan_of(const std::vector<PicturePoint>& polygon) {
     for (std::size_t i = 2; i < polygon.size(); ++i)
         fan.push_back({polygon[0], polygon[i - 1], polygon[i]});
     return fan;
+}
+
+bool may_reach(const std::array<PicturePoint, 3>& triangle, const glm::dvec2& pixel, double reach) {
+    const double area =
+        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2 from = triangle[i].place;
+        const glm::dvec2 along = triangle[(i + 1) % 3].place - from;
+        const double inside = cross(along, pixel - from) * (area < 0 ? -1 : 1);
+        if (inside < -reach * glm::length(along)) return false;
+    }
+    return true;
 }
 
 double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {

@@ -50,6 +50,9 @@ set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners, const Dra
 /// The same of what clipping has left.
 std::vector<std::array<PicturePoint, 3>> fan_of(const std::vector<PicturePoint>& polygon);
 
+/// Whether a triangle of the picture comes within `reach` pixels of a place.
+bool may_reach(const std::array<PicturePoint, 3>& triangle, const glm::dvec2& pixel, double reach);
+
 /// Whether set-up, whose floats are not snapped, may find no area in a triangle whose corners lie
 /// where they should. Then 1 / A is infinite, and the depth no number or any: also where that of
 /// all corners is the same, as 0 / 0 is none.

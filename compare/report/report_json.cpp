@@ -30,6 +30,24 @@ Json since_of(const Since& since) {
     return json;
 }
 
+Json bins_of(const std::vector<ErrorBin>& bins) {
+    Json json = Json::array();
+    for (const ErrorBin& bin : bins)
+        json.push_back(
+            {{"from", bin.from}, {"to", bin.to}, {"pixels", bin.pixels}, {"rmse", bin.rmse}});
+    return json;
+}
+
+Json means_of(const MeanCheck& means) {
+    return {{"most_rays", means.most_rays},
+            {"noise", means.noise},
+            {"rmse", means.rmse},
+            {"alike", means.alike},
+            {"alike_rmse", means.alike_rmse},
+            {"by_texels", bins_of(means.by_texels)},
+            {"by_angle", bins_of(means.by_angle)}};
+}
+
 Json color_of(const ColorCheck& colors) {
     Json json{{"judged", colors.judged},
               {"largest", colors.largest},
@@ -52,6 +70,11 @@ Json color_of(const ColorCheck& colors) {
         json["cube_size"] = colors.model.cube_size;
     if (colors.model.normalisation == Normalisation::newton_raphson)
         json["newton_steps"] = colors.model.newton_steps;
+    if (filters(colors.model)) {
+        json["filter"] = name_of(colors.model.filter);
+        json["anisotropy"] = colors.model.anisotropy;
+    }
+    if (colors.means) json["pixel_means"] = means_of(*colors.means);
     for (const ColorTerm term : all_color_terms)
         if (const std::uint64_t pixels = colors.beyond_by[static_cast<std::size_t>(term)])
             json["beyond_by"][std::string(name_of(term))] = pixels;

@@ -162,6 +162,20 @@ void light_before(const JsonPlace& place) {
     object(place, {{"name", text}, {"differing", count}});
 }
 
+void error_bin(const JsonPlace& place) {
+    object(place, {{"from", number}, {"to", number}, {"pixels", count}, {"rmse", number}});
+}
+
+void pixel_means(const JsonPlace& place) {
+    object(place, {{"most_rays", count},
+                   {"noise", number},
+                   {"rmse", number},
+                   {"alike", count},
+                   {"alike_rmse", number},
+                   {"by_texels", list_of<error_bin>},
+                   {"by_angle", list_of<error_bin>}});
+}
+
 void color(const JsonPlace& place) {
     object(place, {{"judged", count},
                    {"largest", number},
@@ -182,6 +196,9 @@ void color(const JsonPlace& place) {
                    {"bumps", text},
                    {"vectors", text, Need::optional}, // absent in results of older versions
                    {"tangents", text, Need::optional},
+                   {"filter", text, Need::optional},
+                   {"anisotropy", size, Need::optional},
+                   {"pixel_means", pixel_means, Need::optional},
                    {"lights_before", list_of<light_before>, Need::optional}});
 }
 

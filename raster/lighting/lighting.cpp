@@ -97,6 +97,7 @@ void set_material(const GlFunctions& gl, const Program& program, const LitScene&
     bind(1, material.decal, material.decal == no_texture ? lit.white : lit.decals[material.decal],
          12);
     bind(2, material.bump_map, material.bump_map == no_texture ? lit.white : bumps.texels, 14);
+    gl.BindTextureUnit(7, bumps.slope_products.name());
 }
 
 /// A shader, preceded by constants for what is the same in all draws: llvmpipe runs both sides of a
@@ -114,7 +115,9 @@ std::string with_constants(const ShaderText& shader, const LitScene& lit, const 
            ";\nconst int forms_in_use = " + std::to_string(forms) +
            ";\nconst bool heights_in_space = " + (in_space ? "true" : "false") +
            ";\nconst int vectors = " + std::to_string(static_cast<int>(model.vectors)) +
-           ";\n#line 2\n" + std::string(shader.text.substr(version.size()));
+           ";\nconst int bump_filter = " + std::to_string(static_cast<int>(model.filter)) +
+           ";\nconst int anisotropy = " + std::to_string(model.anisotropy) + ";\n#line 2\n" +
+           std::string(shader.text.substr(version.size()));
 }
 
 /// A light's pass, as the programs of its steps are made for it.
@@ -208,9 +211,9 @@ void begin_lighting(const GlFunctions& gl, const LightingPass& pass, const Targe
 
 } // namespace
 
-std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit) {
+std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit, const ShaderText& ambient) {
     return {
-        {.fragment = shader_file("ambient.frag")},
+        {.fragment = ambient},
         {.fragment = lit, .where = LightingStep::Where::lit, .blend = LightingStep::Blend::add}};
 }
 

@@ -35,8 +35,10 @@ struct LightingRecipe {
     ColorModel model{}; ///< the colour buffer holds bytes unless its arithmetic is floating
 };
 
-/// Ambient light everywhere and, added to it on lit pixels, the result of a shader.
-std::vector<LightingStep> add_lit_to_ambient(const ShaderText& lit);
+/// Ambient light everywhere, by a shader of its own, and, added to it on lit pixels, the result of
+/// another.
+std::vector<LightingStep>
+add_lit_to_ambient(const ShaderText& lit, const ShaderText& ambient = shader_file("ambient.frag"));
 
 /// Ambient light times the decal everywhere and, over it on lit pixels, the result of a shader that
 /// computes all of the lighting.

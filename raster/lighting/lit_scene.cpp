@@ -3,6 +3,7 @@
 #include "raster/passes/passes.h"
 #include "scenes/error.h"
 #include "scenes/surface/bump_forms.h"
+#include "scenes/surface/bump_pyramid.h"
 #include "scenes/surface/polygon_tangents.h"
 #include "scenes/surface/texel_sides.h"
 
@@ -17,15 +18,23 @@ namespace shadowproof {
 
 namespace {
 
-Texture upload_texels(const GlFunctions& gl, const Image<glm::vec4>& texels) {
+/// All levels of a texture, of which the shaders fetch texels.
+Texture upload_levels(const GlFunctions& gl, std::span<const Image<glm::vec4>> levels) {
     Texture texture = make_texture(gl, GL_TEXTURE_2D);
-    gl.TextureStorage2D(texture.name(), 1, GL_RGBA32F, texels.width, texels.height);
-    gl.TextureSubImage2D(texture.name(), 0, 0, 0, texels.width, texels.height, GL_RGBA, GL_FLOAT,
-                         texels.pixels.data());
-    // The shaders fetch texels; under the initial filter a texture without mipmaps is incomplete.
-    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureStorage2D(texture.name(), static_cast<GLsizei>(levels.size()), GL_RGBA32F,
+                        levels[0].width, levels[0].height);
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        gl.TextureSubImage2D(texture.name(), static_cast<GLint>(level), 0, 0, levels[level].width,
+                             levels[level].height, GL_RGBA, GL_FLOAT, levels[level].pixels.data());
+    // Under the initial filter a texture without all its mipmaps is incomplete.
+    gl.TextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER,
+                         levels.size() > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST);
     gl.TextureParameteri(texture.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
+}
+
+Texture upload_texels(const GlFunctions& gl, const Image<glm::vec4>& texels) {
+    return upload_levels(gl, std::span(&texels, 1));
 }
 
 void require_size(const GlFunctions& gl, const Scene& scene, const std::string& name, int side) {
@@ -74,11 +83,21 @@ Texture upload_environment(const GlFunctions& gl, const Scene& scene) {
     return upload_faces(gl, faces, {GL_RGB32F, GL_RGB, GL_FLOAT});
 }
 
+/// Of its form, which the filter reads no more, the shader must know that there is one.
+BumpMap upload_pyramid(const GlFunctions& gl, const Scene& scene, const Material& material,
+                       BumpFilter filter) {
+    const BumpPyramid pyramid = bump_pyramid(scene, material, filter);
+    BumpMap bumps{.texels = upload_levels(gl, pyramid.levels), .form = BumpForm::normal_map};
+    if (!pyramid.cross.empty()) bumps.slope_products = upload_levels(gl, pyramid.cross);
+    return bumps;
+}
+
 BumpMap upload_bumps(const GlFunctions& gl, const Scene& scene, const Material& material,
-                     BumpForm form) {
+                     const ColorModel& model) {
     if (material.bump == Bump::none) return {};
     require_size(gl, scene, scene.textures[material.bump_map]);
-    const BumpTexels bumps = bump_texels(scene, material, form);
+    if (filters(model)) return upload_pyramid(gl, scene, material, model.filter);
+    const BumpTexels bumps = bump_texels(scene, material, model.bump_form);
     return {.texels = upload_texels(gl, bumps.texels),
             .form = bumps.form,
             .scale = static_cast<float>(bumps.scale),
@@ -114,13 +133,14 @@ void upload_textures(const GlFunctions& gl, const Scene& scene, const ColorModel
         });
         lit.bumps_of[run.material] = static_cast<std::size_t>(same - made_of.begin());
         if (same == made_of.end()) {
-            lit.bumps.push_back(upload_bumps(gl, scene, material, model.bump_form));
+            lit.bumps.push_back(upload_bumps(gl, scene, material, model));
             made_of.push_back(run.material);
         }
         if (material.decal == no_texture || lit.decals[material.decal].name() != 0) continue;
         const TextureImage& decal = scene.textures[material.decal];
         require_size(gl, scene, decal);
-        lit.decals[material.decal] = upload_texels(gl, decal.texels);
+        lit.decals[material.decal] = filters(model) ? upload_levels(gl, mipmap_of(decal.texels))
+                                                    : upload_texels(gl, decal.texels);
     }
     lit.white = upload_texels(gl, Image<glm::vec4>(1, 1, glm::vec4(1)));
     if (model.normalisation == Normalisation::cube_map)

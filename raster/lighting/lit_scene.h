@@ -21,9 +21,10 @@ struct LitRun {
     bool receives = true;       ///< shows shadows
 };
 
-/// The bump map of a material, as shaders read it.
+/// The bump map of a material, as shaders read it: in one of its forms, or filtered.
 struct BumpMap {
     Texture texels{};
+    Texture slope_products{};           ///< BumpPyramid::cross
     BumpForm form = BumpForm::as_given; ///< as_given where there is no map
     float scale = 1;
     float slope_range = 0;
@@ -35,7 +36,8 @@ struct LitScene {
     Buffer surfaces{};    ///< as Scene::surfaces
     Buffer texel_sides{}; ///< TexelSides per corner, where heights are in units of space
     std::vector<LitRun> all_runs{};
-    std::vector<Texture> decals{};       ///< by index into Scene::textures; empty for others
+    std::vector<Texture> decals{};       ///< by index into Scene::textures; empty for others;
+                                         ///< mipmapped where the recipe's model filters
     std::vector<BumpMap> bumps{};        ///< shared by materials with equal bump maps
     std::vector<std::size_t> bumps_of{}; ///< index into `bumps`, per material
     Texture white{};                     ///< a single texel

@@ -12,10 +12,12 @@ struct TracedScene::State {
     const GroundTruth& truth;
     double far = 0;
     std::once_flag has_lights{};
+    std::once_flag has_means{};
     std::once_flag has_silhouette{};
     std::once_flag has_depths{};
     std::once_flag has_volumes{};
     TracedLights lights_before{};
+    PixelMeans pixel_means{};
     std::optional<Silhouette> silhouette{};
     std::optional<ShadowDepths> depths{};
     std::optional<VolumeStore> volumes{};
@@ -44,6 +46,13 @@ const TracedLights& TracedScene::lights_before() const {
     std::call_once(state_->has_lights,
                    [&] { state_->lights_before = trace_lights_before(state_->tracer); });
     return state_->lights_before;
+}
+
+const PixelMeans& TracedScene::pixel_means() const {
+    std::call_once(state_->has_means, [&] {
+        state_->pixel_means = shade_pixels(state_->tracer, state_->truth, lights_before());
+    });
+    return state_->pixel_means;
 }
 
 const Silhouette& TracedScene::silhouette() const {

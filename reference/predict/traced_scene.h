@@ -4,6 +4,7 @@
 #include "reference/predict/ledger.h"
 #include "reference/predict/region_ledger.h"
 #include "reference/predict/volume_store.h"
+#include "reference/shade/pixel_means.h"
 #include "reference/trace/lights_before.h"
 #include "reference/trace/trace.h"
 
@@ -30,6 +31,8 @@ public:
 
     /// The same under the lights whose light its colours add to the chosen one's.
     const TracedLights& lights_before() const;
+    /// The true colours as means over the pixels; the scene must be bump-lit.
+    const PixelMeans& pixel_means() const;
     /// The sides of the casters' shadow volumes.
     const Silhouette& silhouette() const;
     /// Shadow depths at the points of each pixel's ray.

@@ -1,6 +1,7 @@
 #include "reference/shade/shading.h"
 
 #include "reference/shade/point_shader.h"
+#include "reference/shade/sample_rays.h"
 #include "reference/trace/tiles.h"
 
 #include <cassert>
@@ -82,20 +83,6 @@ void add(const Image<glm::dvec3>& more, Image<glm::dvec3>& sum) {
     for (std::size_t i = 0; i < more.pixels.size(); ++i) sum.pixels[i] += more.pixels[i];
 }
 
-/// n x n rays of one pixel, sixteen at a time.
-struct SampleRays {
-    const Camera& camera;
-    int n = 1;
-    int x = 0;
-    int y = 0;
-
-    glm::dvec3 at(int sample) const {
-        const double size = n;
-        return ray_column(camera, x + (sample % n + 0.5) / size) +
-               ray_row(camera, y + (sample / n + 0.5) / size);
-    }
-};
-
 struct Sum {
     glm::dvec3 color{0, 0, 0};
     int seen = 0;
@@ -105,9 +92,8 @@ struct Sum {
 template <class Of>
 Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader, const Of& of) {
     Sum sum;
-    const int samples = rays.n * rays.n;
-    for (int first = 0; first < samples; first += packet_size) {
-        const int count = std::min(packet_size, samples - first);
+    for (int first = 0; first < rays.count(); first += packet_size) {
+        const int count = std::min(packet_size, rays.count() - first);
         Vectors directions;
         for (int lane = 0; lane < count; ++lane)
             directions.set(static_cast<std::size_t>(lane), rays.at(first + lane));
@@ -146,7 +132,7 @@ void add_means(const Tracer& tracer, int n, Image<glm::dvec3>& color, const Of& 
         std::unique_ptr<Prober>& prober = probers[static_cast<std::size_t>(thread)];
         if (!prober) prober = std::make_unique<Prober>(state);
         for (int x = 0; x < camera.width; ++x) {
-            const Sum sum = sum_of({camera, n, x, y}, *prober, shaders.of(thread), of);
+            const Sum sum = sum_of({camera, n, n, x, y}, *prober, shaders.of(thread), of);
             const double samples = n * n;
             color.at(x, y) += sum.color / samples;
             seen(x, y, sum.seen / samples);

@@ -64,6 +64,7 @@ const std::vector<BundledScene>& bundled_scenes() {
         {"bumpy_far_plane", "far_plane with bumps, whose light its shadows spoil"},
         {"bumpy_eye_inside", "eye_inside with bumps, whose light its shadows spoil"},
         {"bumpy_lights", "bumps under two lights, which are added up"},
+        {"distant_bumps", "bumps of which up to a hundred texels lie in a pixel"},
         {"walking_figure", "a figure in motion by morph targets and a skin, chosen by --time"},
         {"thin_caster", "shadows that begin closer to their casters than a map's bias"},
         {"cube_edge", "shadows that run over the edges of a cube around the light"},

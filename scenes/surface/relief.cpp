@@ -1,10 +1,9 @@
 #include "scenes/surface/relief.h"
 
-#include <algorithm>
-#include <cmath>
+#include "scenes/surface/mipmap.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
 namespace shadowproof {
 
@@ -46,32 +45,7 @@ Image<glm::dvec2> slopes_of(const TextureImage& heights, double scale) {
     return slopes_of(red, heights.wrap_s, heights.wrap_t, scale);
 }
 
-int levels_of(int width, int height) {
-    int levels = 1;
-    for (int size = std::max(width, height); size > 1; size /= 2) ++levels;
-    return levels;
-}
-
 namespace {
-
-/// The texels of `fine` that a texel of `coarse` covers, and the share of it that each covers;
-/// their sum is 1.
-struct Share {
-    int texel = 0;
-    double weight = 0;
-};
-
-std::vector<Share> shares_of(int texel, int coarse, int fine) {
-    const double size = static_cast<double>(fine) / coarse; // in fine texels
-    const double begin = texel * size;
-    const double end = begin + size;
-    std::vector<Share> shares;
-    for (int i = static_cast<int>(begin); i < fine && i < end; ++i) {
-        const double covered = std::min(end, i + 1.0) - std::max(begin, static_cast<double>(i));
-        if (covered > 0) shares.push_back({i, covered / size});
-    }
-    return shares;
-}
 
 glm::dvec3 normal_of_slope(const glm::dvec2& slope) {
     return glm::normalize(glm::dvec3(-slope.x, slope.y, 1));
@@ -81,20 +55,13 @@ glm::dvec3 normal_of_slope(const glm::dvec2& slope) {
 
 Image<glm::dvec4> normal_map_of(const Image<glm::dvec2>& slopes, int level) {
     const auto normals = converted<glm::dvec3>(slopes, normal_of_slope);
-    Image<glm::dvec4> map(std::max(1, slopes.width >> level), std::max(1, slopes.height >> level));
-    for (int y = 0; y < map.height; ++y) {
-        const std::vector<Share> rows = shares_of(y, map.height, slopes.height);
-        for (int x = 0; x < map.width; ++x) {
-            glm::dvec3 mean(0);
-            for (const Share& column : shares_of(x, map.width, slopes.width))
-                for (const Share& row : rows)
-                    mean += row.weight * column.weight * normals.at(column.texel, row.texel);
-            const double length = level == 0 ? 1 : glm::length(mean);
-            const glm::dvec3 n = length > 0 ? mean / length : glm::dvec3(0, 0, 1);
-            map.at(x, y) = glm::dvec4(0.5 + 0.5 * n, length);
-        }
-    }
-    return map;
+    const auto means =
+        mipmap_level<glm::dvec3>(normals, level, [](const glm::dvec3& normal) { return normal; });
+    return converted<glm::dvec4>(means, [&](const glm::dvec3& mean) {
+        const double length = level == 0 ? 1 : glm::length(mean);
+        const glm::dvec3 n = length > 0 ? mean / length : glm::dvec3(0, 0, 1);
+        return glm::dvec4(0.5 + 0.5 * n, length);
+    });
 }
 
 } // namespace shadowproof

@@ -21,13 +21,9 @@ Image<glm::dvec2> slopes_of(const TextureImage& heights, double scale);
 /// the picture; alpha is the denormalisation factor.
 ///
 /// At level 0 n is (-s, t, 1) over its length, s and t the slopes, and alpha is 1. A texel of a
-/// higher level (its size max(1, size / 2^level), rounded down) has as n the direction of the mean
-/// of all that it covers, each weighted by its area, and as alpha that mean's length: 1 where the
-/// surface is flat, less where it is rough (Kilgard 2001: dimFactor). A mean of length zero has the
-/// direction 0, 0, 1. Nothing is rounded to bits here.
+/// higher level (mipmap.h) has as n the direction of the mean of all that it covers, and as alpha
+/// that mean's length: 1 where the surface is flat, less where it is rough (Kilgard 2001:
+/// dimFactor). A mean of length zero has the direction 0, 0, 1. Nothing is rounded to bits here.
 Image<glm::dvec4> normal_map_of(const Image<glm::dvec2>& slopes, int level = 0);
-
-/// Number of mipmap levels of a picture, down to a single texel.
-int levels_of(int width, int height);
 
 } // namespace shadowproof

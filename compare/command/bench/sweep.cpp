@@ -54,6 +54,10 @@ std::span<const SweptSetting> swept_settings() {
             "tangents", names_of(all_tangent_sources),
             [](const Frame& f, double) { return std::string(name_of(f.color_model.tangents)); }},
         SweptSetting{
+            "anisotropy",
+            {"1", "2", "4", "8", "16"},
+            [](const Frame& f, double) { return fmt::format("{}", f.color_model.anisotropy); }},
+        SweptSetting{
             "extrusion",
             {},
             [](const Frame& f, double unit) { return length(f.counted->counting.extrusion, unit); },

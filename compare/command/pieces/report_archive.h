@@ -39,19 +39,21 @@ SHADOWPROOF_SEND_ALL(FirstDifference, x, y, cause)
 SHADOWPROOF_SEND_ALL(EvidenceCheck, equal, in_band, unexplained, first_x, first_y)
 SHADOWPROOF_SEND_ALL(ByteErrors, overwriting, multiplying, adding, rounds_before_blending)
 SHADOWPROOF_SEND_ALL(ColorModel, arithmetic, axes, normalisation, bump_form, vectors, tangents,
-                     reflects, cube_size, newton_steps, bytes)
+                     reflects, filter, anisotropy, cube_size, newton_steps, bytes)
 SHADOWPROOF_SEND_ALL(BoundWidth, median, percentile999, widest)
 
 SHADOWPROOF_SEND_ALL(LightAdded, name, differing)
+SHADOWPROOF_SEND_ALL(ErrorBin, from, to, pixels, rmse)
+SHADOWPROOF_SEND_ALL(MeanCheck, most_rays, noise, rmse, alike, alike_rmse, by_texels, by_angle)
 
 template <class Archive>
 void serialize(Archive& archive, ColorCheck& check) {
     auto& [model, ERROR, VERDICT, judged, largest, largest_x, largest_y, rmse, picture_rmse,
            percentile999, beyond, unpredicted, moved, interpolated, bound_width, beyond_by,
-           first_unpredicted_x, first_unpredicted_y, lights_before] = check;
+           first_unpredicted_x, first_unpredicted_y, lights_before, means] = check;
     archive(model, judged, largest, largest_x, largest_y, rmse, picture_rmse, percentile999, beyond,
             unpredicted, moved, interpolated, bound_width, beyond_by, first_unpredicted_x,
-            first_unpredicted_y, lights_before);
+            first_unpredicted_y, lights_before, means);
 }
 
 SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words, pictures)

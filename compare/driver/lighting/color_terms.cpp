@@ -28,14 +28,17 @@ std::string_view name_of(ColorTerm term) {
     case ColorTerm::clamping:
         return "clamping";
     case ColorTerm::interpolation:
+        return "interpolation";
+    case ColorTerm::filtering:
+        return "filtering";
+    case ColorTerm::surroundings:
         break;
     }
-    return "interpolation";
+    return "surroundings";
 }
 
-ColorTerms weights_of(const ColorModel& model, AddedInputs truth,
-                      std::span<const SingleStepInputs> single, AddedInputs claimed,
-                      AddedInputs freed) {
+ColorTerms weights_of(const ColorModel& model, const ColorSteps& steps) {
+    const auto& [truth, single, claimed, freed] = steps;
     const ColorModel::Arithmetic arithmetic = model.arithmetic;
     const Ways own = ways_of(model);
     const glm::dvec3 right = middle(color_of(arithmetic, truth, {}));
@@ -83,6 +86,19 @@ ColorTerms weights_of(const ColorModel& model, AddedInputs truth,
     for (std::size_t k = 0; k < 3; ++k)
         interpolation = std::max(
             {interpolation, centre[k].low - around_it[k].low, around_it[k].high - centre[k].high});
+    return weights;
+}
+
+ColorTerms weights_of(const ColorModel& model, const ColorSteps& steps, const PixelColors& means) {
+    ColorTerms weights = weights_of(model, steps);
+    const auto weigh = [&](ColorTerm term, const glm::dvec3& a, const glm::dvec3& b) {
+        const glm::dvec3 off = glm::abs(a - b);
+        weights[static_cast<std::size_t>(term)] = std::max({off.x, off.y, off.z});
+    };
+    weights[static_cast<std::size_t>(ColorTerm::bump_form)] = 0;
+    weights[static_cast<std::size_t>(ColorTerm::bump_length)] = 0;
+    weigh(ColorTerm::filtering, middle(color_of(model.arithmetic, steps.claimed, {})), means.alike);
+    weigh(ColorTerm::surroundings, means.alike, means.all);
     return weights;
 }
 

@@ -22,19 +22,35 @@ enum class ColorTerm : std::uint8_t {
     self_shadow,   ///< the highlight is dimmed by the self-shadowing of another vector
     clamping,      ///< values above 1 are clamped before the decal
     interpolation, ///< snapping, and rounding of interpolated values
+    filtering,     ///< what stands for the bumps and decals of a pixel is not their mean light
+    surroundings,  ///< the pixel also covers another mesh, or is lit in part
 };
 inline constexpr std::array all_color_terms{
-    ColorTerm::normalisation, ColorTerm::vertices,    ColorTerm::tangents,
-    ColorTerm::bump_form,     ColorTerm::bump_length, ColorTerm::steps,
-    ColorTerm::self_shadow,   ColorTerm::clamping,    ColorTerm::interpolation};
+    ColorTerm::normalisation, ColorTerm::vertices,  ColorTerm::tangents,    ColorTerm::bump_form,
+    ColorTerm::bump_length,   ColorTerm::steps,     ColorTerm::self_shadow, ColorTerm::clamping,
+    ColorTerm::interpolation, ColorTerm::filtering, ColorTerm::surroundings};
 using ColorTerms = std::array<double, all_color_terms.size()>; ///< one number per term
 std::string_view name_of(ColorTerm term);                      ///< "self_shadow"
 
+/// Inputs of each light that is added up: the true ones and the claimed ones at the pixel's centre,
+/// and the claimed ones over all that the rasterizer may draw there.
+struct ColorSteps {
+    AddedInputs truth;
+    std::span<const SingleStepInputs> single;
+    AddedInputs claimed;
+    AddedInputs freed;
+};
 /// How far each term alone, under all lights at once, moves the colour, in the channel that it
-/// moves most. Of each light that is added up, `truth`, `single`, `claimed`: inputs at the pixel's
-/// centre; `freed`: claimed inputs over all that the rasterizer may draw there.
-ColorTerms weights_of(const ColorModel& model, AddedInputs truth,
-                      std::span<const SingleStepInputs> single, AddedInputs claimed,
-                      AddedInputs freed);
+/// moves most, of a technique whose colours stand for the pixel's centre.
+ColorTerms weights_of(const ColorModel& model, const ColorSteps& steps);
+
+/// Means over a pixel: of all its rays, and of those that are like its centre's.
+struct PixelColors {
+    glm::dvec3 all{0, 0, 0};
+    glm::dvec3 alike{0, 0, 0};
+};
+/// The same of one whose colours stand for all of the pixel. Its bumps are not those of the centre:
+/// how they are stored is part of `filtering`.
+ColorTerms weights_of(const ColorModel& model, const ColorSteps& steps, const PixelColors& means);
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
 #include "compare/driver/lighting/lighting_arithmetic.h"
 
 #include "compare/driver/lighting/color_ways.h"
+#include "compare/driver/lighting/filtered_highlight.h"
 #include "scenes/driver.h"
 
 #include <cassert>
@@ -57,9 +58,10 @@ Interval along_normal(const VectorRange& a) {
 
 Terms terms_of(const LightingInputs& in, const Ways& ways) {
     const Interval light_shadow = self_shadow(along_normal(in.light));
-    const Interval diffuse = light_shadow * not_negative(dot(in.light, in.bump));
-    Interval specular = not_negative(dot(in.half, in.bump));
-    for (int k = 0; k < in.highlight.squarings; ++k) specular = squared(specular);
+    Interval diffuse = light_shadow * not_negative(dot(in.light, in.bump));
+    if (in.filtered && in.filtered->filter == BumpFilter::dimmed)
+        diffuse = in.filtered->length * diffuse;
+    Interval specular = highlight_range(in);
     const HighlightShadow shadow = ways.shadow(in);
     if (by_half_angle(shadow)) specular = self_shadow(along_normal(in.half)) * specular;
     if (by_light(shadow)) specular = light_shadow * specular;
@@ -361,7 +363,7 @@ bool is_given(BumpForm form) {
 } // namespace
 
 bool is_off_by_nature(const ColorModel& model, const Scene& scene) {
-    return !makes_vectors_as_truth(model) ||
+    return filters(model) || !makes_vectors_as_truth(model) ||
            (has_heights_in_space(scene) && !knows_texel_sides(model));
 }
 

@@ -15,9 +15,9 @@ Intervals predicted_color(const ColorModel& model, AddedInputs claimed);
 /// to half a step, and the colour is clamped to [0, 1].
 Intervals color_bound(const ColorModel& model, AddedInputs budgeted);
 
-/// Whether a technique of this model is off by nature on the scene, whatever its numbers: its
-/// vectors are not made as the truth's are; or heights are in units of space, and it takes all
-/// texels for squares of one size, as tangent space and normal maps do.
+/// Whether a technique of this model is off by nature on the scene, whatever its numbers: it
+/// filters; its vectors are not made as the truth's are; or heights are in units of space, and it
+/// takes all texels for squares of one size, as tangent space and normal maps do.
 bool is_off_by_nature(const ColorModel& model, const Scene& scene);
 
 /// Whether the technique uses floats alone, without bytes and tables, and is not off by nature. A

@@ -1,5 +1,6 @@
 #include "compare/driver/lighting/lighting_inputs.h"
 
+#include "compare/driver/lighting/filtered_ranges.h"
 #include "compare/driver/lighting/lighting_ranges.h"
 #include "compare/driver/lighting/lighting_tables.h"
 #include "compare/driver/lighting/stretched_bumps.h"
@@ -167,11 +168,20 @@ LightingTables make_lighting_tables(const Scene& scene, const ColorModel& model)
     tables.model = model;
     tables.bumps.resize(scene.materials.size());
     tables.slopes.resize(scene.materials.size());
+    tables.pyramids.resize(scene.materials.size());
+    tables.decals.resize(scene.textures.size());
     // Only of materials that are drawn: an unused one may have bumps that the form cannot hold.
     for (const Mesh& mesh : scene.meshes) {
         const Material& material = scene.materials[mesh.material];
         std::optional<BumpTexels>& bumps = tables.bumps[mesh.material];
-        if (material.bump == Bump::none || bumps) continue;
+        if (filters(model) && material.decal != no_texture &&
+            tables.decals[material.decal].levels.empty())
+            tables.decals[material.decal] = expected_mipmap(scene.textures[material.decal].texels);
+        if (material.bump == Bump::none || bumps || tables.pyramids[mesh.material]) continue;
+        if (filters(model)) {
+            tables.pyramids[mesh.material] = expected_pyramid(scene, material, model.filter);
+            continue;
+        }
         bumps = expected_bump_texels(scene, material, model.bump_form);
         if (material.bump == Bump::height_field)
             tables.slopes[mesh.material] =
@@ -259,6 +269,31 @@ LightingVectors made_at_vertices(const LightingTables& tables, const ColorModel&
     return {on_seen_side(made.light), on_seen_side(made.half)};
 }
 
+/// What a technique that filters reads in place of level 0.
+void add_filtered(const LightingTables& tables, const ColorModel& model, const InputPoint& point,
+                  LightingInputs& inputs) {
+    const Scene& scene = *tables.scene;
+    const Material& material = material_of(scene, point.triangle);
+    const Interpolated& at = point.interpolated;
+    inputs.bump = {around(glm::dvec3(0, 0, 1))};
+    if (material.bump != Bump::none) {
+        const auto index = static_cast<std::size_t>(&material - scene.materials.data());
+        const TextureImage& map = scene.textures[material.bump_map];
+        inputs.filtered =
+            filtered_bumps(*tables.pyramids[index], {map, at.bump_at, at.bump_steps}, model);
+        inputs.bump = inputs.filtered->normal;
+    }
+    inputs.bump.distance += perturbed_normal_roundings * v;
+    if (material.decal == no_texture) {
+        add_surroundings(inputs, point, decal_range(scene, material, at.decal_at));
+        return;
+    }
+    const TextureImage& map = scene.textures[material.decal];
+    add_surroundings(inputs, point,
+                     filtered_decal(tables.decals[material.decal], material,
+                                    {map, at.decal_at, at.decal_steps}, model.anisotropy));
+}
+
 /// The technique's inputs, were its model this one, which may differ from the tables' in how
 /// vectors are made.
 LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
@@ -277,6 +312,10 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
     LightingInputs inputs;
     inputs.light = vectors.light;
     inputs.half = vectors.half;
+    if (filters(model)) {
+        add_filtered(tables, model, point, inputs);
+        return inputs;
+    }
     inputs.bump = bump_range(tables, point, world);
     inputs.bump.distance += perturbed_normal_roundings * v;
     add_surroundings(inputs, point, world, model.reflects);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/driver/interpolated.h"
+#include "compare/driver/lighting/filtered_tables.h"
 #include "compare/driver/lighting/texel_ranges.h"
 #include "compare/driver/lighting/vector_range.h"
 #include "reference/shade/shading.h"
@@ -11,6 +12,7 @@
 #include "scenes/surface/bump_forms.h"
 #include "scenes/surface/normalisation_cube.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,16 +20,26 @@
 
 namespace shadowproof {
 
+/// What a filter leaves of the bumps under a pixel (BumpFilter), in tangent space.
+struct FilteredBumps {
+    BumpFilter filter = BumpFilter::none;
+    VectorRange normal{};             ///< of length 1
+    Interval length{1, 1};            ///< of the mean normal, where the filter tells
+    std::array<Interval, 2> slope{};  ///< mean slopes; lean alone
+    std::array<Interval, 3> spread{}; ///< their variances and their covariance; lean alone
+};
+
 /// Vectors are in the tangent space of the seen side: T, B and N are its x, y and z axes.
 struct LightingInputs {
-    VectorRange light;    ///< L
-    VectorRange half;     ///< H
-    VectorRange bump;     ///< N'
-    Intervals radiance;   ///< incident light, without visibility
-    Intervals decal;      ///< linear
-    Interval gloss;       ///< 1 where the decal's alpha is not a gloss
-    Intervals reflection; ///< of the environment; 0 unless the model reflects it
-    glm::dvec3 specular;  ///< colour
+    VectorRange light;                       ///< L
+    VectorRange half;                        ///< H
+    VectorRange bump;                        ///< N'
+    std::optional<FilteredBumps> filtered{}; ///< of bumps, where the technique filters
+    Intervals radiance;                      ///< incident light, without visibility
+    Intervals decal;                         ///< linear
+    Interval gloss;                          ///< 1 where the decal's alpha is not a gloss
+    Intervals reflection;                    ///< of the environment; 0 unless the model reflects it
+    glm::dvec3 specular;                     ///< colour
     glm::dvec3 ambient;
     Highlight highlight; ///< as the scene has it
     bool lit = false;
@@ -41,10 +53,14 @@ using AddedInputs = std::span<const LightingInputs>;
 struct LightingTables {
     const Scene* scene = nullptr;
     ColorModel model;
-    /// One per material; none where it has no bump map or is not drawn.
+    /// One per material; none where it has no bump map or is not drawn, or the model filters.
     std::vector<std::optional<BumpTexels>> bumps;
     std::vector<Image<glm::dvec2>> slopes; ///< one per material; where the asset has heights
     NormalisationCube cube;                ///< where the model uses one
+    /// Where the model filters: one per material, likewise; and by index into Scene::textures, of
+    /// decals.
+    std::vector<std::optional<ExpectedPyramid>> pyramids;
+    std::vector<ExpectedMipmap> decals;
     /// As Scene::surfaces, with tangents of polygons; empty where the model has those of vertices.
     std::vector<Surface> polygon_surfaces;
 };

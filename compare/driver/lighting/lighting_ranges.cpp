@@ -172,22 +172,25 @@ Intervals reflection_range(const Scene& scene, const Material& material, const I
     return shown;
 }
 
-void add_surroundings(LightingInputs& inputs, const InputPoint& point, const TangentFrame& frame,
-                      bool reflects) {
+void add_surroundings(LightingInputs& inputs, const InputPoint& point, const DecalRange& decal) {
     const Scene& scene = point.scene;
-    const Interpolated& at = point.interpolated;
-    const Material& material = material_of(scene, point.triangle);
-    inputs.radiance = radiance_range(scene, at);
-    const DecalRange decal = decal_range(scene, material, at.decal_at);
+    inputs.radiance = radiance_range(scene, point.interpolated);
     inputs.decal = decal.color;
     inputs.gloss = decal.gloss;
-    if (reflects)
-        inputs.reflection =
-            reflection_range(scene, material, out_of(frame, inputs.bump), at, inputs.gloss);
-    inputs.specular = material.specular;
+    inputs.specular = material_of(scene, point.triangle).specular;
     inputs.ambient = scene.ambient;
     inputs.highlight = scene.highlight;
     inputs.lit = point.shading.lit;
+}
+
+void add_surroundings(LightingInputs& inputs, const InputPoint& point, const TangentFrame& frame,
+                      bool reflects) {
+    const Interpolated& at = point.interpolated;
+    const Material& material = material_of(point.scene, point.triangle);
+    add_surroundings(inputs, point, decal_range(point.scene, material, at.decal_at));
+    if (reflects)
+        inputs.reflection =
+            reflection_range(point.scene, material, out_of(frame, inputs.bump), at, inputs.gloss);
 }
 
 } // namespace shadowproof

@@ -66,5 +66,7 @@ Intervals reflection_range(const Scene& scene, const Material& material, const I
 /// must be set. `frame`: takes the perturbed normal into world axes.
 void add_surroundings(LightingInputs& inputs, const InputPoint& point, const TangentFrame& frame,
                       bool reflects);
+/// The same of what reflects nothing, with a decal that is read otherwise.
+void add_surroundings(LightingInputs& inputs, const InputPoint& point, const DecalRange& decal);
 
 } // namespace shadowproof

@@ -65,27 +65,6 @@ double expected_texel_side(const Scene& scene, const Material& material) {
     return side > 0 && std::isfinite(side) ? side : 1;
 }
 
-/// A normal map's texel without the scale of its length; a height field's slope as a normal.
-Image<glm::dvec3> expected_normals(const Scene& scene, const TextureImage& map,
-                                   const Material& material) {
-    Image<glm::dvec3> normals(map.texels.width, map.texels.height);
-    if (material.bump == Bump::normal_map) {
-        for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
-            const glm::vec4& texel = map.texels.pixels[i];
-            normals.pixels[i] = {material.bump_scale * (2 * double{texel.r} - 1),
-                                 material.bump_scale * (2 * double{texel.g} - 1),
-                                 2 * double{texel.b} - 1};
-        }
-        return normals;
-    }
-    const double side = expected_texel_side(scene, material);
-    const Image<glm::dvec2> slopes =
-        expected_slopes(map, side > 0 ? material.bump_scale / side : material.bump_scale);
-    for (std::size_t i = 0; i < normals.pixels.size(); ++i)
-        normals.pixels[i] = {-slopes.pixels[i].x, slopes.pixels[i].y, 1};
-    return normals;
-}
-
 BumpTexels empty_texels(BumpForm form, const TextureImage& map) {
     return {.form = form, .texels = Image<glm::vec4>(map.texels.width, map.texels.height)};
 }
@@ -158,6 +137,26 @@ Image<glm::dvec2> expected_slopes(const TextureImage& heights, double scale) {
             slopes.at(x, y) = {along * (scale / 2), down * (scale / 2)};
         }
     return slopes;
+}
+
+Image<glm::dvec3> expected_normals(const Scene& scene, const TextureImage& map,
+                                   const Material& material) {
+    Image<glm::dvec3> normals(map.texels.width, map.texels.height);
+    if (material.bump == Bump::normal_map) {
+        for (std::size_t i = 0; i < normals.pixels.size(); ++i) {
+            const glm::vec4& texel = map.texels.pixels[i];
+            normals.pixels[i] = {material.bump_scale * (2 * double{texel.r} - 1),
+                                 material.bump_scale * (2 * double{texel.g} - 1),
+                                 2 * double{texel.b} - 1};
+        }
+        return normals;
+    }
+    const double side = expected_texel_side(scene, material);
+    const Image<glm::dvec2> slopes =
+        expected_slopes(map, side > 0 ? material.bump_scale / side : material.bump_scale);
+    for (std::size_t i = 0; i < normals.pixels.size(); ++i)
+        normals.pixels[i] = {-slopes.pixels[i].x, slopes.pixels[i].y, 1};
+    return normals;
 }
 
 BumpTexels expected_bump_texels(const Scene& scene, const Material& material, BumpForm form) {

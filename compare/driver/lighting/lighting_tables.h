@@ -20,6 +20,10 @@ namespace shadowproof {
 /// the border itself.
 Image<glm::dvec2> expected_slopes(const TextureImage& heights, double scale);
 
+/// The normals at a bump map's texels, of any length: of heights, by these slopes, in texels.
+Image<glm::dvec3> expected_normals(const Scene& scene, const TextureImage& map,
+                                   const Material& material);
+
 /// As bump_forms.h defines them. The form must be one that the material can have.
 BumpTexels expected_bump_texels(const Scene& scene, const Material& material, BumpForm form);
 

@@ -14,7 +14,9 @@ namespace shadowproof::author {
 
 namespace {
 
-constexpr int filter_linear = 9729; // glTF 2.0's number
+// glTF 2.0's numbers.
+constexpr int filter_linear = 9729;
+constexpr int filter_linear_mipmap_linear = 9987;
 
 Json attributes_of(Buffer& buffer, const Placed& thing) {
     const Shape& shape = thing.shape;
@@ -227,10 +229,11 @@ void add_textures(Buffer& buffer, const Stage& stage, Json& gltf) {
         const std::size_t view = buffer.close_view(offset, std::nullopt);
         const std::size_t number = gltf["textures"].size();
         gltf["textures"].push_back({{"sampler", number}, {"source", number}});
-        gltf["samplers"].push_back({{"magFilter", filter_linear},
-                                    {"minFilter", filter_linear},
-                                    {"wrapS", painting.wrap},
-                                    {"wrapT", painting.wrap}});
+        gltf["samplers"].push_back(
+            {{"magFilter", filter_linear},
+             {"minFilter", painting.mipmaps ? filter_linear_mipmap_linear : filter_linear},
+             {"wrapS", painting.wrap},
+             {"wrapT", painting.wrap}});
         gltf["images"].push_back(
             {{"name", painting.name}, {"mimeType", "image/png"}, {"bufferView", view}});
     }

@@ -81,6 +81,7 @@ struct Painting {
     std::string name;
     std::vector<std::uint8_t> png;
     int wrap = wrap_repeat; ///< both ways
+    bool mipmaps = false;   ///< whether the file asks for them
 };
 
 struct Lamp {

@@ -46,6 +46,7 @@ std::vector<Stage> stages_of_casters(); ///< how many, how closed and how wound
 std::vector<Stage> stages_of_bumps();   ///< lighting by bump maps
 std::vector<Stage> stages_of_glare(); ///< lights under which lighting with few steps or bits fails
 std::vector<Stage> stages_of_shadowed_bumps(); ///< bumps whose shadows planes or the eye spoil
+std::vector<Stage> stages_of_filtered_bumps(); ///< bumps smaller than pixels
 std::vector<Stage> stages_of_figures();        ///< bump-mapped models that move
 std::vector<Stage> stages_of_maps();           ///< what shadow maps fail at
 std::vector<Stage> stages_of_rays();           ///< what shadow rays traced in float fail at

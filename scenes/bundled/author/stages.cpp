@@ -98,8 +98,8 @@ std::vector<Stage> all_stages() {
     std::vector<Stage> stages{ordinary(), near_plane(), far_plane(), eye_inside()};
     for (const auto& more :
          {stages_of_planes(), stages_of_lights(), stages_of_casters(), stages_of_bumps(),
-          stages_of_glare(), stages_of_shadowed_bumps(), stages_of_figures(), stages_of_maps(),
-          stages_of_rays(), stages_of_masks()})
+          stages_of_glare(), stages_of_shadowed_bumps(), stages_of_filtered_bumps(),
+          stages_of_figures(), stages_of_maps(), stages_of_rays(), stages_of_masks()})
         stages.insert(stages.end(), more.begin(), more.end());
     return stages;
 }

@@ -113,18 +113,34 @@ Relief ripples() {
     };
 }
 
+namespace {
+
+/// T. Wang's integer hash, 0 to 1: neighbours are uncorrelated.
+double random_of(std::uint32_t number) {
+    std::uint32_t hash = (number ^ 61U) ^ (number >> 16U);
+    hash *= 9U;
+    hash ^= hash >> 4U;
+    hash *= 0x27d4eb2dU;
+    hash ^= hash >> 15U;
+    return static_cast<double>(hash & 0xffffU) / 0xffff;
+}
+
+} // namespace
+
 Relief gravel(unsigned columns) {
     return [=](double u, double v) {
         const auto x = static_cast<std::uint32_t>(u * columns) % columns;
         const auto y = static_cast<std::uint32_t>(v * columns) % columns;
-        // T. Wang's integer hash: neighbours are uncorrelated.
-        std::uint32_t hash = y * columns + x;
-        hash = (hash ^ 61U) ^ (hash >> 16U);
-        hash *= 9U;
-        hash ^= hash >> 4U;
-        hash *= 0x27d4eb2dU;
-        hash ^= hash >> 15U;
-        return static_cast<double>(hash & 0xffffU) / 0xffff;
+        return random_of(y * columns + x);
+    };
+}
+
+Relief grooves(unsigned rows) {
+    return [=](double /*u*/, double v) {
+        const double at = v * rows;
+        const auto row = static_cast<std::uint32_t>(at);
+        const double between = rise(0, 1, at - row);
+        return glm::mix(random_of(row % rows), random_of((row + 1) % rows), between);
     };
 }
 

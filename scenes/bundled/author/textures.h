@@ -24,6 +24,9 @@ Relief ripples();
 /// Squares of random heights, `columns` each way; repeats.
 Relief gravel(unsigned columns);
 
+/// Rows of random heights, `rows` of them, as if brushed along the rows; repeats.
+Relief grooves(unsigned rows);
+
 /// Gray of 16 bits.
 Raster height_map(unsigned width, unsigned height, const Relief& relief);
 

@@ -1,3 +1,4 @@
+#include "scenes/surface/mipmap.h"
 #include "scenes/surface/relief.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,125 @@
+#include "compare/driver/quad_steps.h"
+
+#include "scenes/driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace shadowproof {
+
+namespace {
+
+/// Numbers that are linear in a ray's direction D: a value of the triangle where D meets its plane
+/// is D . value / D . all.
+struct LinearForms {
+    glm::dvec3 value{0, 0, 0};
+    glm::dvec3 all{0, 0, 0};
+};
+
+/// With the weights of the corners as in shading.h, step 1.
+LinearForms forms_of(const Scene& scene, std::uint32_t triangle, const glm::dvec3& values) {
+    const glm::dvec3 first = corner(scene, triangle, 0);
+    const glm::dvec3 a = first - scene.camera.eye;
+    const glm::dvec3 e = corner(scene, triangle, 1) - first;
+    const glm::dvec3 f = corner(scene, triangle, 2) - first;
+    LinearForms forms;
+    forms.all = glm::cross(e, f);
+    forms.value = values.x * forms.all + (values.y - values.x) * glm::cross(f, a) +
+                  (values.z - values.x) * glm::cross(a, e);
+    return forms;
+}
+
+Interval range_of_ends(const std::array<double, 4>& ends) {
+    const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
+    return {*low, *high};
+}
+
+/// With u = U / W, both linear, the step from D by S is (U(S) W(D) - U(D) W(S)) / (W(D) W(D + S)).
+/// The numerator is linear in D and in S, and so extreme at corners of both.
+Interval step_range(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& step) {
+    const std::array<glm::dvec3, 4> steps{step + quad.stretch * (quad.to_column + quad.to_row),
+                                          step + quad.stretch * (quad.to_column - quad.to_row),
+                                          step - quad.stretch * (quad.to_column - quad.to_row),
+                                          step - quad.stretch * (quad.to_column + quad.to_row)};
+    std::array<double, 4> here{};
+    std::array<double, 4> least{};
+    std::array<double, 4> most{};
+    Interval numerator;
+    bool any = false;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+        here[i] = glm::dot(quad.rays[i], forms.all);
+        const double value = glm::dot(quad.rays[i], forms.value);
+        for (std::size_t k = 0; k < steps.size(); ++k) {
+            const double w = glm::dot(steps[k], forms.all);
+            const Interval product = around(glm::dot(steps[k], forms.value) * here[i] - value * w);
+            numerator = any ? hull(numerator, product) : product;
+            any = true;
+            least[i] = k == 0 ? here[i] + w : std::min(least[i], here[i] + w);
+            most[i] = k == 0 ? here[i] + w : std::max(most[i], here[i] + w);
+        }
+    }
+    const Interval own = range_of_ends(here);
+    const Interval next{range_of_ends(least).low, range_of_ends(most).high};
+    const Interval denominator = own * next;
+    if (!(denominator.low > 0)) return any_number; // of a pixel and its neighbour W has one sign
+    return numerator * Interval{1 / denominator.high, 1 / denominator.low};
+}
+
+} // namespace
+
+// What is linear over a triangle is drawn as it is at other places of it, T(x) = x + d(x): T takes
+// the drawn corners to the true ones, and so does any place by the same weights, which makes d
+// linear. At corners, and so all over the triangle, |d| is at most `aside` along each axis. Nowhere
+// is the triangle narrower than its least height; over that d changes by 2 `aside` at most.
+double drawn_stretch(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    const auto fan = set_up(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
+    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    double covering = 0;
+    double any = 0;
+    for (const std::array<PicturePoint, 3>& drawn : fan) {
+        double aside = 0;
+        double longest = 0;
+        for (std::size_t k = 0; k < drawn.size(); ++k) {
+            aside = std::max(aside, pixel.reach + drawn[k].place_error);
+            longest = std::max(longest, glm::distance(drawn[k].place, drawn[(k + 1) % 3].place));
+        }
+        const glm::dvec2 b = drawn[1].place - drawn[0].place;
+        const glm::dvec2 c = drawn[2].place - drawn[0].place;
+        // Of the drawn triangle, whose corners may be closer.
+        const double height =
+            std::abs(b.x * c.y - b.y * c.x) / longest - 2 * std::numbers::sqrt2 * aside;
+        const double stretch =
+            height > 0 ? 2 * aside / height : std::numeric_limits<double>::infinity();
+        any = std::max(any, stretch);
+        if (may_reach(drawn, place, pixel.reach)) covering = std::max(covering, stretch);
+    }
+    return covering > 0 ? covering : any;
+}
+
+// Values of both pixels are off by their share of the largest, and their difference is rounded.
+PlaceSteps quad_steps(const Scene& scene, std::uint32_t triangle,
+                      const std::array<glm::dvec2, 3>& values, const QuadRays& quad) {
+    PlaceSteps steps;
+    if (!std::isfinite(quad.stretch) || !std::isfinite(quad.share)) return steps;
+    for (int k = 0; k < 2; ++k) {
+        const glm::dvec3 at_corners(values[0][k], values[1][k], values[2][k]);
+        const LinearForms forms = forms_of(scene, triangle, at_corners);
+        const glm::dvec3 sizes = glm::abs(at_corners);
+        const double off = 2 * quad.share * std::max({sizes.x, sizes.y, sizes.z});
+        const auto rounded = [&](const Interval& step) {
+            return widened(step, off + float_roundoff *
+                                           std::max(std::abs(step.low), std::abs(step.high)));
+        };
+        const auto axis = static_cast<std::size_t>(k);
+        steps.across[axis] = rounded(step_range(forms, quad, quad.to_column));
+        steps.down[axis] = rounded(step_range(forms, quad, quad.to_row));
+    }
+    return steps;
+}
+
+} // namespace shadowproof
