@@ -71,6 +71,7 @@ struct SceneResult {
     GroundTruth truth;
     bool bump_lit = false;         ///< colours are judged, of techniques that have them
     Image<glm::dvec3> color;       ///< the true colours
+    Image<glm::dvec3> mean_color;  ///< their means over the pixels, of techniques that filter
     double spent_milliseconds = 0; ///< before its cells: reading, tracing, writing; 0: not known
     std::vector<Cell> cells;
 };

@@ -303,9 +303,11 @@ std::optional<Cause> cause_of(ColorVerdict verdict) {
 void check_colors(const Case& tried, Comparison& comparison) {
     const TracedScene& traced = tried.claim.traced;
     const Frame& frame = tried.claim.frame;
-    const bool wants_means = filters(frame.color_model) || asks_for_mipmaps(traced.scene());
-    comparison.colors = check_colors(tried.tracer(), traced.truth(), frame, traced.lights_before(),
-                                     wants_means ? &traced.pixel_means() : nullptr);
+    // Of what does not filter they are told where they are known anyway.
+    const PixelMeans* const means =
+        filters(frame.color_model) ? &traced.pixel_means() : traced.known_pixel_means();
+    comparison.colors =
+        check_colors(tried.tracer(), traced.truth(), frame, traced.lights_before(), means);
     const Image<ColorVerdict>& verdicts = comparison.colors->verdict;
     for (int y = 0; y < verdicts.height; ++y)
         for (int x = 0; x < verdicts.width; ++x)

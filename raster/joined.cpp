@@ -28,7 +28,7 @@ Joined::Joined(const Technique& lighting, const Technique& shadowing, double cos
     technique_.cost = cost;
     technique_.needs_bump_maps = lighting.needs_bump_maps;
     technique_.needs_environment = lighting.needs_environment;
-    technique_.needs_mipmaps = lighting.needs_mipmaps;
+    technique_.filters_bumps = lighting.filters_bumps;
     technique_.squares_thrice = lighting.squares_thrice;
     technique_.lighting = lighting.lighting;
     // What lighting fails at itself; the rest is what it finds its own shadows by.

@@ -136,7 +136,7 @@ Frame draw_with(Gpu& gpu, const Technique& technique, const Scene& scene, const 
 }
 
 Frame render(const Technique& technique, const Scene& scene, const Plan& plan, Gpu& gpu) {
-    if (!suits(technique, scene)) refuse_scene(technique, scene);
+    if (!can_draw(technique, scene)) refuse_scene(technique, scene);
     require_drawable(gpu.driver());
     gpu.make_current();
     Frame frame = draw_with(gpu, technique, scene, plan);

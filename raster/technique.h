@@ -37,7 +37,7 @@ struct Technique {
     /// It reflects the scene's environment. A technique that lights bump maps without reflections
     /// is only for scenes without an environment.
     bool needs_environment = false;
-    bool needs_mipmaps = false; ///< it filters bump maps, and is for files that ask for mipmaps
+    bool filters_bumps = false; ///< from mipmaps; unless named, it is for files that ask for these
     /// The numbers in which it tells apart the depths of volumes and surfaces; null: it counts no
     /// volumes.
     DepthModel (*depth_model)(const Scene& scene) = nullptr;
@@ -72,13 +72,17 @@ inline const Light* unsuited_light(const Technique& technique, const Scene& scen
     return nullptr;
 }
 
-/// Whether a technique is for such a scene; if not, it is left out unless requested by name.
-inline bool suits(const Technique& technique, const Scene& scene) {
+/// Whether a technique can draw such a scene.
+inline bool can_draw(const Technique& technique, const Scene& scene) {
     if (unsuited_light(technique, scene) != nullptr) return false;
     if (!technique.needs_bump_maps) return true;
-    if (technique.needs_mipmaps && !(is_bump_lit(scene) && asks_for_mipmaps(scene))) return false;
     return is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value() &&
            !(technique.squares_thrice && scene.highlight.exponent() != 8);
+}
+
+/// Whether it is for such a scene; if not, it is left out unless requested by name.
+inline bool suits(const Technique& technique, const Scene& scene) {
+    return can_draw(technique, scene) && (!technique.filters_bumps || asks_for_mipmaps(scene));
 }
 
 inline bool heeds(const Technique& technique, std::string_view setting) {

@@ -101,10 +101,13 @@ std::string to_text(const ColorAccount& account, const std::string& technique) {
     if (account.verdict == ColorVerdict::as_shown)
         return fmt::format("  colour of {}: {}\n", technique, meaning_of(account.verdict)) +
                added_lines(account);
+    const std::string mean = account.rays.x > 0 ? fmt::format(", the mean of {} x {} rays",
+                                                              account.rays.x, account.rays.y)
+                                                : "";
     std::string text =
-        fmt::format("  colour of {}: {}\n    true      {}\n    claimed   {}\n    bound     {}\n"
+        fmt::format("  colour of {}: {}\n    true      {}{}\n    claimed   {}\n    bound     {}\n"
                     "    predicted  {}\n    moved by ",
-                    technique, meaning_of(account.verdict), words_of(account.showable),
+                    technique, meaning_of(account.verdict), words_of(account.showable), mean,
                     words_of(account.claim), words_of(account.bound), words_of(account.predicted));
     std::string_view separator;
     for (const ColorTerm term : heaviest_first(account)) {
@@ -118,6 +121,7 @@ nlohmann::ordered_json to_json(const ColorAccount& account) {
     Json json{{"verdict", name_of(account.verdict)},
               {"true", color_json(account.showable)},
               {"claimed", color_json(account.claim)}};
+    if (account.rays.x > 0) json["rays"] = {account.rays.x, account.rays.y};
     for (const AddedAtPixel& light : account.lights_before)
         json["added"].push_back({{"light", light.name},
                                  {"truth", name_of(light.truth)},

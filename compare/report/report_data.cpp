@@ -59,9 +59,14 @@ std::string scene_script(const SceneResult& scene) {
             {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
     Blocks blocks{
         {"visibility", areas_block(NumberList(scene.truth.visibility.pixels), scene.width)}};
-    if (!scene.color.pixels.empty())
-        blocks.emplace_back("color",
-                            shades_block(color_list(color_picture(scene.color)), scene.width));
+    if (!scene.color.pixels.empty()) {
+        const NumberList color = color_list(color_picture(scene.color));
+        blocks.emplace_back("color", shades_block(color, scene.width));
+        if (!scene.mean_color.pixels.empty())
+            blocks.emplace_back("mean_color",
+                                shades_block(color_list(color_picture(scene.mean_color)),
+                                             scene.width, {"color", &color}));
+    }
     return script("scene", folder_of(scene), header, blocks);
 }
 
@@ -88,7 +93,9 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
     header["family"] = cell.family;
     if (cell.comparison.colors) {
         const Image<ColorVerdict>& verdicts = cell.comparison.colors->verdict;
-        const NumberList right = color_list(color_picture(scene.color));
+        const bool of_pixels = filters(cell.comparison.colors->model);
+        const NumberList right =
+            color_list(color_picture(of_pixels ? scene.mean_color : scene.color));
         blocks.emplace_back("color", shades_block(color_list(color_picture(cell.frame.color)),
                                                   scene.width, {"true_color", &right}, &memo));
         blocks.emplace_back("color_verdict", guided(NumberList(verdicts.pixels), "claim", claim));

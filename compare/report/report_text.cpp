@@ -75,9 +75,10 @@ std::string cell_line(const SceneResult& scene, const Cell& cell, const ColumnWi
 
 std::string words_of(const ColorCheck& colors) {
     std::string words =
-        fmt::format("colour off by {:.2f}/255 at most (rmse {:.2f}, 99.9 % within {:.2f}; of the "
+        fmt::format("colour off{} by {:.2f}/255 at most (rmse {:.2f}, 99.9 % within {:.2f}; of the "
                     "whole picture rmse {:.2f})",
-                    colors.largest, colors.rmse, colors.percentile999, colors.picture_rmse);
+                    filters(colors.model) ? " the mean over the pixel" : "", colors.largest,
+                    colors.rmse, colors.percentile999, colors.picture_rmse);
     for (const LightAdded& light : colors.lights_before)
         if (light.differing > 0)
             words += fmt::format(", with wrong shadows of {} at {}", light.name,

@@ -164,7 +164,8 @@ async function filledPage(results, opened, params) {
                                         id: 'inspector', tabindex: '-1' });
   return { page, body: element('div', { class: 'cell-body' },
     element('div', { class: 'look' }, page.tools, page.compare, page.stage, page.readout,
-            legends(page), howMade(results, opened)),
+            legends(page), filteringSection(opened.scene, opened.cell) ?? '',
+            howMade(results, opened)),
     page.inspector) };
 }
 

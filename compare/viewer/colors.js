@@ -18,11 +18,14 @@ const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
 
 const bytesAt = (colors, pixel) => Array.from(colors.subarray(3 * pixel, 3 * pixel + 3));
 
-function modelWords({ normalise, cube_size: texels, newton_steps: steps, bumps, vectors, tangents }) {
+function modelWords({ normalise, cube_size: texels, newton_steps: steps, bumps, vectors, tangents,
+                      filter, anisotropy }) {
   const how = texels ? ` of ${texels} texels a side`
     : steps !== undefined ? `, ${counted(steps, 'step')}` : '';
   return `normalised ${normalise === 'exact' ? 'exactly' : `by ${normalise}${how}`}, ` +
-    `bumps as ${bumps === 'as-given' ? 'given' : bumps}` +
+    (filter ? `bumps filtered (${filter}) by ${counted(anisotropy, 'lookup')}` +
+              (anisotropy > 1 ? ' along a pixel at most' : '')
+            : `bumps as ${bumps === 'as-given' ? 'given' : bumps}`) +
     (vectors?.includes('vertices') ? `, vectors made ${vectors.replaceAll('-', ' ')}` : '') +
     (tangents === 'polygons' ? ', tangents of polygons' : '');
 }
@@ -48,7 +51,8 @@ function colorLine(scene, cell) {
         : [`off by at most ${largest.toFixed(2)}/255 at `,
            element('a', { href: cellLink(scene, cell, { pixel: `${at.x},${at.y}`, zoom: 16 }) },
                    `(${at.x}, ${at.y})`),
-           `, rmse ${rmse.toFixed(2)}, 99.9 % within ${p999.toFixed(2)}; `],
+           `${color.filter ? ' from the mean over the pixel' : ''}, rmse ${rmse.toFixed(2)}, ` +
+           `99.9 % within ${p999.toFixed(2)}; `],
     whole === undefined ? ''
       : `of the whole picture, wrong shadows included, rmse ${whole.toFixed(2)}; `,
     ...(color.lights_before ?? []).map(({ name, differing }) =>
@@ -93,7 +97,7 @@ function pixelColors({ cell, trueColor, claimedColor, colorVerdict }, pixel) {
   const judged = colorVerdictWords[verdict];
   return [
     element('p', { class: 'values colors' },
-      valueChip('true colour', right.join(' '), `rgb(${right})`),
+      valueChip(cell.color.filter ? 'true mean' : 'true colour', right.join(' '), `rgb(${right})`),
       valueChip('claimed', claimed.join(' '), `rgb(${claimed})`),
       element('span', { class: 'value' }, 'off by ',
               element('b', {}, claimed.map((byte, i) => signed(byte - right[i])).join(' ')))),

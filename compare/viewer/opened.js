@@ -75,12 +75,15 @@ function claimWords({ claim, share }, pixel) {
 function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }) {
   if (!cell.color) return {};
   const pixels = scene.width * scene.height;
-  const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
-                                           { color: 3 * pixels }, problems);
+  // Of what filters, the right colours are means over the pixels, which are told against the others.
+  const lengths = { color: 3 * pixels, ...(cell.color.filter ? { mean_color: 3 * pixels } : {}) };
+  const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks, lengths,
+                                           problems);
+  const right = cell.color.filter ? truth?.mean_color : truth?.color;
   const claim = cellFile && decodedBlocks(
     `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels }, problems,
-    { guides: { true_color: truth?.color, claim: blocks?.claim } });
-  return { trueColor: truth?.color ?? null, claimedColor: claim?.color ?? null,
+    { guides: { true_color: right, claim: blocks?.claim } });
+  return { trueColor: right ?? null, claimedColor: claim?.color ?? null,
            colorVerdict: claim?.color_verdict ?? null };
 }
 

@@ -2,6 +2,7 @@
 
 #include "scenes/plan/plan.h"
 
+#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -18,6 +19,7 @@ struct TracedScene::State {
     std::once_flag has_volumes{};
     TracedLights lights_before{};
     PixelMeans pixel_means{};
+    std::atomic<bool> knows_means{false};
     std::optional<Silhouette> silhouette{};
     std::optional<ShadowDepths> depths{};
     std::optional<VolumeStore> volumes{};
@@ -51,8 +53,12 @@ const TracedLights& TracedScene::lights_before() const {
 const PixelMeans& TracedScene::pixel_means() const {
     std::call_once(state_->has_means, [&] {
         state_->pixel_means = shade_pixels(state_->tracer, state_->truth, lights_before());
+        state_->knows_means = true;
     });
     return state_->pixel_means;
+}
+const PixelMeans* TracedScene::known_pixel_means() const {
+    return state_->knows_means ? &state_->pixel_means : nullptr;
 }
 
 const Silhouette& TracedScene::silhouette() const {

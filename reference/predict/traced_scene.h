@@ -33,6 +33,8 @@ public:
     const TracedLights& lights_before() const;
     /// The true colours as means over the pixels; the scene must be bump-lit.
     const PixelMeans& pixel_means() const;
+    /// Null where nobody has asked for them yet.
+    const PixelMeans* known_pixel_means() const;
     /// The sides of the casters' shadow volumes.
     const Silhouette& silhouette() const;
     /// Shadow depths at the points of each pixel's ray.

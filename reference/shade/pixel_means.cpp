@@ -111,7 +111,8 @@ public:
         glm::dvec3 color{0, 0, 0};
         glm::dvec3 alike{0, 0, 0};
         int alike_rays = 0;
-        glm::dvec3 odd_less_even{0, 0, 0}; ///< of rectangles that lie as on a chess board
+        glm::dvec3 odd_columns{0, 0, 0}; ///< of the rays in odd columns, less those in even ones
+        glm::dvec3 odd_rows{0, 0, 0};
     };
     Sums shade(const SampleRays& rays) {
         Sums sums;
@@ -164,9 +165,12 @@ private:
         for (int lane = 0; lane < count; ++lane) {
             const auto k = static_cast<std::size_t>(lane);
             const int sample = first + lane;
-            const bool is_odd = (sample % rays.columns + sample / rays.columns) % 2 != 0;
+            const auto signed_by = [&](int number) {
+                return number % 2 == 0 ? -colors[k] : colors[k];
+            };
             sums.color += colors[k];
-            sums.odd_less_even += is_odd ? colors[k] : -colors[k];
+            sums.odd_columns += signed_by(sample % rays.columns);
+            sums.odd_rows += signed_by(sample / rays.columns);
             if (!alike[k]) continue;
             sums.alike += colors[k];
             ++sums.alike_rays;
@@ -223,9 +227,10 @@ Noise shade_pixel(const Scene& scene, const GroundTruth& truth, int x, int y, Pi
     means.cosine.at(x, y) = static_cast<float>(extent.cosine);
     means.rays.at(x, y) = glm::u8vec2(sides);
     if (!is_seen) return {};
-    // Each half has rays / 2: half the difference of their means.
-    const glm::dvec3 off = 255 / rays * sums.odd_less_even;
-    return {glm::dot(off, off), 1};
+    // Of either half, which has rays / 2, half the difference of its mean from the other's.
+    const glm::dvec3 columns = 255 / rays * sums.odd_columns;
+    const glm::dvec3 rows = 255 / rays * sums.odd_rows;
+    return {glm::dot(columns, columns) + glm::dot(rows, rows), 1};
 }
 
 } // namespace

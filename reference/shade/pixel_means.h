@@ -25,9 +25,10 @@ struct PixelMeans {
     Image<float> cosine;      ///< between the centre's ray and the normal of its triangle; 0 at
                               ///< background
     Image<glm::u8vec2> rays;  ///< columns and rows
-    double noise = 0;         ///< root mean square, over the channels of pixels that see a surface
-                              ///< at their centre, of half the difference between the means of
-                              ///< every other square and of those between, in steps of 1/255
+    /// How far such means may be off themselves: root mean square, over the channels of pixels that
+    /// see a surface at their centre, of half the difference that it makes to take every other
+    /// column, and every other row, alone; in steps of 1/255.
+    double noise = 0;
 };
 
 /// `truth`: the tracer's. `before`: the lights whose light is added. Same bits for any number of

@@ -7,7 +7,6 @@
 #include "scenes/plan/plan.h"
 #include "scenes/surface/normalisation_cube.h"
 #include "scenes/surface/plane_equations.h"
-#include "scenes/surface/relief.h"
 
 #include <fmt/format.h>
 
@@ -333,79 +332,6 @@ Section cube_map_error() {
     return {"A cube map normalises vectors", text, ""};
 }
 
-/// Means of what n x n texels show under a light and an eye, three ways.
-struct Filtered {
-    double averaged_reflections = 0; ///< the truth: mean of all highlights
-    double averaged_normals = 0;     ///< highlight of the mean normal, normalised
-    double dimmed = 0;               ///< the same times the mean's length (Kilgard's dimFactor)
-};
-
-Filtered filtered(const Image<glm::dvec4>& normals, int left, int top, int n,
-                  const glm::dvec3& half) {
-    const auto highlight = [&](const glm::dvec3& normal) {
-        return std::pow(std::max(0.0, glm::dot(half, normal)), 8);
-    };
-    Filtered sums;
-    glm::dvec3 mean(0);
-    for (int y = top; y < top + n; ++y)
-        for (int x = left; x < left + n; ++x) {
-            const glm::dvec3 normal = 2.0 * glm::dvec3(normals.at(x, y)) - 1.0;
-            mean += normal;
-            sums.averaged_reflections += highlight(normal);
-        }
-    const double texels = n * n;
-    sums.averaged_reflections /= texels;
-    sums.averaged_normals = highlight(glm::normalize(mean));
-    sums.dimmed = glm::length(mean) / texels * sums.averaged_normals;
-    return sums;
-}
-
-Section averaging_normals() {
-    const Scene scene = load_scene("height_field", {});
-    const auto with_heights =
-        std::find_if(scene.materials.begin(), scene.materials.end(),
-                     [](const Material& material) { return material.bump == Bump::height_field; });
-    const Image<glm::dvec4> normals =
-        normal_map_of(slopes_of(scene.textures[with_heights->bump_map], with_heights->bump_scale));
-    std::string text =
-        "CS448: averaging normals is not averaging reflections, \"still an unsolved problem\"; "
-        "Kilgard\n"
-        "dims mipmapped normals by their mean's length. Highlights `(H.N')^8` of the relief of\n"
-        "`height_field`, over blocks of texels and 64 half-angle vectors up to 60 degrees from "
-        "the\n"
-        "surface's normal; root mean square differences from the mean of all texels' "
-        "highlights:\n\n"
-        "| block | highlight of the mean normal | the same, dimmed | mean highlight |\n"
-        "|---|---|---|---|\n";
-    for (int n = 2; n <= 64; n *= 2) {
-        double of_mean = 0;
-        double of_dimmed = 0;
-        double all = 0;
-        double count = 0;
-        for (int direction = 0; direction < 64; ++direction) {
-            const double turn = 2 * 3.14159265358979324 * (direction % 16) / 16;
-            const double lean = 3.14159265358979324 / 3 * (direction / 16 + 0.5) / 4;
-            const glm::dvec3 half(std::sin(lean) * std::cos(turn), std::sin(lean) * std::sin(turn),
-                                  std::cos(lean));
-            for (int top = 0; top + n <= normals.height; top += n)
-                for (int left = 0; left + n <= normals.width; left += n) {
-                    const Filtered block = filtered(normals, left, top, n, half);
-                    of_mean += std::pow(block.averaged_normals - block.averaged_reflections, 2);
-                    of_dimmed += std::pow(block.dimmed - block.averaged_reflections, 2);
-                    all += block.averaged_reflections;
-                    ++count;
-                }
-        }
-        text += fmt::format("| {0} x {0} | {1:.4f} | {2:.4f} | {3:.4f} |\n", n,
-                            std::sqrt(of_mean / count), std::sqrt(of_dimmed / count), all / count);
-    }
-    text +=
-        "\nIt holds: the larger the block, the further the mean normal's highlight is from what\n"
-        "is seen. Dimming mends the brightness, not the shape: the highlight stays as narrow as\n"
-        "a smooth surface's.\n";
-    return {"Averaging normals is not averaging reflections", text, ""};
-}
-
 Section plane_coefficients() {
     std::mt19937 random(2001);
     const auto integer = [&] { return static_cast<double>(random() % 128) - 64; };
@@ -465,7 +391,6 @@ std::vector<Section> bump_claims() {
             shares_of_the_error(scenes, gpu),
             stretched(gpu),
             cube_map_error(),
-            averaging_normals(),
             plane_coefficients()};
 }
 

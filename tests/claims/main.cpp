@@ -3,6 +3,7 @@
 //   build/dev/tests/claims/shadowproof_claims > docs/claims.md
 #include "scenes/error.h"
 #include "tests/claims/bump_claims.h"
+#include "tests/claims/filter_claims.h"
 #include "tests/claims/map_claims.h"
 #include "tests/claims/reach_claims.h"
 #include "tests/claims/volume_claims.h"
@@ -33,6 +34,7 @@ using shadowproof::claims::Section;
 
 std::vector<Section> all_claims() {
     std::vector<Section> all = shadowproof::claims::bump_claims();
+    std::ranges::move(shadowproof::claims::filter_claims(), std::back_inserter(all));
     std::ranges::move(shadowproof::claims::volume_claims(), std::back_inserter(all));
     std::ranges::move(shadowproof::claims::reach_claims(), std::back_inserter(all));
     std::ranges::move(shadowproof::claims::map_claims(), std::back_inserter(all));

@@ -44,7 +44,7 @@ inline std::vector<std::string> bump_lit_scenes() {
             "stretched_relief", "skewed_relief",        "hammered_silver",  "coarse_curve",
             "grazing_light",    "terminator_highlight", "fine_relief",      "bright_light",
             "bumpy_near_plane", "bumpy_far_plane",      "bumpy_eye_inside", "bumpy_lights",
-            "walking_figure"};
+            "distant_bumps",    "walking_figure"};
 }
 
 } // namespace shadowproof::tests

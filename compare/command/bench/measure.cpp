@@ -382,6 +382,8 @@ void describe(SceneResult& result, const BenchTrial& trial) {
     result.bump_lit = is_bump_lit(trial.scene);
     if (result.bump_lit)
         result.color = shade(trial.tracer, trial.truth, trial.traced.lights_before());
+    if (trial.work.options.technique.filter_bumps(trial.scene))
+        result.mean_color = trial.traced.pixel_means().color;
 }
 
 void print_points(const BenchWork& work, const std::string& scene) {

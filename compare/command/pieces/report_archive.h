@@ -86,7 +86,7 @@ template <class Archive>
 void serialize(Archive& archive, SceneResult& scene) {
     auto& [name, file, argument, width, height, triangles, digest, light, one_of_many, camera, far,
            meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit, COLOR,
-           spent_milliseconds, cells] = scene;
+           MEAN_COLOR, spent_milliseconds, cells] = scene;
     archive(name, file, argument, width, height, triangles, digest, light, one_of_many, camera, far,
             meshes, provokes, left_out, notes, no_longer_provoked, error, truth, bump_lit,
             spent_milliseconds, cells);

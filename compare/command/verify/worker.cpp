@@ -189,6 +189,12 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     result.bump_lit = is_bump_lit(scene);
     if (result.bump_lit)
         result.color = shade(trial->tracer, result.truth, trial->traced.lights_before());
+    if (options.technique.filter_bumps(scene)) {
+        run.progress(result.name + ": tracing many rays a pixel");
+        result.mean_color = run.setup.pieces.step(result.name + ": tracing many rays a pixel", [&] {
+            return trial->traced.pixel_means().color;
+        });
+    }
 }
 
 /// Judges a technique and writes what the report shows of it, as a piece. One that is lost has a

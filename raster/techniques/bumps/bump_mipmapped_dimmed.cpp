@@ -24,14 +24,14 @@ Technique bump_mipmapped_dimmed_technique() {
         .name = "bump_mipmapped_dimmed",
         .summary = "bump_mipmapped, its diffuse light dimmed where bumps are averaged",
         .source = "Kilgard 2001 (dimFactor)",
-        .needs = "bump maps, for whose mipmaps the file asks, and blending into an RGBA32F "
-                 "colour buffer",
+        .needs = "bump maps, and blending into an RGBA32F colour buffer; unless named, a file "
+                 "that asks for their mipmaps",
         .cost = 0,
         .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha,
                      Cause::shading},
         .by_nature = {Cause::shading},
         .needs_bump_maps = true,
-        .needs_mipmaps = true,
+        .filters_bumps = true,
         .depth_model = reversed_depths,
         .settings = {"normalise", "cube-size", "newton-steps", "vectors", "tangents", "anisotropy"},
         .recipe = zfail_reversed_recipe,

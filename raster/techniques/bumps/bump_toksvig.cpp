@@ -22,14 +22,14 @@ Technique bump_toksvig_technique() {
         .name = "bump_toksvig",
         .summary = "bump_mipmapped, highlights wider and darker where bumps are averaged",
         .source = "Toksvig 2005",
-        .needs = "bump maps, for whose mipmaps the file asks, and blending into an RGBA32F "
-                 "colour buffer",
+        .needs = "bump maps, and blending into an RGBA32F colour buffer; unless named, a file "
+                 "that asks for their mipmaps",
         .cost = 0,
         .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha,
                      Cause::shading},
         .by_nature = {Cause::shading},
         .needs_bump_maps = true,
-        .needs_mipmaps = true,
+        .filters_bumps = true,
         .depth_model = reversed_depths,
         .settings = {"normalise", "cube-size", "newton-steps", "vectors", "tangents", "anisotropy"},
         .recipe = zfail_reversed_recipe,

@@ -35,11 +35,18 @@ inline std::vector<const Technique*> techniques_for(const Scene& scene) {
     return techniques;
 }
 
+/// Against the means over the pixels where the frame filters.
+inline ColorCheck checked_colors(const TracedScene& scene, const Frame& frame) {
+    const PixelMeans* const means =
+        filters(frame.color_model) ? &scene.traced.pixel_means() : nullptr;
+    return check_colors(scene.tracer, scene.truth, frame, {}, means);
+}
+
 inline ColorCheck colors_of(const TracedScene& scene, const Technique& technique,
                             const LightingSettings& settings, Gpu& gpu) {
     Plan plan = scene.plan;
     plan.asked.lighting = settings;
-    return check_colors(scene.tracer, scene.truth, render(technique, scene.scene, plan, gpu));
+    return checked_colors(scene, render(technique, scene.scene, plan, gpu));
 }
 
 /// Of a technique at its own settings on a bundled scene.

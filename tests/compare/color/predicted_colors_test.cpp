@@ -18,6 +18,7 @@
 namespace shadowproof {
 namespace {
 
+using tests::checked_colors;
 using tests::colors_of;
 using tests::techniques_for;
 using tests::traced;
@@ -33,7 +34,7 @@ TEST_P(ColorsOfScene, every_pixel_of_every_technique_is_predicted_and_floats_are
     for (const Technique* technique : techniques_for(scene.scene)) {
         SCOPED_TRACE(technique->name);
         const Frame frame = render(*technique, scene.scene, scene.plan, gpu_);
-        const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+        const ColorCheck colors = checked_colors(scene, frame);
         EXPECT_EQ(colors.unpredicted, 0U)
             << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
         // Joined techniques are wrong about most shadows on some of the scenes.
@@ -75,8 +76,8 @@ TEST_P(ColorsOfScene, every_pixel_is_predicted_under_every_setting) {
         }
 }
 
-/// Each form of bumps, and a mapping that is no square.
-constexpr std::array some_scenes{"bumpy_torus", "height_field", "skewed_relief"};
+/// Each form of bumps, a mapping that is no square, and bumps that are filtered.
+constexpr std::array some_scenes{"bumpy_torus", "height_field", "skewed_relief", "distant_bumps"};
 
 SHADOWPROOF_OVER_SOME_SCENES(ColorsOfScene, tests::bump_lit_scenes(), some_scenes);
 
@@ -115,7 +116,7 @@ TEST(Colors, of_smooth_surfaces_beside_bumps_are_predicted) {
         for (const Technique* technique : techniques_for(scene.scene)) {
             SCOPED_TRACE(name + ", " + std::string(technique->name));
             const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
-            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            const ColorCheck colors = checked_colors(scene, frame);
             EXPECT_EQ(colors.unpredicted, 0U)
                 << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
         }
@@ -136,7 +137,7 @@ TEST(Colors, of_tangents_along_the_normals_are_predicted) {
         for (const Technique* technique : techniques_for(scene.scene)) {
             SCOPED_TRACE(name + (", " + std::string(technique->name)));
             const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
-            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            const ColorCheck colors = checked_colors(scene, frame);
             EXPECT_EQ(colors.unpredicted, 0U)
                 << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
         }
@@ -169,7 +170,7 @@ TEST(Colors, of_triangles_that_the_clipper_cuts_are_predicted) {
             for (const Technique* technique : techniques_for(scene.scene)) {
                 SCOPED_TRACE(name + (", " + std::to_string(by)) + std::string(technique->name));
                 const Frame frame = render(*technique, scene.scene, scene.plan, gpu);
-                const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+                const ColorCheck colors = checked_colors(scene, frame);
                 EXPECT_EQ(colors.unpredicted, 0U)
                     << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
             }
@@ -185,7 +186,7 @@ TEST(Colors, of_triangles_that_the_clipper_cuts_are_unexplained_two_steps_off) {
         for (const char* technique : {"bump_tangent_space", "bump_eye_space"}) {
             Frame frame = render(*find_technique(technique), scene.scene, scene.plan, gpu);
             for (glm::vec3& color : frame.color.pixels) color += 2.F / 255;
-            const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+            const ColorCheck colors = checked_colors(scene, frame);
             EXPECT_GT(colors.unpredicted, colors.judged / 2);
         }
     }
@@ -202,12 +203,12 @@ TEST(Colors, that_floats_do_not_hold_are_predicted) {
     for (const Technique* technique : techniques_for(scene.scene)) {
         SCOPED_TRACE(technique->name);
         Frame frame = render(*technique, scene.scene, scene.plan, gpu);
-        const ColorCheck colors = check_colors(scene.tracer, scene.truth, frame);
+        const ColorCheck colors = checked_colors(scene, frame);
         EXPECT_EQ(colors.unpredicted, 0U);
         if (!is_exact(frame.color_model, scene.scene)) continue;
         EXPECT_EQ(colors.beyond, 0U);
         for (glm::vec3& color : frame.color.pixels) color.g += 0x1p-100F;
-        EXPECT_GT(check_colors(scene.tracer, scene.truth, frame).beyond, 500U);
+        EXPECT_GT(checked_colors(scene, frame).beyond, 500U);
     }
 }
 
