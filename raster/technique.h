@@ -85,6 +85,13 @@ inline bool suits(const Technique& technique, const Scene& scene) {
     return can_draw(technique, scene) && (!technique.filters_bumps || asks_for_mipmaps(scene));
 }
 
+/// Whether one of them filters the scene's bump maps, so that right colours are means over pixels.
+inline bool filter_bumps(std::span<const Technique* const> techniques, const Scene& scene) {
+    return std::any_of(techniques.begin(), techniques.end(), [&](const Technique* one) {
+        return one->filters_bumps && can_draw(*one, scene);
+    });
+}
+
 inline bool heeds(const Technique& technique, std::string_view setting) {
     return std::find(technique.settings.begin(), technique.settings.end(), setting) !=
            technique.settings.end();

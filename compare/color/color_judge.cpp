@@ -22,6 +22,21 @@ bool contains(const Intervals& limits, const glm::dvec3& color) {
            limits[2].contains(color.z);
 }
 
+bool contains(const std::vector<Intervals>& limits, const glm::dvec3& color) {
+    return std::ranges::any_of(limits,
+                               [&](const Intervals& limit) { return contains(limit, color); });
+}
+
+/// To be shown: the one that holds the colour, or all of them.
+Intervals shown_of(const std::vector<Intervals>& limits, const glm::dvec3& color) {
+    Intervals all = limits.front();
+    for (const Intervals& limit : limits) {
+        if (contains(limit, color)) return limit;
+        all = hull(all, limit);
+    }
+    return all;
+}
+
 constexpr Intervals anything{any_number, any_number, any_number};
 
 constexpr std::array<glm::dvec2, 4> corners_of_square{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
@@ -96,7 +111,7 @@ glm::dvec3 ColorJudge::right_color(int x, int y, const glm::dvec3& at_centre) co
     return showable(frame_.color_model, means_ != nullptr ? means_->color.at(x, y) : at_centre);
 }
 
-/// A technique that filters has neither bytes nor tables: it is right within a step.
+/// A technique that filters is right within a step of the mean, however it normalises.
 Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
     if (means_ != nullptr) return around(means_->color.at(pixel.x, pixel.y), one_step);
     return color_bound(frame_.color_model, of_lights(pixel, spread, [&](const InputPoint& point) {
@@ -104,11 +119,17 @@ Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) 
                        }));
 }
 
-Intervals ColorJudge::predicted(const PixelPlace& pixel, const PixelSpread& spread) const {
-    return predicted_color(frame_.color_model,
-                           of_lights(pixel, spread, [&](const InputPoint& point) {
-                               return claimed_inputs(tables_, point);
-                           }));
+std::vector<Intervals> ColorJudge::predicted(const PixelPlace& pixel,
+                                             const PixelSpread& spread) const {
+    const auto choices =
+        footprint_choices(tables_, input_point(scene_, pixel.own(), pixel.triangle, spread));
+    std::vector<Intervals> colors;
+    for (const FootprintChoice& choice : choices)
+        colors.push_back(predicted_color(frame_.color_model,
+                                         of_lights(pixel, spread, [&](const InputPoint& point) {
+                                             return claimed_inputs(tables_, point, choice);
+                                         })));
+    return colors;
 }
 
 /// View depth of the surface shown; where the truth is another, of its plane.
@@ -126,8 +147,8 @@ double ColorJudge::lateral(int x, int y) const {
                          scene_.camera.eye + depth(x, y) * direction(x, y));
 }
 
-/// Of all lights, to which other vectors are interpolated each.
-/// At the place beside the pixel's centre, of the triangle that is shown there.
+/// Of all lights, to which other vectors are interpolated each: at a place beside the pixel's
+/// centre, of the triangle that is shown at the centre.
 double ColorJudge::share(int x, int y, const glm::dvec2& beside) const {
     const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     const double aside = lateral(x, y);
@@ -220,8 +241,8 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, b
     const auto bound_of = [&](const PixelSpread& spread) { return bound(pixel, spread); };
     const auto predicted_of = [&](const PixelSpread& spread) { return predicted(pixel, spread); };
     found.bound = bound_of(found.spread);
-    found.predicted = edge_on ? anything : predicted_of(found.spread);
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
+    found.predicted = edge_on ? anything : shown_of(predicted_of(found.spread), claimed);
     if (edge_on) {
         right = right || contains(found.bound, claimed);
         is_predicted = true;
@@ -266,9 +287,11 @@ ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) 
     const Shading& shading = pixel.own();
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
     const auto look = [&](const PixelSpread& spread) {
-        ColorJudgement found{
-            .bound = bound(pixel, spread), .predicted = predicted(pixel, spread), .spread = spread};
-        const bool is_predicted = contains(found.predicted, claimed);
+        const std::vector<Intervals> possible = predicted(pixel, spread);
+        ColorJudgement found{.bound = bound(pixel, spread),
+                             .predicted = shown_of(possible, claimed),
+                             .spread = spread};
+        const bool is_predicted = contains(possible, claimed);
         if (is_exact(frame_.color_model, scene_))
             found.bound = cut_to_a_step(found.bound, shading.color());
         if (contains(found.bound, claimed))

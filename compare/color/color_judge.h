@@ -96,7 +96,8 @@ private:
     template <class Of>
     auto of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
-    Intervals predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
+    /// One interval for each choice that the technique may have made (footprint_choices).
+    std::vector<Intervals> predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;
     double share(int x, int y, const glm::dvec2& beside = {0, 0}) const;
     void find_quad_errors(PixelPlace& pixel, double share) const;

@@ -1,5 +1,7 @@
 #include "compare/color/mean_check.h"
 
+#include "compare/driver/lighting/lighting_arithmetic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -49,7 +51,8 @@ MeanCheck check_means(const PixelMeans& means, const Frame& frame,
     Bins by_angle;
     for (std::size_t i = 0; i < verdicts.pixels.size(); ++i) {
         if (verdicts.pixels[i] == ColorVerdict::as_shown) continue;
-        const glm::dvec3 off = 255.0 * (glm::dvec3(frame.color.pixels[i]) - means.color.pixels[i]);
+        const glm::dvec3 right = showable(frame.color_model, means.color.pixels[i]);
+        const glm::dvec3 off = 255.0 * (glm::dvec3(frame.color.pixels[i]) - right);
         const double squares = glm::dot(off, off);
         all.add(squares);
         if (means.share_alike.pixels[i] < 1) continue;

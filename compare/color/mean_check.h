@@ -1,5 +1,5 @@
-// How far the colours of a frame are off the means over their pixels, by how many texels a pixel
-// covers and by how slanted it sees the surface.
+// How far the colours of a frame are off the means over their pixels, as it can show them, by how
+// many texels a pixel covers and by how slanted it sees the surface.
 #pragma once
 
 #include "compare/color/color_verdict.h"

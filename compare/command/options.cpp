@@ -275,12 +275,6 @@ std::vector<const Technique*> TechniqueOptions::chosen() const {
     return all;
 }
 
-bool TechniqueOptions::filter_bumps(const Scene& scene) const {
-    if (!is_bump_lit(scene) || (techniques.empty() && !asks_for_mipmaps(scene))) return false;
-    return std::ranges::any_of(chosen(),
-                               [](const Technique* technique) { return technique->filters_bumps; });
-}
-
 void add_scene_argument(CLI::App& command, std::string& scene) {
     command.add_option("SCENE", scene, "A bundled name, or a path to .gltf, .glb or .md2")
         ->required()

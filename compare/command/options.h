@@ -54,9 +54,6 @@ struct TechniqueOptions {
     TechniqueSettings asked{};
 
     std::vector<const Technique*> chosen() const;
-    /// Whether a technique is chosen that filters bump maps: of a file that asks for mipmaps, or by
-    /// its name. Then right colours are also means over the pixels.
-    bool filter_bumps(const Scene& scene) const;
 };
 
 /// Adds SCENE to a subcommand: one, which must be given, or any number, none for all bundled ones.

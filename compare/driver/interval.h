@@ -68,6 +68,14 @@ inline Interval clamped(const Interval& a, double low, double high) {
 inline Interval not_negative(const Interval& a) {
     return {std::max(a.low, 0.0), std::max(a.high, 0.0)};
 }
+/// The largest number's size.
+inline double size_of(const Interval& a) {
+    return std::max(std::abs(a.low), std::abs(a.high));
+}
+inline Interval square_of(const Interval& a) {
+    const double least = std::max({a.low, -a.high, 0.0});
+    return {least * least, size_of(a) * size_of(a)};
+}
 /// For intervals that are not negative.
 inline Interval squared(const Interval& a) {
     return {a.low * a.low, a.high * a.high};

@@ -33,40 +33,41 @@ LinearForms forms_of(const Scene& scene, std::uint32_t triangle, const glm::dvec
     return forms;
 }
 
-Interval range_of_ends(const std::array<double, 4>& ends) {
-    const auto [low, high] = std::minmax_element(ends.begin(), ends.end());
-    return {*low, *high};
-}
+/// A difference, and the size of the values that it is of: the neighbour's, which may lie beside
+/// the triangle.
+struct Step {
+    Interval range = any_number;
+    double size = 0;
+};
 
 /// With u = U / W, both linear, the step from D by S is (U(S) W(D) - U(D) W(S)) / (W(D) W(D + S)).
 /// The numerator is linear in D and in S, and so extreme at corners of both.
-Interval step_range(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& step) {
+Step step_of(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& step) {
     const std::array<glm::dvec3, 4> steps{step + quad.stretch * (quad.to_column + quad.to_row),
                                           step + quad.stretch * (quad.to_column - quad.to_row),
                                           step - quad.stretch * (quad.to_column - quad.to_row),
                                           step - quad.stretch * (quad.to_column + quad.to_row)};
-    std::array<double, 4> here{};
-    std::array<double, 4> least{};
-    std::array<double, 4> most{};
+    Interval own;  // W(D)
+    Interval next; // W(D + S)
     Interval numerator;
-    bool any = false;
-    for (std::size_t i = 0; i < here.size(); ++i) {
-        here[i] = glm::dot(quad.rays[i], forms.all);
-        const double value = glm::dot(quad.rays[i], forms.value);
+    double most = 0; // of U(D + S)
+    for (std::size_t i = 0; i < quad.rays.size(); ++i)
         for (std::size_t k = 0; k < steps.size(); ++k) {
-            const double w = glm::dot(steps[k], forms.all);
-            const Interval product = around(glm::dot(steps[k], forms.value) * here[i] - value * w);
-            numerator = any ? hull(numerator, product) : product;
-            any = true;
-            least[i] = k == 0 ? here[i] + w : std::min(least[i], here[i] + w);
-            most[i] = k == 0 ? here[i] + w : std::max(most[i], here[i] + w);
+            const double all = glm::dot(quad.rays[i], forms.all);
+            const double all_step = glm::dot(steps[k], forms.all);
+            const double value = glm::dot(quad.rays[i], forms.value);
+            const double value_step = glm::dot(steps[k], forms.value);
+            const Interval product = around(value_step * all - value * all_step);
+            const bool first = i == 0 && k == 0;
+            own = first ? around(all) : hull(own, around(all));
+            next = first ? around(all + all_step) : hull(next, around(all + all_step));
+            numerator = first ? product : hull(numerator, product);
+            most = std::max(most, std::abs(value + value_step));
         }
-    }
-    const Interval own = range_of_ends(here);
-    const Interval next{range_of_ends(least).low, range_of_ends(most).high};
     const Interval denominator = own * next;
-    if (!(denominator.low > 0)) return any_number; // of a pixel and its neighbour W has one sign
-    return numerator * Interval{1 / denominator.high, 1 / denominator.low};
+    if (!(denominator.low > 0)) return {}; // of a pixel and its neighbour W has one sign
+    return {numerator * Interval{1 / denominator.high, 1 / denominator.low},
+            most / std::min(std::abs(next.low), std::abs(next.high))};
 }
 
 } // namespace
@@ -98,10 +99,13 @@ double drawn_stretch(const Scene& scene, std::uint32_t triangle, const CoveredPi
         any = std::max(any, stretch);
         if (may_reach(drawn, place, pixel.reach)) covering = std::max(covering, stretch);
     }
+    if (fan.empty()) return std::numeric_limits<double>::infinity();
     return covering > 0 ? covering : any;
 }
 
-// Values of both pixels are off by their share of the largest, and their difference is rounded.
+// The pixel's value is off by its share of the largest corner's. That share is of a value no larger
+// than those: q = p / r, both off by e, is off by (1 + |q|) e / (r - e), and the neighbour's q may
+// be more than 1. Their difference is rounded.
 PlaceSteps quad_steps(const Scene& scene, std::uint32_t triangle,
                       const std::array<glm::dvec2, 3>& values, const QuadRays& quad) {
     PlaceSteps steps;
@@ -110,14 +114,15 @@ PlaceSteps quad_steps(const Scene& scene, std::uint32_t triangle,
         const glm::dvec3 at_corners(values[0][k], values[1][k], values[2][k]);
         const LinearForms forms = forms_of(scene, triangle, at_corners);
         const glm::dvec3 sizes = glm::abs(at_corners);
-        const double off = 2 * quad.share * std::max({sizes.x, sizes.y, sizes.z});
-        const auto rounded = [&](const Interval& step) {
-            return widened(step, off + float_roundoff *
-                                           std::max(std::abs(step.low), std::abs(step.high)));
+        const double largest = std::max({sizes.x, sizes.y, sizes.z});
+        const auto rounded = [&](const Step& step) {
+            const double neighbour = std::max(largest, 0.5 * (largest + step.size));
+            const double off = quad.share * (largest + neighbour);
+            return widened(step.range, off + float_roundoff * size_of(step.range));
         };
         const auto axis = static_cast<std::size_t>(k);
-        steps.across[axis] = rounded(step_range(forms, quad, quad.to_column));
-        steps.down[axis] = rounded(step_range(forms, quad, quad.to_row));
+        steps.across[axis] = rounded(step_of(forms, quad, quad.to_column));
+        steps.down[axis] = rounded(step_of(forms, quad, quad.to_row));
     }
     return steps;
 }

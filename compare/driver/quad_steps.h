@@ -36,8 +36,8 @@ inline QuadNeighbours quad_neighbours(int x, int y, int rows) {
     return {x % 2 == 0 ? 1 : -1, (rows - 1 - y) % 2 == 0 ? -1 : 1};
 }
 
-/// Such a stretch of a triangle at a pixel, by as much as the pixel's reach says. Infinite where it
-/// is no wider than that.
+/// Such a stretch of a triangle at a pixel, by as much as the pixel's reach says. Infinite where
+/// the triangle is no wider than that, or nothing of it is drawn.
 double drawn_stretch(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
 /// Differences of a pair of texture coordinates, of the neighbour from the pixel. Not finite where

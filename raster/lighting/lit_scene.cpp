@@ -83,7 +83,7 @@ Texture upload_environment(const GlFunctions& gl, const Scene& scene) {
     return upload_faces(gl, faces, {GL_RGB32F, GL_RGB, GL_FLOAT});
 }
 
-/// Of its form, which the filter reads no more, the shader must know that there is one.
+/// The form tells shaders only that there is a map.
 BumpMap upload_pyramid(const GlFunctions& gl, const Scene& scene, const Material& material,
                        BumpFilter filter) {
     const BumpPyramid pyramid = bump_pyramid(scene, material, filter);

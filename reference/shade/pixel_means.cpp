@@ -111,8 +111,8 @@ public:
         glm::dvec3 color{0, 0, 0};
         glm::dvec3 alike{0, 0, 0};
         int alike_rays = 0;
-        glm::dvec3 odd_columns{0, 0, 0}; ///< of the rays in odd columns, less those in even ones
-        glm::dvec3 odd_rows{0, 0, 0};
+        glm::dvec3 inner_columns{0, 0, 0}; ///< of every four columns the inner two less the outer
+        glm::dvec3 inner_rows{0, 0, 0};
     };
     Sums shade(const SampleRays& rays) {
         Sums sums;
@@ -165,12 +165,14 @@ private:
         for (int lane = 0; lane < count; ++lane) {
             const auto k = static_cast<std::size_t>(lane);
             const int sample = first + lane;
+            // Of four in a row the outer against the inner: of what changes evenly both have the
+            // mean.
             const auto signed_by = [&](int number) {
-                return number % 2 == 0 ? -colors[k] : colors[k];
+                return number % 4 == 0 || number % 4 == 3 ? -colors[k] : colors[k];
             };
             sums.color += colors[k];
-            sums.odd_columns += signed_by(sample % rays.columns);
-            sums.odd_rows += signed_by(sample / rays.columns);
+            sums.inner_columns += signed_by(sample % rays.columns);
+            sums.inner_rows += signed_by(sample / rays.columns);
             if (!alike[k]) continue;
             sums.alike += colors[k];
             ++sums.alike_rays;
@@ -228,8 +230,8 @@ Noise shade_pixel(const Scene& scene, const GroundTruth& truth, int x, int y, Pi
     means.rays.at(x, y) = glm::u8vec2(sides);
     if (!is_seen) return {};
     // Of either half, which has rays / 2, half the difference of its mean from the other's.
-    const glm::dvec3 columns = 255 / rays * sums.odd_columns;
-    const glm::dvec3 rows = 255 / rays * sums.odd_rows;
+    const glm::dvec3 columns = 255 / rays * sums.inner_columns;
+    const glm::dvec3 rows = 255 / rays * sums.inner_rows;
     return {glm::dot(columns, columns) + glm::dot(rows, rows), 1};
 }
 

@@ -26,8 +26,8 @@ struct PixelMeans {
                               ///< background
     Image<glm::u8vec2> rays;  ///< columns and rows
     /// How far such means may be off themselves: root mean square, over the channels of pixels that
-    /// see a surface at their centre, of half the difference that it makes to take every other
-    /// column, and every other row, alone; in steps of 1/255.
+    /// see a surface at their centre, of half the difference that it makes to take of every four
+    /// columns, and of every four rows, the inner two alone, or the outer; in steps of 1/255.
     double noise = 0;
 };
 

@@ -46,40 +46,42 @@ glm::vec4 kept_of_mean(const glm::dvec3& mean, BumpFilter filter) {
 BumpPyramid bump_pyramid(const Scene& scene, const Material& material, BumpFilter filter) {
     assert(filter != BumpFilter::none && material.bump != Bump::none);
     const Image<glm::dvec3> normals = unit_normals(scene, material);
-    const int levels = levels_of(normals.width, normals.height);
     BumpPyramid pyramid;
-    for (int level = 0; level < levels; ++level) {
-        if (filter == BumpFilter::lean) {
-            const auto moments = mipmap_level<glm::dvec4>(normals, level, [](const glm::dvec3& n) {
-                const glm::dvec2 b = slopes_of_normal(n);
-                return glm::dvec4(b, b * b);
-            });
-            const auto cross = mipmap_level<double>(normals, level, [](const glm::dvec3& n) {
-                const glm::dvec2 b = slopes_of_normal(n);
-                return b.x * b.y;
-            });
+    if (filter == BumpFilter::lean) {
+        const auto moments = [](const glm::dvec3& n) {
+            const glm::dvec2 b = slopes_of_normal(n);
+            return glm::dvec4(b, b * b);
+        };
+        const auto product = [](const glm::dvec3& n) {
+            const glm::dvec2 b = slopes_of_normal(n);
+            return b.x * b.y;
+        };
+        visit_levels<glm::dvec4>(normals, moments, [&](const Image<glm::dvec4>& level) {
             pyramid.levels.push_back(converted<glm::vec4>(
-                moments, [](const glm::dvec4& mean) { return glm::vec4(mean); }));
+                level, [](const glm::dvec4& mean) { return glm::vec4(mean); }));
+        });
+        visit_levels<double>(normals, product, [&](const Image<double>& level) {
             pyramid.cross.push_back(converted<glm::vec4>(
-                cross, [](double mean) { return glm::vec4(static_cast<float>(mean), 0, 0, 1); }));
-            continue;
-        }
-        const auto means =
-            mipmap_level<glm::dvec3>(normals, level, [](const glm::dvec3& n) { return n; });
-        pyramid.levels.push_back(converted<glm::vec4>(
-            means, [&](const glm::dvec3& mean) { return kept_of_mean(mean, filter); }));
+                level, [](double mean) { return glm::vec4(static_cast<float>(mean), 0, 0, 1); }));
+        });
+        return pyramid;
     }
+    const auto unchanged = [](const glm::dvec3& n) { return n; };
+    visit_levels<glm::dvec3>(normals, unchanged, [&](const Image<glm::dvec3>& level) {
+        pyramid.levels.push_back(converted<glm::vec4>(
+            level, [&](const glm::dvec3& mean) { return kept_of_mean(mean, filter); }));
+    });
     return pyramid;
 }
 
 std::vector<Image<glm::vec4>> mipmap_of(const Image<glm::vec4>& texels) {
     std::vector<Image<glm::vec4>> levels;
-    const int count = levels_of(texels.width, texels.height);
-    for (int level = 0; level < count; ++level)
-        levels.push_back(converted<glm::vec4>(
-            mipmap_level<glm::dvec4>(texels, level,
-                                     [](const glm::vec4& texel) { return glm::dvec4(texel); }),
-            [](const glm::dvec4& mean) { return glm::vec4(mean); }));
+    visit_levels<glm::dvec4>(
+        texels, [](const glm::vec4& texel) { return glm::dvec4(texel); },
+        [&](const Image<glm::dvec4>& level) {
+            levels.push_back(converted<glm::vec4>(
+                level, [](const glm::dvec4& mean) { return glm::vec4(mean); }));
+        });
     return levels;
 }
 

@@ -41,4 +41,25 @@ Image<Value> mipmap_level(const Image<Texel>& texels, int level, const Of& of) {
     return made;
 }
 
+/// Whether a row of `fine` texels is that of `coarse` ones in halves.
+inline bool is_halved(int fine, int coarse) {
+    return fine == 2 * coarse || (fine == 1 && coarse == 1);
+}
+
+/// Calls visit(level's picture) for each level, from the finest. Where all sides are halved, a
+/// level is made of the one before, whose means it covers alike; else of level 0.
+template <class Value, class Texel, class Of, class Visit>
+void visit_levels(const Image<Texel>& texels, const Of& of, const Visit& visit) {
+    auto level = converted<Value>(texels, of);
+    visit(level);
+    for (int number = 1; number < levels_of(texels.width, texels.height); ++number) {
+        const int width = std::max(1, texels.width >> number);
+        const int height = std::max(1, texels.height >> number);
+        level = is_halved(level.width, width) && is_halved(level.height, height)
+                    ? mipmap_level<Value>(level, 1, [](const Value& mean) { return mean; })
+                    : mipmap_level<Value>(texels, number, of);
+        visit(level);
+    }
+}
+
 } // namespace shadowproof

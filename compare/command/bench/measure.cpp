@@ -252,16 +252,21 @@ void add_points_of(BenchTrial& trial, const Technique& technique) {
     }
 }
 
+/// What is named is drawn, or says why it is not for such a scene.
+std::vector<const Technique*> techniques_for(const BenchTrial& trial) {
+    const TechniqueOptions& options = trial.work.options.technique;
+    std::vector<const Technique*> techniques = options.chosen();
+    if (options.techniques.empty())
+        std::erase_if(techniques,
+                      [&](const Technique* each) { return !suits(*each, trial.scene); });
+    return techniques;
+}
+
 void add_points(BenchTrial& trial) {
-    const BenchOptions& options = trial.work.options;
     add_truth(trial);
     add_unfiltered_truth(trial);
     add_sampled_truth(trial);
-    // What is named is drawn, or says why it is not for such a scene.
-    std::vector<const Technique*> techniques = options.technique.chosen();
-    if (options.technique.techniques.empty())
-        std::erase_if(techniques,
-                      [&](const Technique* each) { return !suits(*each, trial.scene); });
+    const std::vector<const Technique*> techniques = techniques_for(trial);
     trial.to_judge = techniques.size();
     trial.judging = Stopwatch();
     for (const Technique* technique : techniques) {
@@ -382,7 +387,7 @@ void describe(SceneResult& result, const BenchTrial& trial) {
     result.bump_lit = is_bump_lit(trial.scene);
     if (result.bump_lit)
         result.color = shade(trial.tracer, trial.truth, trial.traced.lights_before());
-    if (trial.work.options.technique.filter_bumps(trial.scene))
+    if (filter_bumps(techniques_for(trial), trial.scene))
         result.mean_color = trial.traced.pixel_means().color;
 }
 

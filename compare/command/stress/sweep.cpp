@@ -174,8 +174,7 @@ void try_point(const Sweep& sweep, const Scene& scene, std::optional<Stress> str
     if (point.relations.changed > 0) result.notes.push_back(words_of(point.relations));
     if (result.bump_lit)
         result.color = shade(trial.tracer, result.truth, trial.traced.lights_before());
-    if (work.options.technique.filter_bumps(scene))
-        result.mean_color = trial.traced.pixel_means().color;
+    if (filter_bumps(techniques, scene)) result.mean_color = trial.traced.pixel_means().color;
     if (work.pictures != nullptr) work.pictures->begin(result, place);
     for (const Technique* technique : techniques) {
         progress(technique->name);

@@ -147,7 +147,7 @@ void describe_admitted(const VerifyOptions& options, const Scene& scene, SceneRe
 }
 
 /// Plans and traces the chosen light of a scene that was described; the truth lies in the result.
-void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
+void begin_trial(const Run& run, const Scene& scene, bool filter, SceneResult& result,
                  std::optional<Trial>& trial) {
     const VerifyOptions& options = run.setup.options;
     Plan plan = make_plan(scene);
@@ -189,7 +189,7 @@ void begin_trial(const Run& run, const Scene& scene, SceneResult& result,
     result.bump_lit = is_bump_lit(scene);
     if (result.bump_lit)
         result.color = shade(trial->tracer, result.truth, trial->traced.lights_before());
-    if (options.technique.filter_bumps(scene)) {
+    if (filter) {
         run.progress(result.name + ": tracing many rays a pixel");
         result.mean_color = run.setup.pieces.step(result.name + ": tracing many rays a pixel", [&] {
             return trial->traced.pixel_means().color;
@@ -328,6 +328,7 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
                 refuse_replanned(argument);
             if (result.one_of_many) scene->light = i;
             techniques = techniques_for(setup.options, *scene);
+            const bool filter = filter_bumps(techniques, *scene); // also if another shard does
             none_suits = techniques.empty() && planned == nullptr;
             if (none_suits) return;
             if (planned != nullptr) {
@@ -340,7 +341,7 @@ double try_scene(const Run& run, const std::string& argument, const PlannedScene
             describe_admitted(setup.options, *scene, result);
             if (planned != nullptr && planned->content != content_of(result))
                 refuse_replanned(argument);
-            begin_trial(run, *scene, result, trial);
+            begin_trial(run, *scene, filter, result, trial);
         });
         if (none_suits) continue;
         bool written = traced;

@@ -14,10 +14,6 @@ namespace {
 
 constexpr double v = float_roundoff;
 
-double size_of(const Interval& a) {
-    return std::max(std::abs(a.low), std::abs(a.high));
-}
-
 /// By a share of its size.
 Interval rounded_by(const Interval& a, double share) {
     return widened(a, share * size_of(a));
@@ -44,13 +40,13 @@ Interval lean_highlight(const Intervals& half, const FilteredBumps& bumps, doubl
     const Interval y = rounded_by(bumps.spread[1] + around(own), v);
     const Interval& both = bumps.spread[2];
     const double off = 3 * v * (size_of(x) * size_of(y) + size_of(both) * size_of(both));
-    const Interval across{std::max({both.low, -both.high, 0.0}), size_of(both)};
-    Interval determinant = widened(x * y + -1 * squared(across), off);
+    Interval determinant = widened(x * y + -1 * square_of(both), off);
     // The variances themselves are off, each by what its lookups and roundings widened it.
     const double widest = (x.high - x.low) * size_of(y) + (y.high - y.low) * size_of(x) +
                           2 * (both.high - both.low) * size_of(both);
     determinant.low = std::max(determinant.low, own * own - off - widest);
-    if (!(determinant.low > 0)) return {0, std::numeric_limits<double>::infinity()};
+    // The shader makes nothing of one that is not above 0, and of any other at most this.
+    if (!(determinant.low > 0)) return {0, own / std::sqrt(float_underflow)};
     const Interval root{std::sqrt(determinant.low) * (1 - v),
                         std::sqrt(determinant.high) * (1 + v)};
     const Interval peak = rounded_by(Interval{own / root.high, own / root.low}, 3 * v);
@@ -61,12 +57,8 @@ Interval lean_highlight(const Intervals& half, const FilteredBumps& bumps, doubl
     };
     const Interval dx = from_mean(0);
     const Interval dy = from_mean(1);
-    const auto square = [](const Interval& a) {
-        const double low = std::max({a.low, -a.high, 0.0});
-        return Interval{low * low, size_of(a) * size_of(a)};
-    };
-    const Interval along_x = y * square(dx);
-    const Interval along_y = x * square(dy);
+    const Interval along_x = y * square_of(dx);
+    const Interval along_y = x * square_of(dy);
     const Interval mixed = 2 * (both * (dx * dy));
     // Each of the three has up to three roundings, and two sums follow.
     const double numerator_off = 5 * v * (size_of(along_x) + size_of(along_y) + size_of(mixed));

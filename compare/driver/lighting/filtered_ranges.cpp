@@ -5,7 +5,6 @@
 #include "scenes/driver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
@@ -23,16 +22,10 @@ constexpr double v = float_roundoff;
 constexpr double side_error = 3 * v;
 constexpr double quotient_error = 2 * v;
 
-Interval square_of(const Interval& a) {
-    const double low = std::max({a.low, -a.high, 0.0});
-    const double high = std::max(std::abs(a.low), std::abs(a.high));
-    return {low * low, high * high};
-}
-
 /// A side of the pixel, in texels.
 Interval side_of(const PlaceRange& step, const glm::ivec2& size) {
     const Interval square =
-        square_of(double{1.0 * size.x} * step[0]) + square_of(double{1.0 * size.y} * step[1]);
+        square_of((1.0 * size.x) * step[0]) + square_of((1.0 * size.y) * step[1]);
     return {std::sqrt(square.low) * (1 - side_error), std::sqrt(square.high) * (1 + side_error)};
 }
 
@@ -67,14 +60,15 @@ Probes probes_of(const Interval& longer, const Interval& shorter, int anisotropy
 
 using TexelRange = RangeOf<glm::dvec4>;
 
-/// A mixture, and that of its texels' sizes, by which it may be rounded.
+/// A mixture, and the size of its largest texel, by which it may be rounded: a driver is free to
+/// make a (1 - f) + b f of it, or a + f (b - a).
 struct Mixed {
     TexelRange value{};
-    TexelRange size{};
+    glm::dvec4 size{0};
 };
 
 Mixed hull(const Mixed& a, const Mixed& b) {
-    return {shadowproof::hull(a.value, b.value), shadowproof::hull(a.size, b.size)};
+    return {shadowproof::hull(a.value, b.value), glm::max(a.size, b.size)};
 }
 
 TexelRange mixed(const TexelRange& a, const TexelRange& b, double fraction) {
@@ -83,14 +77,13 @@ TexelRange mixed(const TexelRange& a, const TexelRange& b, double fraction) {
     return made;
 }
 Mixed mixed(const Mixed& a, const Mixed& b, double fraction) {
-    return {mixed(a.value, b.value, fraction), mixed(a.size, b.size, fraction)};
+    return {mixed(a.value, b.value, fraction), glm::max(a.size, b.size)};
 }
 
 /// Of anything within some bounds.
 Mixed any_of(const TexelRange& bounds) {
-    Mixed any{bounds, {}};
-    for (std::size_t k = 0; k < bounds.size(); ++k)
-        any.size[k] = {0, std::max(std::abs(bounds[k].low), std::abs(bounds[k].high))};
+    Mixed any{.value = bounds};
+    for (int k = 0; k < 4; ++k) any.size[k] = size_of(bounds[static_cast<std::size_t>(k)]);
     return any;
 }
 
@@ -101,11 +94,14 @@ Mixed in_level(const ExpectedMipmap& mipmap, std::size_t number, const TextureIm
     const TurningPlaces s = turning_places(map.wrap_s, level.width, at[0]);
     const TurningPlaces t = turning_places(map.wrap_t, level.height, at[1]);
     if (!s.all || !t.all) return any_of(mipmap.bounds[number]);
-    const TexelRange unused{};
-    return {mixed_range(
-                s, t, [&](int x, int y) { return glm::dvec4(level.at(x, y)); }, unused),
-            mixed_range(
-                s, t, [&](int x, int y) { return glm::abs(glm::dvec4(level.at(x, y))); }, unused)};
+    const auto texel = [&](int x, int y) { return glm::dvec4(level.at(x, y)); };
+    Mixed range{.value = mixed_range(s, t, texel, mipmap.bounds[number])};
+    for (std::size_t i = 0; i < s.count; ++i)
+        for (std::size_t j = 0; j < t.count; ++j)
+            for (const int x : {s.taps[i].first, s.taps[i].second})
+                for (const int y : {t.taps[j].first, t.taps[j].second})
+                    range.size = glm::max(range.size, glm::abs(texel(x, y)));
+    return range;
 }
 
 Mixed trilinear(const ExpectedMipmap& mipmap, const TextureImage& map, const PlaceRange& at,
@@ -145,28 +141,34 @@ PlaceRange probe_place(const PlaceRange& at, const FootprintRange& footprint, in
 }
 
 /// Roundings of a mean of lookups: of each texel to a float, to the other side of a mean (2 v), of
-/// three mixtures one of another, each of two products, the difference 1 - f and their sum (3 v
-/// each), of the lookups' sum and of the quotient, as a share of the mean of their texels' sizes.
+/// three mixtures one of another, each of up to three roundings of sums and products that are no
+/// larger than two texels (6 v each), of the lookups' sum, and of the quotient (2 v), as a share of
+/// their largest texel.
 double lookup_error(int probes) {
-    return (2 + 3 * 3 + probes + 2) * v;
+    return (2 + 3 * 6 + probes + 2) * v;
+}
+
+TexelRange rounded(const Mixed& mean, int probes) {
+    TexelRange range = mean.value;
+    for (int k = 0; k < 4; ++k) {
+        Interval& component = range[static_cast<std::size_t>(k)];
+        component = widened(component, lookup_error(probes) * mean.size[k] + float_underflow);
+    }
+    return range;
 }
 
 TexelRange mean_of_probes(const ExpectedMipmap& mipmap, const MipmapPlace& place,
                           const FootprintRange& footprint) {
     const double share = 1.0 / footprint.probes;
-    TexelRange mean{};
-    std::array<double, 4> size{};
+    Mixed mean;
     for (int probe = 1; probe <= footprint.probes; ++probe) {
         const Mixed one =
             trilinear(mipmap, place.map, probe_place(place.at, footprint, probe), footprint.level);
-        for (std::size_t k = 0; k < mean.size(); ++k) {
-            mean[k] = mean[k] + share * one.value[k];
-            size[k] += share * one.size[k].high;
-        }
+        for (std::size_t k = 0; k < mean.value.size(); ++k)
+            mean.value[k] = mean.value[k] + share * one.value[k];
+        mean.size = glm::max(mean.size, one.size);
     }
-    for (std::size_t k = 0; k < mean.size(); ++k)
-        mean[k] = widened(mean[k], lookup_error(footprint.probes) * size[k] + float_underflow);
-    return mean;
+    return rounded(mean, footprint.probes);
 }
 
 } // namespace
@@ -176,6 +178,9 @@ std::vector<FootprintRange> footprint_ranges(const PlaceSteps& steps, const glm:
     if (!is_finite(steps.across) || !is_finite(steps.down)) return {};
     const Interval across = side_of(steps.across, size);
     const Interval down = side_of(steps.down, size);
+    if (anisotropy == 1)
+        return {
+            {level_of({std::max(across.low, down.low), std::max(across.high, down.high)}), 1, {}}};
     std::vector<FootprintRange> ranges;
     const auto add = [&](const Interval& side, const Interval& other, const PlaceRange& along) {
         if (side.high < other.low) return;
@@ -193,16 +198,13 @@ TexelRange filtered_range(const ExpectedMipmap& mipmap, const MipmapPlace& place
     const Image<glm::vec4>& finest = mipmap.levels[0];
     const std::vector<FootprintRange> footprints =
         footprint_ranges(place.steps, {finest.width, finest.height}, anisotropy);
+    if (!footprints.empty())
+        return mean_of_probes(mipmap, place, footprints[place.footprint % footprints.size()]);
     TexelRange range{};
-    bool any = false;
-    const auto add = [&](const TexelRange& one) {
-        range = any ? shadowproof::hull(range, one) : one;
-        any = true;
-    };
-    for (const FootprintRange& footprint : footprints)
-        add(mean_of_probes(mipmap, place, footprint));
-    if (footprints.empty())
-        for (const TexelRange& bounds : mipmap.bounds) add(bounds);
+    for (std::size_t level = 0; level < mipmap.bounds.size(); ++level) {
+        const TexelRange one = rounded(any_of(mipmap.bounds[level]), anisotropy);
+        range = level == 0 ? one : shadowproof::hull(range, one);
+    }
     return range;
 }
 
@@ -217,8 +219,7 @@ Interval length_range(const Intervals& box) {
 /// A mean of products less the product of means: two roundings, the first of the product.
 Interval covariance(const Interval& product, const Interval& a, const Interval& b) {
     const Interval of_means = a * b;
-    const auto size = [](const Interval& x) { return std::max(std::abs(x.low), std::abs(x.high)); };
-    return widened(product + -1 * of_means, v * (size(product) + 2 * size(of_means)));
+    return widened(product + -1 * of_means, v * (size_of(product) + 2 * size_of(of_means)));
 }
 
 } // namespace

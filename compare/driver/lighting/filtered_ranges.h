@@ -9,6 +9,7 @@
 #include "compare/driver/quad_steps.h"
 #include "scenes/texture.h"
 
+#include <cstddef>
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -25,11 +26,13 @@ struct FootprintRange {
 std::vector<FootprintRange> footprint_ranges(const PlaceSteps& steps, const glm::ivec2& size,
                                              int anisotropy);
 
-/// A texture's place at a pixel, and what wraps it.
+/// A texture's place at a pixel, what wraps it, and the extent that is taken: by its number among
+/// footprint_ranges, modulo how many there are.
 struct MipmapPlace {
     const TextureImage& map;
     const PlaceRange& at;
     const PlaceSteps& steps;
+    std::size_t footprint = 0;
 };
 /// Where nothing is known of the level: all that any of them holds.
 RangeOf<glm::dvec4> filtered_range(const ExpectedMipmap& mipmap, const MipmapPlace& place,

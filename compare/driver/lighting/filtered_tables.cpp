@@ -53,6 +53,10 @@ Image<glm::dvec4> level_of(const Image<Texel>& texels, int level, const Of& of) 
     return made;
 }
 
+glm::dvec4 unchanged(const glm::dvec4& mean) {
+    return mean;
+}
+
 RangeOf<glm::dvec4> bounds_of(const Image<glm::vec4>& texels) {
     RangeOf<glm::dvec4> bounds = range_of(glm::dvec4(texels.at(0, 0)));
     for (const glm::vec4& texel : texels.pixels) bounds = hull(bounds, range_of(glm::dvec4(texel)));
@@ -63,18 +67,21 @@ RangeOf<glm::dvec4> bounds_of(const Image<glm::vec4>& texels) {
 template <class Texel, class Of, class OfMean>
 ExpectedMipmap levels_of_texels(const Image<Texel>& texels, const Of& of, const OfMean& of_mean) {
     ExpectedMipmap made;
-    const int longest = std::max(texels.width, texels.height);
-    for (int level = 0; level == 0 || (longest >> level) > 0; ++level) {
-        made.levels.push_back(
-            converted<glm::vec4>(level_of(texels, level, of),
-                                 [&](const glm::dvec4& mean) { return glm::vec4(of_mean(mean)); }));
+    const auto keep = [&](const Image<glm::dvec4>& level) {
+        made.levels.push_back(converted<glm::vec4>(
+            level, [&](const glm::dvec4& mean) { return glm::vec4(of_mean(mean)); }));
         made.bounds.push_back(bounds_of(made.levels.back()));
+    };
+    Image<glm::dvec4> level = level_of(texels, 0, of);
+    keep(level);
+    const int longest = std::max(texels.width, texels.height);
+    for (int number = 1; (longest >> number) > 0; ++number) {
+        // Of four texels each, the mean of means is that of all; odd sides have no such four.
+        const bool in_fours = level.width % 2 == 0 && level.height % 2 == 0;
+        level = in_fours ? level_of(level, 1, unchanged) : level_of(texels, number, of);
+        keep(level);
     }
     return made;
-}
-
-glm::dvec4 unchanged(const glm::dvec4& mean) {
-    return mean;
 }
 
 glm::dvec3 direction_of(const glm::dvec3& n) {

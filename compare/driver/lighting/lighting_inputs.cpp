@@ -7,6 +7,7 @@
 #include "compare/driver/lighting/vertex_vectors.h"
 #include "scenes/driver.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -271,7 +272,7 @@ LightingVectors made_at_vertices(const LightingTables& tables, const ColorModel&
 
 /// What a technique that filters reads in place of level 0.
 void add_filtered(const LightingTables& tables, const ColorModel& model, const InputPoint& point,
-                  LightingInputs& inputs) {
+                  const FootprintChoice& choice, LightingInputs& inputs) {
     const Scene& scene = *tables.scene;
     const Material& material = material_of(scene, point.triangle);
     const Interpolated& at = point.interpolated;
@@ -279,8 +280,8 @@ void add_filtered(const LightingTables& tables, const ColorModel& model, const I
     if (material.bump != Bump::none) {
         const auto index = static_cast<std::size_t>(&material - scene.materials.data());
         const TextureImage& map = scene.textures[material.bump_map];
-        inputs.filtered =
-            filtered_bumps(*tables.pyramids[index], {map, at.bump_at, at.bump_steps}, model);
+        inputs.filtered = filtered_bumps(*tables.pyramids[index],
+                                         {map, at.bump_at, at.bump_steps, choice.bump}, model);
         inputs.bump = inputs.filtered->normal;
     }
     inputs.bump.distance += perturbed_normal_roundings * v;
@@ -291,13 +292,14 @@ void add_filtered(const LightingTables& tables, const ColorModel& model, const I
     const TextureImage& map = scene.textures[material.decal];
     add_surroundings(inputs, point,
                      filtered_decal(tables.decals[material.decal], material,
-                                    {map, at.decal_at, at.decal_steps}, model.anisotropy));
+                                    {map, at.decal_at, at.decal_steps, choice.decal},
+                                    model.anisotropy));
 }
 
 /// The technique's inputs, were its model this one, which may differ from the tables' in how
 /// vectors are made.
 LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
-                          const InputPoint& given) {
+                          const InputPoint& given, const FootprintChoice& choice = {}) {
     InputPoint point = given;
     std::span<const Surface, 3> corners = corners_of(given.scene.surfaces, point.triangle);
     if (model.tangents == TangentSource::polygons) {
@@ -313,7 +315,7 @@ LightingInputs claimed_by(const LightingTables& tables, const ColorModel& model,
     inputs.light = vectors.light;
     inputs.half = vectors.half;
     if (filters(model)) {
-        add_filtered(tables, model, point, inputs);
+        add_filtered(tables, model, point, choice, inputs);
         return inputs;
     }
     inputs.bump = bump_range(tables, point, world);
@@ -330,8 +332,29 @@ InputPoint input_point(const Scene& scene, const Shading& shading, std::uint32_t
             interpolated_at(scene, triangle, corners_of(scene.surfaces, triangle), spread)};
 }
 
-LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point) {
-    return claimed_by(tables, tables.model, point);
+std::vector<FootprintChoice> footprint_choices(const LightingTables& tables,
+                                               const InputPoint& point) {
+    if (!filters(tables.model)) return {{}};
+    const Scene& scene = *tables.scene;
+    const Material& material = material_of(scene, point.triangle);
+    const auto count = [&](std::uint32_t texture, const PlaceSteps& steps) {
+        if (texture == no_texture) return std::size_t{1};
+        const Image<glm::vec4>& texels = scene.textures[texture].texels;
+        const auto footprints =
+            footprint_ranges(steps, {texels.width, texels.height}, tables.model.anisotropy);
+        return std::max<std::size_t>(1, footprints.size());
+    };
+    const std::size_t bumps = count(material.bump_map, point.interpolated.bump_steps);
+    const std::size_t decals = count(material.decal, point.interpolated.decal_steps);
+    std::vector<FootprintChoice> choices;
+    for (std::size_t bump = 0; bump < bumps; ++bump)
+        for (std::size_t decal = 0; decal < decals; ++decal) choices.push_back({bump, decal});
+    return choices;
+}
+
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point,
+                              const FootprintChoice& choice) {
+    return claimed_by(tables, tables.model, point, choice);
 }
 
 SingleStepInputs single_step_inputs(const LightingTables& tables, const InputPoint& centre) {

@@ -13,6 +13,7 @@
 #include "scenes/surface/normalisation_cube.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -84,9 +85,20 @@ InputPoint input_point(const Scene& scene, const Shading& shading, std::uint32_t
 /// The inputs by the definition in shading.h, at the pixel's centre, without roundings.
 LightingInputs true_inputs(const LightingTables& tables, const InputPoint& point);
 
+/// Which of a pixel's possible extents over its bump map and its decal (footprint_ranges) a
+/// technique that filters takes: all inputs are of one, so that they are not mixed with another's.
+struct FootprintChoice {
+    std::size_t bump = 0;
+    std::size_t decal = 0;
+};
+/// All of them; one alone of a technique that does not filter.
+std::vector<FootprintChoice> footprint_choices(const LightingTables& tables,
+                                               const InputPoint& point);
+
 /// The technique's inputs: its own arithmetic replayed, with tables made from their definitions
 /// (lighting_tables.h).
-LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point);
+LightingInputs claimed_inputs(const LightingTables& tables, const InputPoint& point,
+                              const FootprintChoice& choice = {});
 
 /// The truth's vectors with one of the technique's ways of making them and no other, at the pixel's
 /// centre; what does not depend on it is the technique's.

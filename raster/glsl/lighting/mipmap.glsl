@@ -18,7 +18,7 @@ Footprint footprint(vec2 across, vec2 down, ivec2 size) {
     float longer = sqrt(max(xx, yy));
     float shorter = sqrt(min(xx, yy));
     float most = float(anisotropy);
-    float probes = shorter * most > longer ? ceil(longer / shorter) : most;
+    float probes = shorter * most > longer ? min(most, ceil(longer / shorter)) : most;
     float texels = longer / probes;
     return Footprint(texels > 1 ? log2_of(texels) : 0, probes, xx >= yy ? across : down);
 }
@@ -45,6 +45,7 @@ vec4 trilinear(sampler2D map, int wrap_s, int wrap_t, vec2 at, float level) {
 }
 
 vec4 filtered(sampler2D map, int wrap_s, int wrap_t, vec2 at, Footprint over) {
+    if (over.probes == 1) return trilinear(map, wrap_s, wrap_t, at, over.level);
     vec4 sum = vec4(0);
     for (int i = 1; i <= int(over.probes); ++i)
         sum += trilinear(map, wrap_s, wrap_t,

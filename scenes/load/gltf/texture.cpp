@@ -13,7 +13,8 @@ using nlohmann::json;
 
 // Numbers of the glTF 2.0 specification.
 constexpr int filter_nearest = 9728;
-constexpr int filter_nearest_mipmap_nearest = 9984; // the first of four with mipmaps
+constexpr int filter_nearest_mipmap_nearest = 9984; // the first of four with mipmaps,
+constexpr int filter_linear_mipmap_linear = 9987;   // and the last
 constexpr int wrap_clamp_to_edge = 33071;
 constexpr int wrap_mirrored_repeat = 33648;
 constexpr int wrap_repeat = 10497;
@@ -67,7 +68,9 @@ void TextureReader::set_sampler(std::size_t sampler, TextureImage& texture) {
     const Place place = document_.root() / "samplers" / sampler;
     texture.wrap_s = wrap_mode(place / "wrapS", source.value("wrapS", wrap_repeat));
     texture.wrap_t = wrap_mode(place / "wrapT", source.value("wrapT", wrap_repeat));
-    texture.mipmaps = source.value("minFilter", 0) >= filter_nearest_mipmap_nearest;
+    const int smaller = source.value("minFilter", 0);
+    texture.mipmaps =
+        smaller >= filter_nearest_mipmap_nearest && smaller <= filter_linear_mipmap_linear;
     texture.nearest = source.value("magFilter", 0) == filter_nearest;
     nearest_ = nearest_ || texture.nearest;
 }

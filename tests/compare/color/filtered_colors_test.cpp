@@ -109,6 +109,19 @@ TEST_P(FilteredColors, are_predicted_through_a_geometry_shader_and_where_the_cli
         checked_colors(scene, render(*find_technique(joined), scene.scene, scene.plan, gpu_)));
 }
 
+/// Matte surfaces, in shadow and not, whose slopes are anything: normals along the surface.
+TEST_P(FilteredColors, of_matte_surfaces_with_normals_along_them_are_predicted) {
+    Scene given = sized("distant_bumps", 160, 160);
+    for (Material& material : given.materials) material.specular = glm::dvec3(0);
+    for (TextureImage& texture : given.textures)
+        for (std::size_t i = 0; i < texture.texels.pixels.size(); i += 5)
+            texture.texels.pixels[i] =
+                i % 2 == 0 ? glm::vec4(1, 0.5, 0.5, 1) : glm::vec4(0.5, 0, 0.25, 1);
+    const TracedScene scene(std::move(given));
+    for (const int anisotropy : {1, 4})
+        expect_predicted(colors_of(scene, technique_, {.anisotropy = anisotropy}, gpu_));
+}
+
 TEST_P(FilteredColors, of_several_lights_are_predicted) {
     const Scene scene = tests::load_named("bumpy_lights-spot");
     const TracedScene lit(scene);
@@ -254,6 +267,21 @@ protected:
             surface.bump_at = glm::sign(surface.bump_at) * repeats;
         return scene;
     }
+    /// Its face turned to look along +z: both sides of a pixel cover as many texels.
+    static Scene upright(double texels) {
+        Scene scene = board(texels, true);
+        const double lean = 0.213;
+        const auto turned = [&](const glm::vec3& v) {
+            const glm::dvec3 at(v);
+            return glm::vec3(at.x, std::cos(lean) * at.y - std::sin(lean) * at.z,
+                             std::sin(lean) * at.y + std::cos(lean) * at.z);
+        };
+        const glm::vec3 middle(scene.camera.eye - glm::dvec3(0, 0, 2));
+        for (glm::vec3& position : scene.positions) position = middle + turned(position - middle);
+        for (Surface& surface : scene.surfaces)
+            surface.normal = glm::normalize(turned(surface.normal));
+        return scene;
+    }
     double rmse(double texels, bool shiny, const char* technique) {
         const TracedScene scene(board(texels, shiny));
         const Frame frame = render(*find_technique(technique), scene.scene, scene.plan, gpu_);
@@ -277,6 +305,23 @@ TEST_F(FlatBoard, has_highlights_that_a_mean_normal_does_not_tell) {
     EXPECT_GT(mean_normal, 10);
     EXPECT_LT(rmse(64, true, "bump_toksvig"), mean_normal / 2);
     EXPECT_LT(rmse(64, true, "bump_lean"), mean_normal / 2);
+}
+
+/// There one lookup is as possible as two, along either side: each is predicted by itself, and what
+/// lies between them is none.
+TEST_F(FlatBoard, that_faces_the_eye_may_have_been_looked_up_once_or_twice_but_nothing_between) {
+    const TracedScene scene(upright(8));
+    for (const char* technique : filtering) {
+        SCOPED_TRACE(technique);
+        Plan plan = scene.plan;
+        plan.asked.lighting.anisotropy = 2;
+        Frame frame = render(*find_technique(technique), scene.scene, plan, gpu_);
+        expect_predicted(checked_colors(scene, frame));
+        for (glm::vec3& color : frame.color.pixels)
+            if (color != glm::vec3(0)) color += 4.F / 255;
+        const ColorCheck colors = checked_colors(scene, frame);
+        EXPECT_GT(colors.unpredicted, colors.judged * 3 / 4);
+    }
 }
 
 TEST_F(FlatBoard, is_right_with_any_where_texels_are_large) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 #include <vector>
 
 namespace shadowproof {
@@ -60,6 +61,24 @@ TEST(Mipmap, keeps_the_mean_of_all_at_every_level) {
         for (const double texel : made.pixels) of_level += texel;
         EXPECT_NEAR(of_level / static_cast<double>(made.pixels.size()), sum / (13 * 7), 1e-12)
             << level;
+    }
+}
+
+TEST(Mipmap, levels_made_of_the_one_before_are_those_made_of_the_finest) {
+    for (const auto& [width, height] : {std::pair{16, 8}, std::pair{12, 20}, std::pair{7, 5}}) {
+        Image<double> texels(width, height);
+        for (std::size_t i = 0; i < texels.pixels.size(); ++i)
+            texels.pixels[i] = static_cast<double>((7 * i * i + 3 * i) % 101);
+        int number = 0;
+        visit_levels<double>(texels, unchanged, [&](const Image<double>& level) {
+            const Image<double> right = mipmap_level<double>(texels, number, unchanged);
+            ASSERT_EQ(level.width, right.width);
+            ASSERT_EQ(level.height, right.height);
+            for (std::size_t i = 0; i < right.pixels.size(); ++i)
+                EXPECT_NEAR(level.pixels[i], right.pixels[i], 1e-12) << width << ": " << number;
+            ++number;
+        });
+        EXPECT_EQ(number, levels_of(width, height));
     }
 }
 
