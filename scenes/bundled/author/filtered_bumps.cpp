@@ -19,13 +19,14 @@ Shape tiled_box(const glm::dvec3& half_size, const glm::dvec2& repeats) {
 
 /// What a pixel covers of a texture grows along a floor with the distance, and from board to board
 /// by how often each repeats it: from a tenth of a texel to a hundred. The three rows of boards
-/// lean back, each more than the one below.
+/// lean back, each more than the one below. Behind the floor, which reaches far, volumes go on through the
+/// far plane.
 Stage distant_bumps() {
     Stage stage;
     stage.name = "distant_bumps";
     stage.title = "Bumps from ten pixels a texel to a hundred texels a pixel, upright and slanted; "
                   "the file asks for mipmaps.";
-    stage.provokes = {"shading"};
+    stage.provokes = {"far_plane", "shading"};
     stage.ambient = {0.05, 0.055, 0.065};
     stage.textures = {
         {"bumps", png_of(normal_map(64, 64, bumps(8, 8), 2.3)), wrap_repeat, true},
