@@ -29,7 +29,7 @@ install(FILES ${CMAKE_BINARY_DIR}/shadowproof.bash RENAME shadowproof
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES docs/results.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/shadowproof)
 # Where the README and they themselves link to them.
-install(FILES docs/bench.md docs/bench.png docs/bench.schema.json
+install(FILES docs/bench.md docs/bench.png docs/bench.schema.json docs/filtering.png
     docs/check.md docs/ci.md docs/claims.md docs/families.md
     docs/house.md docs/how-it-decides.md docs/install.md docs/lighting.md docs/reliability.md
     docs/drivers.md docs/recipes.md docs/report.md docs/results.md docs/scenes.md docs/sensitivity.md

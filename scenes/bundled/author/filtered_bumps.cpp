@@ -19,8 +19,8 @@ Shape tiled_box(const glm::dvec3& half_size, const glm::dvec2& repeats) {
 
 /// What a pixel covers of a texture grows along a floor with the distance, and from board to board
 /// by how often each repeats it: from a tenth of a texel to a hundred. The three rows of boards
-/// lean back, each more than the one below. Behind the floor, which reaches far, volumes go on through the
-/// far plane.
+/// lean back, each more than the one below. Behind the floor, which reaches far, volumes go on
+/// through the far plane.
 Stage distant_bumps() {
     Stage stage;
     stage.name = "distant_bumps";

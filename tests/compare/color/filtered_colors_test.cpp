@@ -184,8 +184,15 @@ TEST_P(FilteredColors, are_beyond_a_step_of_the_mean_by_what_the_filter_leaves_o
     EXPECT_EQ(colors.moved, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FilteredColors, testing::ValuesIn(filtering),
-                         [](const auto& tested) { return std::string(tested.param); });
+std::string name_of_tested(const testing::TestParamInfo<const char*>& tested) {
+    return tested.param;
+}
+// Those whose highlights are their own; the others read the same mipmaps.
+INSTANTIATE_TEST_SUITE_P(Telling, FilteredColors, testing::Values("bump_toksvig", "bump_lean"),
+                         name_of_tested);
+INSTANTIATE_TEST_SUITE_P(Long, FilteredColors,
+                         testing::Values("bump_mipmapped", "bump_mipmapped_dimmed"),
+                         name_of_tested);
 
 TEST(MeanCheck, counts_each_pixel_once_by_texels_and_once_by_angle) {
     Gpu gpu(GlPlatform::osmesa);

@@ -81,8 +81,8 @@ TEST_P(ColorsOfScene, every_pixel_is_predicted_under_every_setting) {
         }
 }
 
-/// Each form of bumps, a mapping that is no square, and bumps that are filtered.
-constexpr std::array some_scenes{"bumpy_torus", "height_field", "skewed_relief", "distant_bumps"};
+/// Each form of bumps, and a mapping that is no square.
+constexpr std::array some_scenes{"bumpy_torus", "height_field", "skewed_relief"};
 
 SHADOWPROOF_OVER_SOME_SCENES(ColorsOfScene, tests::bump_lit_scenes(), some_scenes);
 
