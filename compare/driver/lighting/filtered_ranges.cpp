@@ -232,7 +232,6 @@ FilteredBumps filtered_bumps(const ExpectedPyramid& pyramid, const MipmapPlace& 
         bumps.slope = {mean[0], mean[1]};
         bumps.normal = unit({{mean[0], mean[1], around(1)}});
         const Interval product = filtered_range(pyramid.cross, place, model.anisotropy)[0];
-        // A variance is not negative, but for roundings.
         bumps.spread = {covariance(mean[2], mean[0], mean[0]),
                         covariance(mean[3], mean[1], mean[1]),
                         covariance(product, mean[0], mean[1])};
