@@ -65,7 +65,7 @@ TEST(Technique, that_lights_may_be_joined_with_one_that_finds_pixels_lit_or_not)
             for (const Cause cause : find_technique(shadowing)->fails_at)
                 EXPECT_NE(std::ranges::find(joined->fails_at, cause), joined->fails_at.end());
         }
-    EXPECT_EQ(lighting_techniques().size(), 8U);
+    EXPECT_EQ(lighting_techniques().size(), 12U);
     EXPECT_EQ(shadowing_techniques().size(), 24U);
     for (const char* name :
          {"bump_three_pass+zfail_float", "bump_three_pass+cube_map_pcf", "zpass+bump_three_pass",

@@ -9,7 +9,7 @@ namespace shadowproof {
 Technique bump_lean_technique() {
     return filtered_technique<BumpFilter::lean>(
         "bump_lean", "bump_mipmapped from mean slopes, highlights as slopes vary",
-        "Olano & Baker 2010 (LEAN mapping)");
+        "Olano & Baker 2010 (LEAN mapping)", 4.9);
 }
 
 } // namespace shadowproof

@@ -9,7 +9,7 @@ namespace shadowproof {
 Technique bump_mipmapped_technique() {
     return filtered_technique<BumpFilter::renormalised>(
         "bump_mipmapped", "bump_tangent_space from mean normals, normalised again",
-        "Williams 1983; CS448 lecture 11, filtering");
+        "Williams 1983; CS448 lecture 11, filtering", 4.3);
 }
 
 } // namespace shadowproof

@@ -10,7 +10,7 @@ Technique bump_mipmapped_dimmed_technique() {
     return filtered_technique<BumpFilter::dimmed>(
         "bump_mipmapped_dimmed",
         "bump_mipmapped, its diffuse light dimmed where bumps are averaged",
-        "Kilgard 2001 (dimFactor)");
+        "Kilgard 2001 (dimFactor)", 4.1);
 }
 
 } // namespace shadowproof

@@ -7,7 +7,7 @@ namespace shadowproof {
 Technique bump_toksvig_technique() {
     return filtered_technique<BumpFilter::toksvig>(
         "bump_toksvig", "bump_mipmapped, highlights wider and darker where bumps are averaged",
-        "Toksvig 2005");
+        "Toksvig 2005", 4.2);
 }
 
 } // namespace shadowproof

@@ -17,15 +17,17 @@ LightingRecipe filtered_lighting(const Plan& plan) {
     return made;
 }
 
+/// `cost`: Technique::cost, on distant_bumps alone.
 template <BumpFilter filter>
 Technique filtered_technique(std::string_view name, std::string_view summary,
-                             std::string_view source) {
+                             std::string_view source, double cost) {
     return {
         .name = name,
         .summary = summary,
         .source = source,
         .needs = "bump maps, and blending into an RGBA32F colour buffer; unless named, a file "
                  "that asks for their mipmaps",
+        .cost = cost,
         .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha,
                      Cause::shading},
         .by_nature = {Cause::shading},

