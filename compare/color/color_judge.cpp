@@ -1,5 +1,6 @@
 #include "compare/color/color_judge.h"
 
+#include "compare/driver/cone_side.h"
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/lighting/error_budget.h"
 #include "compare/driver/setup_error.h"
@@ -77,8 +78,9 @@ ColorJudge::ColorJudge(const Tracer& tracer, const GroundTruth& truth, const Tra
     assert(before.size() == frame.claims_before.size());
     assert(means != nullptr || !filters(frame.color_model));
     for (std::size_t i = 0; i < before.size(); ++i)
-        lights_.push_back({before[i]->scene, before[i]->truth, frame.claims_before[i]});
-    lights_.push_back({scene_, truth, frame.claim});
+        lights_.push_back(
+            {before[i]->tracer, before[i]->scene, before[i]->truth, frame.claims_before[i]});
+    lights_.push_back({tracer, scene_, truth, frame.claim});
 }
 
 bool ColorJudge::is_as_true(int x, int y) const {
@@ -98,12 +100,12 @@ void ColorJudge::append_points(int x, int y, std::vector<SeenPoint>& points) con
 }
 
 template <class Of>
-auto ColorJudge::of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const {
+auto ColorJudge::of_lights(std::span<const Shading> shadings, std::uint32_t triangle,
+                           const PixelSpread& spread, const Of& of) const {
     std::vector<decltype(of(std::declval<const InputPoint&>()))> each;
     each.reserve(lights_.size());
     for (std::size_t i = 0; i < lights_.size(); ++i)
-        each.push_back(
-            of(input_point(lights_[i].scene, pixel.shadings[i], pixel.triangle, spread)));
+        each.push_back(of(input_point(lights_[i].scene, shadings[i], triangle, spread)));
     return each;
 }
 
@@ -114,9 +116,9 @@ glm::dvec3 ColorJudge::right_color(int x, int y, const glm::dvec3& at_centre) co
 /// A technique that filters is right within a step of the mean, however it normalises.
 Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
     if (means_ != nullptr) return around(means_->color.at(pixel.x, pixel.y), one_step);
-    return color_bound(frame_.color_model, of_lights(pixel, spread, [&](const InputPoint& point) {
-                           return budgeted_inputs(tables_, point);
-                       }));
+    const auto budgeted = [&](const InputPoint& point) { return budgeted_inputs(tables_, point); };
+    return color_bound(frame_.color_model,
+                       of_lights(pixel.shadings, pixel.triangle, spread, budgeted));
 }
 
 std::vector<Intervals> ColorJudge::predicted(const PixelPlace& pixel,
@@ -124,12 +126,38 @@ std::vector<Intervals> ColorJudge::predicted(const PixelPlace& pixel,
     const auto choices =
         footprint_choices(tables_, input_point(scene_, pixel.own(), pixel.triangle, spread));
     std::vector<Intervals> colors;
-    for (const FootprintChoice& choice : choices)
+    const auto add = [&](std::span<const Shading> shadings, const FootprintChoice& choice) {
+        const auto claimed = [&](const InputPoint& point) {
+            return claimed_inputs(tables_, point, choice);
+        };
         colors.push_back(predicted_color(frame_.color_model,
-                                         of_lights(pixel, spread, [&](const InputPoint& point) {
-                                             return claimed_inputs(tables_, point, choice);
-                                         })));
+                                         of_lights(shadings, pixel.triangle, spread, claimed)));
+    };
+    for (const FootprintChoice& choice : choices) {
+        add(pixel.shadings, choice);
+        if (!pixel.in_cones.empty()) add(pixel.in_cones, choice);
+    }
     return colors;
+}
+
+/// A counter that is not 0 keeps the light out wherever the cone's edge is found.
+std::vector<Shading> ColorJudge::lit_in_cones(const PixelPlace& pixel) const {
+    std::vector<Shading> lit(pixel.shadings.begin(), pixel.shadings.end());
+    bool any = false;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        const AddedLight& light = lights_[i];
+        if (chosen_light(light.scene).kind != Light::Kind::spot || lit[i].lit) continue;
+        if (!sides_of(light.tracer, pixel.triangle).faces_light()) continue;
+        const bool receives = light.scene.meshes[mesh_of(light.scene, pixel.triangle)].receives;
+        const bool counted = receives && frame_.counted && i + 1 == lights_.size();
+        if (counted && frame_.counted->counter.at(pixel.x, pixel.y) != 0) continue;
+        lit[i].lit = cone_sides(light.scene, frame_.depth_model, scene_.camera.far, pixel.triangle,
+                                pixel.x, pixel.y)
+                         .inside;
+        any = any || lit[i].lit;
+    }
+    if (!any) lit.clear();
+    return lit;
 }
 
 /// View depth of the surface shown; where the truth is another, of its plane.
@@ -149,15 +177,15 @@ double ColorJudge::lateral(int x, int y) const {
 
 /// Of all lights, to which other vectors are interpolated each: at a place beside the pixel's
 /// centre, of the triangle that is shown at the centre.
-double ColorJudge::share(int x, int y, const glm::dvec2& beside) const {
+DrawnAttribute ColorJudge::drawn(int x, int y, const glm::dvec2& beside) const {
     const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     const double aside = lateral(x, y);
-    double largest = 0;
+    DrawnAttribute largest;
     for (const AddedLight& light : lights_) {
-        const double error =
-            attribute_error(light.scene, shown(x, y), {direction(x, y, beside), aside, drawing});
-        if (!std::isfinite(error)) return error;
-        largest = std::max(largest, error);
+        const DrawnAttribute drawn =
+            drawn_attribute(light.scene, shown(x, y), {direction(x, y, beside), aside, drawing});
+        largest.share = std::max(largest.share, drawn.share);
+        largest.aside = std::max(largest.aside, drawn.aside);
     }
     return largest;
 }
@@ -184,7 +212,8 @@ void ColorJudge::find_quad_errors(PixelPlace& pixel, double own_share) const {
     if (means_ == nullptr) return;
     const auto [x, y] = std::pair(pixel.x, pixel.y);
     const auto [column, row] = quad_neighbours(x, y, frame_.color.height);
-    pixel.quad_share = std::max({own_share, share(x, y, {column, 0}), share(x, y, {0, row})});
+    pixel.quad_share =
+        std::max({own_share, drawn(x, y, {column, 0}).share, drawn(x, y, {0, row}).share});
     const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     pixel.quad_stretch =
         drawn_stretch(scene_, pixel.triangle, {direction(x, y), lateral(x, y), drawing});
@@ -230,13 +259,14 @@ bool ColorJudge::somewhere(const PixelPlace& pixel, const Square& square, double
 
 /// Because corners are snapped, a technique may draw at a pixel any place in a small square around
 /// its centre. `right`, `is_predicted`: what is settled without the square.
-ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, double share, bool right,
-                                        bool is_predicted) const {
+ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, const DrawnAttribute& drawn,
+                                        bool right, bool is_predicted) const {
     ColorJudgement found;
+    const double share = drawn.share;
     // If a triangle is seen edge-on, interpolated values may come out as anything. The right
     // colours are still those of the triangle.
-    const bool edge_on = !std::isfinite(share);
-    const Square square{{0, 0}, lateral(pixel.x, pixel.y)};
+    const bool edge_on = !std::isfinite(share) || !std::isfinite(drawn.aside);
+    const Square square{{0, 0}, lateral(pixel.x, pixel.y) + drawn.aside};
     found.spread = edge_on ? all_of_it : over(pixel, square, share);
     const auto bound_of = [&](const PixelSpread& spread) { return bound(pixel, spread); };
     const auto predicted_of = [&](const PixelSpread& spread) { return predicted(pixel, spread); };
@@ -309,7 +339,10 @@ ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) 
     };
     const ColorJudgement exactly = look(spread);
     if (is_settled(exactly.verdict)) return exactly;
-    spread.share = share(pixel.x, pixel.y);
+    const std::vector<Shading> in_cones = lit_in_cones(pixel);
+    pixel.in_cones = in_cones;
+    const DrawnAttribute drawn = this->drawn(pixel.x, pixel.y);
+    spread.share = drawn.share;
     const bool finite = std::isfinite(spread.share);
     find_quad_errors(pixel, spread.share);
     add_quad(pixel, {}, spread);
@@ -318,7 +351,7 @@ ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) 
     if (is_settled(rounded.verdict) || scrutiny == Scrutiny::centre) return rounded;
     const bool right = rounded.verdict == ColorVerdict::unpredicted;
     const bool is_predicted = rounded.verdict == ColorVerdict::beyond;
-    return judged_aside(pixel, spread.share, right, is_predicted);
+    return judged_aside(pixel, drawn, right, is_predicted);
 }
 
 ColorTerms ColorJudge::weights(int x, int y, std::span<const Shading> shadings,
@@ -326,13 +359,15 @@ ColorTerms ColorJudge::weights(int x, int y, std::span<const Shading> shadings,
     const PixelPlace pixel{x, y, shadings, triangle};
     PixelSpread centre{.middle = shadings.back().weights};
     add_quad(pixel, {}, centre);
+    const auto each = [&](const PixelSpread& where, const auto& of) {
+        return of_lights(shadings, triangle, where, of);
+    };
     const auto claimed = [&](const InputPoint& point) { return claimed_inputs(tables_, point); };
-    const auto truth =
-        of_lights(pixel, centre, [&](const InputPoint& at) { return true_inputs(tables_, at); });
-    const auto single = of_lights(
-        pixel, centre, [&](const InputPoint& at) { return single_step_inputs(tables_, at); });
-    const auto at_centre = of_lights(pixel, centre, claimed);
-    const auto freed = of_lights(pixel, spread, claimed);
+    const auto truth = each(centre, [&](const InputPoint& at) { return true_inputs(tables_, at); });
+    const auto single =
+        each(centre, [&](const InputPoint& at) { return single_step_inputs(tables_, at); });
+    const auto at_centre = each(centre, claimed);
+    const auto freed = each(spread, claimed);
     const ColorSteps steps{truth, single, at_centre, freed};
     if (means_ == nullptr) return weights_of(frame_.color_model, steps);
     return weights_of(frame_.color_model, steps,

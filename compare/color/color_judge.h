@@ -8,6 +8,7 @@
 #include "compare/driver/lighting/color_terms.h"
 #include "compare/driver/lighting/lighting_arithmetic.h"
 #include "compare/driver/lighting/lighting_inputs.h"
+#include "compare/driver/setup_error.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
@@ -68,6 +69,9 @@ private:
         int y = 0;
         std::span<const Shading> shadings; ///< one per light
         std::uint32_t triangle = 0;
+        /// The same with lights lit that are claimed to be dark, but whose cone the pixel may be
+        /// drawn in: each of a technique's draws finds its edge by itself. Empty where none is.
+        std::span<const Shading> in_cones{};
         /// As QuadRays has them, where the model filters: of all that the rasterizer may draw.
         double quad_share = 0;
         double quad_stretch = 0;
@@ -76,6 +80,7 @@ private:
     };
     /// A light whose light is added up: what is true and what is claimed.
     struct AddedLight {
+        const Tracer& tracer;
         const Scene& scene; ///< with it chosen
         const GroundTruth& truth;
         const Image<Visibility>& claim;
@@ -94,12 +99,14 @@ private:
     ColorJudgement judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) const;
     /// The result of `of` for the inputs of each light.
     template <class Of>
-    auto of_lights(const PixelPlace& pixel, const PixelSpread& spread, const Of& of) const;
+    auto of_lights(std::span<const Shading> shadings, std::uint32_t triangle,
+                   const PixelSpread& spread, const Of& of) const;
+    std::vector<Shading> lit_in_cones(const PixelPlace& pixel) const;
     Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
     /// One interval for each choice that the technique may have made (footprint_choices).
     std::vector<Intervals> predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;
-    double share(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+    DrawnAttribute drawn(int x, int y, const glm::dvec2& beside = {0, 0}) const;
     void find_quad_errors(PixelPlace& pixel, double share) const;
     void add_quad(const PixelPlace& pixel, const Square& square, PixelSpread& spread) const;
     double facing(std::uint32_t triangle, const glm::dvec3& direction) const;
@@ -107,7 +114,7 @@ private:
     template <class Limit>
     bool somewhere(const PixelPlace& pixel, const Square& square, double share, int halvings,
                    const Limit& limit) const;
-    ColorJudgement judged_aside(const PixelPlace& pixel, double share, bool right,
+    ColorJudgement judged_aside(const PixelPlace& pixel, const DrawnAttribute& drawn, bool right,
                                 bool is_predicted) const;
 };
 

@@ -155,10 +155,11 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
 /// and product's roundings, and those of the shader that made them, 8 v in all.
 ///
 /// A corner made by clipping gets its value as it gets its place: three roundings more. Its place
-/// is rounded, too, and its value is then that of a place beside it, as in error_of. What moves
-/// corners that are not clipped is the driver's snapping and transform: lateral_error.
+/// is rounded, too, and its value is then that of a place beside it, as in error_of: `moved` counts
+/// that as an error of the value. What moves corners that are not clipped is the driver's snapping
+/// and transform: lateral_error.
 double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel,
-                          double variation, const glm::dvec2& steepest, double reach) {
+                          double variation, const glm::dvec2& steepest, double reach, bool moved) {
     const auto& [a, b, c] = triangle;
     if (!(twice_area(triangle) > 0)) return std::numeric_limits<double>::infinity();
     const std::array<Plane, 3> planes = steepest_planes(triangle, variation, steepest);
@@ -168,14 +169,35 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
     for (std::size_t i = 0; i < 3; ++i) {
         const PicturePoint& corner = triangle[i];
         if (corner.made_by_clipping)
-            clipping +=
-                weight_of(triangle, i, pixel, reach) *
-                (3 * v * corner.inverse_depth + corner.w_error + slope * corner.place_error);
+            clipping += weight_of(triangle, i, pixel, reach) *
+                        (3 * v * corner.inverse_depth + corner.w_error +
+                         (moved ? slope * corner.place_error : 0));
     }
     const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
     return 8 * v * largest + clipping +
            std::max({error_from(a, b, c, pixel, planes[0]), error_from(b, c, a, pixel, planes[1]),
                      error_from(c, a, b, pixel, planes[2])});
+}
+
+/// How far aside, in pixels along each axis, the places may be drawn that a pixel may show: by the
+/// driver's snapping and transform, and where clipping has put corners.
+double farthest_aside(const PictureTriangle& triangle, double reach) {
+    double farthest = reach;
+    for (const PicturePoint& corner : triangle)
+        if (corner.made_by_clipping) farthest = std::max(farthest, reach + corner.place_error);
+    return std::numbers::sqrt2 * farthest;
+}
+
+// A pixel at x that a drawn triangle holds takes of its corners, drawn at x_k + d_k, the weights
+// w_k, which add up to 1 and are not negative: it shows the place x - sum w_k d_k, whose own
+// weights they are. That place lies within the largest d_k of x, which bounds them.
+double clipping_aside(const PictureTriangle& triangle, const glm::dvec2& pixel, double farthest) {
+    double aside = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (triangle[i].made_by_clipping)
+            aside +=
+                std::min(weight_of(triangle, i, pixel, farthest), 1.0) * triangle[i].place_error;
+    return aside;
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
@@ -200,6 +222,23 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
                          [&](const PictureTriangle& triangle, const glm::dvec2& place) {
                              return error_of(triangle, place, pixel.reach);
                          });
+}
+
+/// The largest view depth of a triangle's plane in a square of the picture; infinite where the
+/// plane's horizon crosses it.
+double farthest_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec2& middle,
+                      double half) {
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 across =
+        glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
+    const double of_plane = glm::dot(a - scene.camera.eye, across);
+    double least = std::numeric_limits<double>::infinity(); // inverse depth, linear in the picture
+    for (const double x : {-half, half})
+        for (const double y : {-half, half})
+            least = std::min(
+                least, glm::dot(ray_direction(scene.camera, middle.x + x, middle.y + y), across) /
+                           of_plane);
+    return least > 0 ? 1 / least : std::numeric_limits<double>::infinity();
 }
 
 /// Of a dark cap, in the order in which it is drawn: that of the light cap, reversed.
@@ -303,10 +342,11 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation) {
     const std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
+    if (fan.empty()) return std::numeric_limits<double>::infinity();
     const glm::dvec2 steepest = steepest_slope(fan, variation);
     const double error = largest_error(
         scene.camera, fan, pixel, [&](const PictureTriangle& one, const glm::dvec2& place) {
-            return attribute_error_of(one, place, variation, steepest, pixel.reach);
+            return attribute_error_of(one, place, variation, steepest, pixel.reach, true);
         });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
@@ -314,6 +354,35 @@ double attribute_error(const Scene& scene, std::uint32_t triangle, const Covered
     const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
     const double share = error * depth; // of the inverse depth
     return share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
+}
+
+DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
+                               const CoveredPixel& pixel) {
+    constexpr double variation = 2;
+    const std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
+    const glm::dvec2 steepest = steepest_slope(fan, variation);
+    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    DrawnAttribute covering;
+    DrawnAttribute any;
+    bool covers = false;
+    for (const PictureTriangle& one : fan) {
+        const double farthest = farthest_aside(one, pixel.reach);
+        const DrawnAttribute drawn{
+            attribute_error_of(one, place, variation, steepest, farthest, false),
+            clipping_aside(one, place, farthest)};
+        const auto add = [&](DrawnAttribute& to) {
+            to.share = std::max(to.share, drawn.share);
+            to.aside = std::max(to.aside, drawn.aside);
+        };
+        add(any);
+        if (may_reach(one, place, farthest)) add(covering), covers = true;
+    }
+    DrawnAttribute found = covers ? covering : any;
+    if (fan.empty()) found.share = std::numeric_limits<double>::infinity();
+    const double share =
+        found.share * farthest_depth(scene, triangle, place, pixel.reach + found.aside);
+    found.share = share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
+    return found;
 }
 
 double interpolated_place_error(const Scene& scene, std::uint32_t triangle,

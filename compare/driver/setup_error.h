@@ -63,9 +63,22 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
 
 /// Error of a value interpolated over a triangle, in perspective, at a pixel: as a share of the
 /// value's size at the corner where it is largest. `variation`: the largest difference between
-/// corners, as a share of the same. Infinite where the triangle is seen edge-on.
+/// corners, as a share of the same. Infinite where the triangle is seen edge-on, and where exact
+/// clipping leaves nothing of it.
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation = 2);
+
+/// A value interpolated over a triangle, in perspective, at a pixel.
+struct DrawnAttribute {
+    double share = 0; ///< its error, as attribute_error has it, but for what `aside` tells
+    /// Pixels, along each axis, by which the place that it is the value of may lie beside those
+    /// within the pixel's reach: corners that clipping makes are rounded, and are drawn aside.
+    double aside = 0;
+};
+
+/// Both of a triangle's values, where the largest differs by as much as it can.
+DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
+                               const CoveredPixel& pixel);
 
 /// Error, in each component, of a point's place relative to `origin`, interpolated like that.
 double interpolated_place_error(const Scene& scene, std::uint32_t triangle,

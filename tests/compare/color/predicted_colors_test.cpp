@@ -166,7 +166,9 @@ TracedScene stretched(const std::string& name, float by) {
 }
 
 /// The clipper makes corners from the triangle's, whose sizes decide how far the new ones are off:
-/// a value interpolated between them is then that of a place beside the pixel.
+/// a value interpolated between them is then that of a place beside the pixel. Each draw finds the
+/// edge of a spot light's cone by such values itself, so that some pixels have light where the
+/// claim has none.
 TEST(Colors, of_triangles_that_the_clipper_cuts_are_predicted) {
     Gpu gpu(GlPlatform::osmesa);
     for (const char* name : {"coarse_curve", "bumpy_torus"})
