@@ -3,6 +3,7 @@
 #include "compare/traced/ray_cause.h"
 #include "compare/traced/ray_report.h"
 #include "compare/traced/ray_story.h"
+#include "compare/traced/ray_strain.h"
 #include "compare/traced/traced_results.h"
 #include "reference/parallel.h"
 
@@ -77,6 +78,7 @@ public:
                                                  const MemoryBudget& /*left*/) const override {
         return of_all_.empty() ? report_rays(claim_, cause) : nullptr;
     }
+    std::optional<double> strain() const override { return shadowproof::strain(claim_); }
     Account account(const PixelRecord& record, double unit) const override {
         const PixelPlace p{record.x, record.y};
         return account_of_rays(claim_, p, fault_at(p), unit);

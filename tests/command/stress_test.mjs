@@ -99,6 +99,20 @@ test('where depths no longer suffice is derived to within a factor of 4', () => 
   assert.deepEqual(alone, []);
 });
 
+test('where rays break is derived to within a factor of 4', () => {
+  const { code, err } = shadowproof(['stress', 'nested', 'seen_shadow', '--parameter',
+    'origin_distance,scale', '--technique', 'traced_epsilon', '--witness', '1',
+    '--json', 'rays.json', '--no-pictures', '-q']);
+  assert.ok([0, 1].includes(code), err);
+  const { breaking } = written('rays.json');
+  const broken = breaking.filter(({ measured }) => measured !== null);
+  for (const cause of ['acne', 'leak'])
+    assert.ok(broken.filter((each) => each.cause === cause).length >= 2, cause);
+  for (const { scene, parameter, derived, measured } of broken)
+    assert.ok(Math.max(derived / measured, measured / derived) <= 4,
+              `${scene} ${parameter}: derived ${derived}, measured ${measured}`);
+});
+
 test('z-fail without a far plane outlasts any near plane that floats of depth resolve', () => {
   const near = along('zfail_reversed', 'near_plane').filter(({ value }) => value <= 0.01);
   assert.ok(near.length > 2);

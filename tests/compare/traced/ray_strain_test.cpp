@@ -1,0 +1,115 @@
+// How near traced techniques are to failing, worked out without looking at what they traced: as
+// many pixels are wrong as are expected, and none where floats suffice.
+#include "compare/families.h"
+#include "raster/render.h"
+#include "raster/technique.h"
+#include "scenes/load/catalog.h"
+#include "scenes/plan/plan.h"
+#include "scenes/stress/parameter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace shadowproof {
+namespace {
+
+Scene small(const char* name) {
+    Scene scene = load_scene(name, {});
+    scene.camera.width = scene.camera.height = 160;
+    return scene;
+}
+
+/// A technique's picture of a scene, and its judge.
+struct Rays {
+    Scene scene;
+    Tracer tracer{scene};
+    GroundTruth truth = trace(tracer);
+    TracedScene traced{tracer, truth};
+    Frame frame;
+
+    Rays(Gpu& gpu, Scene given, const char* technique, const RaySettings& settings = {})
+        : scene(std::move(given)) {
+        Plan plan = make_plan(scene);
+        plan.asked.rays = settings;
+        frame = render(*find_technique(technique), scene, plan, gpu);
+    }
+    Rays(const Rays&) = delete;
+
+    /// Pixels.
+    double expected() const {
+        return judge_of(traced, frame)->strain().value() * std::numbers::ln2;
+    }
+    double wrong() const {
+        double count = 0;
+        for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
+            count += frame.claim.pixels[i] != truth.visibility.pixels[i] ? 1 : 0;
+        return count;
+    }
+};
+
+void expect_within_a_factor_of_four(const Rays& rays, const std::string& where) {
+    EXPECT_GT(rays.wrong(), 20) << where;
+    EXPECT_LT(rays.expected(), 4 * rays.wrong()) << where;
+    EXPECT_GT(rays.expected(), rays.wrong() / 4) << where;
+}
+
+/// Without a distance that is kept, every other ray may start below its surface.
+TEST(RayStrain, tells_how_many_rays_meet_the_surface_that_they_start_on) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"ordinary", "nested", "far_plane"})
+        for (const double distance : {0.0, 1e-7})
+            for (const char* technique : {"traced_epsilon", "traced_offset"})
+                expect_within_a_factor_of_four(
+                    Rays(gpu, small(name), technique, {.epsilon = distance, .offset = distance}),
+                    std::string(name) + ", " + technique);
+}
+
+/// Roundings grow with coordinates: a ray then starts below the next triangle as well, or beyond
+/// the border of a shadow.
+TEST(RayStrain, tells_how_many_are_wrong_far_from_the_origin) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* name : {"ordinary", "eye_inside"})
+        for (const double distance : {1e4, 1e5})
+            expect_within_a_factor_of_four(
+                Rays(gpu, stressed(small(name), {"origin_distance", distance}), "traced_skip"),
+                std::string(name) + ", " + std::to_string(distance));
+    expect_within_a_factor_of_four(
+        Rays(gpu, stressed(small("ordinary"), {"origin_distance", 1e3}), "traced_epsilon"),
+        "traced_epsilon");
+}
+
+TEST(RayStrain, is_next_to_none_where_floats_suffice) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const char* technique : {"traced_epsilon", "traced_skip"}) {
+        const Rays rays(gpu, small("nested"), technique);
+        EXPECT_LT(rays.expected(), 0.5) << technique;
+        EXPECT_EQ(rays.wrong(), 0) << technique;
+    }
+}
+
+/// An epsilon that is longer than the way to what stands before the light passes over that, in
+/// exact numbers, too; a ray that skips nothing but its own triangle does not.
+TEST(RayStrain, is_infinite_where_exact_rays_are_wrong) {
+    Gpu gpu(GlPlatform::osmesa);
+    const RaySettings long_ones{.epsilon = 1.0, .offset = 1.0};
+    EXPECT_TRUE(std::isinf(Rays(gpu, small("ordinary"), "traced_epsilon", long_ones).expected()));
+    EXPECT_TRUE(std::isinf(Rays(gpu, small("ordinary"), "traced_offset", long_ones).expected()));
+    EXPECT_TRUE(std::isfinite(Rays(gpu, small("ordinary"), "traced_skip").expected()));
+}
+
+TEST(RayStrain, is_the_same_whatever_was_traced) {
+    Gpu gpu(GlPlatform::osmesa);
+    Rays rays(gpu, stressed(small("ordinary"), {"origin_distance", 1e3}), "traced_epsilon");
+    const double as_traced = rays.expected();
+    EXPECT_GT(as_traced, 0);
+    std::ranges::fill(rays.frame.claim.pixels, Visibility::lit);
+    std::ranges::fill(rays.frame.rays->pixels.pixels, TracedPixel{});
+    EXPECT_EQ(rays.expected(), as_traced);
+}
+
+} // namespace
+} // namespace shadowproof
