@@ -1,6 +1,7 @@
 #include "compare/stencil/strain.h"
 
 #include "compare/driver/error_bounds.h"
+#include "compare/judge/normal_distribution.h"
 #include "reference/parallel.h"
 #include "reference/trace/places.h"
 #include "reference/trace/view.h"
@@ -37,11 +38,6 @@ bool depends_on_counter(const CountedClaim& judged, PixelPlace p) {
     const Image<std::uint8_t>& cones = judged.truth().in_cone;
     if (!cones.pixels.empty() && cones.at(p.x, p.y) == 0) return false;
     return sides_of(judged.tracer(), triangle).faces_light();
-}
-
-/// Of a normal distribution with that deviation, the share beyond a distance.
-double share_beyond(double distance, double deviation) {
-    return 0.5 * std::erfc(distance / (deviation * std::numbers::sqrt2));
 }
 
 /// The chance that a surface, off by a normal error along its ray, has another claim there: at all

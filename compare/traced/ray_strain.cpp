@@ -1,5 +1,6 @@
 #include "compare/traced/ray_strain.h"
 
+#include "compare/judge/normal_distribution.h"
 #include "reference/parallel.h"
 #include "scenes/camera.h"
 #include "scenes/roundoff.h"
@@ -51,6 +52,7 @@ std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace
     start.to_light = glm::dvec3(light) - light.w * start.at;
     const Corners t = corners(scene, start.seen);
     start.normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
+    if (!std::isfinite(glm::dot(start.normal, start.to_light))) return std::nullopt; // no area
     if (glm::dot(start.normal, start.to_light) < 0) start.normal = -start.normal;
     return start;
 }
@@ -158,11 +160,6 @@ Deviation deviation_at(const TracedClaim& claim, const StartingPoint& start) {
     return {std::hypot(along, rounded), of_ray};
 }
 
-/// Of a normal distribution with that deviation, the share beyond a distance.
-double share_beyond(double distance, double deviation) {
-    return 0.5 * std::erfc(distance / (deviation * std::numbers::sqrt2));
-}
-
 /// How far a point may be moved over its triangle, towards the light, before it leaves that.
 double way_to_edge(const Corners& t, const StartingPoint& start) {
     const glm::dvec3 over = start.to_light - glm::dot(start.to_light, start.normal) * start.normal;
@@ -209,23 +206,23 @@ std::array<glm::dvec3, 4> rays_aside(const TracedClaim& claim, const StartingPoi
     return corner_rays(camera, x - pixels, y - pixels, x + pixels, y + pixels);
 }
 
-std::vector<StartingPoint> starting_points(const TracedClaim& claim) {
+/// Rows that are looked at together, so that few points are kept at once.
+constexpr int rows_at_once = 64;
+
+std::vector<StartingPoint> starting_points(const TracedClaim& claim, int top, int bottom) {
     std::vector<StartingPoint> starts;
-    const Camera& camera = claim.scene().camera;
-    for (int y = 0; y < camera.height; ++y)
-        for (int x = 0; x < camera.width; ++x)
+    for (int y = top; y < bottom; ++y)
+        for (int x = 0; x < claim.scene().camera.width; ++x)
             if (const auto start = starting_point(claim, {x, y})) starts.push_back(*start);
     return starts;
 }
 
-} // namespace
-
-double strain(const TracedClaim& claim) {
-    const std::vector<StartingPoint> starts = starting_points(claim);
-    if (starts.empty()) return 0;
+/// Pixels that are expected to be wrong between two rows.
+double expected_wrong(const TracedClaim& claim, int top, int bottom) {
+    const std::vector<StartingPoint> starts = starting_points(claim, top, bottom);
     const auto groups = static_cast<int>((starts.size() + packet_size - 1) / packet_size);
     std::vector<double> expected(static_cast<std::size_t>(groups));
-    std::vector<std::array<glm::dvec3, 4>> aside(starts.size());
+    std::vector<glm::dvec3> aside(4 * starts.size());
     parallel_for(groups, claim.tracer().threads(), [&](int group, int) {
         const std::size_t first = static_cast<std::size_t>(group) * packet_size;
         const auto some = std::span(starts).subspan(
@@ -236,18 +233,28 @@ double strain(const TracedClaim& claim) {
             if ((right >> i & 1U) == 0) sum = infinity;
             const Deviation deviation = deviation_at(claim, some[i]);
             sum += chance_of_acne(claim, some[i], deviation.along_normal);
-            aside[first + i] = rays_aside(claim, some[i], deviation.aside);
+            std::ranges::copy(rays_aside(claim, some[i], deviation.aside),
+                              aside.begin() + static_cast<std::ptrdiff_t>(4 * (first + i)));
         }
     });
     double sum = std::accumulate(expected.begin(), expected.end(), 0.0);
-    const std::vector<RayTruth> truths =
-        trace_rays(claim.tracer(), {aside.data()->data(), 4 * aside.size()});
+    const std::vector<RayTruth> truths = trace_rays(claim.tracer(), aside);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const Visibility own = starts[i].lit ? Visibility::lit : Visibility::shadowed;
         if (std::ranges::any_of(std::span(truths).subspan(4 * i, 4),
                                 [&](const RayTruth& t) { return t.visibility != own; }))
             sum += chance_beside_border;
     }
+    return sum;
+}
+
+} // namespace
+
+double strain(const TracedClaim& claim) {
+    double sum = 0;
+    const int height = claim.scene().camera.height;
+    for (int top = 0; top < height; top += rows_at_once)
+        sum += expected_wrong(claim, top, std::min(top + rows_at_once, height));
     return sum / std::numbers::ln2;
 }
 

@@ -8,8 +8,8 @@ namespace shadowproof {
 
 /// The number of pixels that rounding is expected to make wrong, over log 2: from 1 on it is more
 /// likely than not that there is one, if they are taken for independent. Infinite where rays as the
-/// model starts them, with exact numbers, do not give the truth: an epsilon passes over an occluder,
-/// an offset leads past one or into one.
+/// model starts them, with exact numbers, do not give the truth: an epsilon passes over an
+/// occluder, an offset leads past one or into one.
 ///
 /// The point that is met is off along its normal by what rounds its distance and its coordinates,
 /// and sideways by what rounds the eye ray as well. A ray that so starts below its surface meets
