@@ -114,11 +114,20 @@ glm::dvec3 ColorJudge::right_color(int x, int y, const glm::dvec3& at_centre) co
 }
 
 /// A technique that filters is right within a step of the mean, however it normalises.
-Intervals ColorJudge::bound(const PixelPlace& pixel, const PixelSpread& spread) const {
-    if (means_ != nullptr) return around(means_->color.at(pixel.x, pixel.y), one_step);
-    const auto budgeted = [&](const InputPoint& point) { return budgeted_inputs(tables_, point); };
-    return color_bound(frame_.color_model,
-                       of_lights(pixel.shadings, pixel.triangle, spread, budgeted));
+std::vector<Intervals> ColorJudge::bounds(const PixelPlace& pixel,
+                                          const PixelSpread& spread) const {
+    if (means_ != nullptr) return {around(means_->color.at(pixel.x, pixel.y), one_step)};
+    std::vector<Intervals> colors;
+    const auto add = [&](std::span<const Shading> shadings) {
+        colors.push_back(
+            color_bound(frame_.color_model,
+                        of_lights(shadings, pixel.triangle, spread, [&](const InputPoint& point) {
+                            return budgeted_inputs(tables_, point);
+                        })));
+    };
+    add(pixel.shadings);
+    for (const std::vector<Shading>& lit : pixel.at_cones) add(lit);
+    return colors;
 }
 
 std::vector<Intervals> ColorJudge::predicted(const PixelPlace& pixel,
@@ -135,29 +144,35 @@ std::vector<Intervals> ColorJudge::predicted(const PixelPlace& pixel,
     };
     for (const FootprintChoice& choice : choices) {
         add(pixel.shadings, choice);
-        if (!pixel.in_cones.empty()) add(pixel.in_cones, choice);
+        for (const std::vector<Shading>& lit : pixel.at_cones) add(lit, choice);
     }
     return colors;
 }
 
-/// A counter that is not 0 keeps the light out wherever the cone's edge is found.
-std::vector<Shading> ColorJudge::lit_in_cones(const PixelPlace& pixel) const {
-    std::vector<Shading> lit(pixel.shadings.begin(), pixel.shadings.end());
-    bool any = false;
+/// With each choice of those lights lit. Whatever else is known to keep a light out keeps it out
+/// wherever the cone's edge is found: the triangle's side, and a counter that is not 0.
+std::vector<std::vector<Shading>> ColorJudge::shadings_at_cones(const PixelPlace& pixel) const {
+    std::vector<std::size_t> in_doubt;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const AddedLight& light = lights_[i];
-        if (chosen_light(light.scene).kind != Light::Kind::spot || lit[i].lit) continue;
+        if (chosen_light(light.scene).kind != Light::Kind::spot || pixel.shadings[i].lit) continue;
         if (!sides_of(light.tracer, pixel.triangle).faces_light()) continue;
         const bool receives = light.scene.meshes[mesh_of(light.scene, pixel.triangle)].receives;
         const bool counted = receives && frame_.counted && i + 1 == lights_.size();
         if (counted && frame_.counted->counter.at(pixel.x, pixel.y) != 0) continue;
-        lit[i].lit = cone_sides(light.scene, frame_.depth_model, scene_.camera.far, pixel.triangle,
-                                pixel.x, pixel.y)
-                         .inside;
-        any = any || lit[i].lit;
+        const ConeSides sides = cone_sides(light.scene, frame_.depth_model, scene_.camera.far,
+                                           pixel.triangle, pixel.x, pixel.y);
+        if (sides.inside && sides.outside) in_doubt.push_back(i);
     }
-    if (!any) lit.clear();
-    return lit;
+    constexpr std::size_t most_in_doubt = 8; // cones whose edges meet in a pixel
+    in_doubt.resize(std::min(in_doubt.size(), most_in_doubt));
+    std::vector<std::vector<Shading>> choices;
+    for (std::size_t lit = 1; lit < std::size_t{1} << in_doubt.size(); ++lit) {
+        choices.emplace_back(pixel.shadings.begin(), pixel.shadings.end());
+        for (std::size_t k = 0; k < in_doubt.size(); ++k)
+            if ((lit >> k & 1U) != 0) choices.back()[in_doubt[k]].lit = true;
+    }
+    return choices;
 }
 
 /// View depth of the surface shown; where the truth is another, of its plane.
@@ -268,16 +283,17 @@ ColorJudgement ColorJudge::judged_aside(const PixelPlace& pixel, const DrawnAttr
     const bool edge_on = !std::isfinite(share) || !std::isfinite(drawn.aside);
     const Square square{{0, 0}, lateral(pixel.x, pixel.y) + drawn.aside};
     found.spread = edge_on ? all_of_it : over(pixel, square, share);
-    const auto bound_of = [&](const PixelSpread& spread) { return bound(pixel, spread); };
+    const auto bounds_of = [&](const PixelSpread& spread) { return bounds(pixel, spread); };
     const auto predicted_of = [&](const PixelSpread& spread) { return predicted(pixel, spread); };
-    found.bound = bound_of(found.spread);
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
+    const std::vector<Intervals> anywhere = bounds_of(found.spread);
+    found.bound = shown_of(anywhere, claimed);
     found.predicted = edge_on ? anything : shown_of(predicted_of(found.spread), claimed);
     if (edge_on) {
-        right = right || contains(found.bound, claimed);
+        right = right || contains(anywhere, claimed);
         is_predicted = true;
     } else {
-        right = right || somewhere(pixel, square, share, halvings_of_square, bound_of);
+        right = right || somewhere(pixel, square, share, halvings_of_square, bounds_of);
         is_predicted =
             is_predicted || somewhere(pixel, square, share, halvings_of_square, predicted_of);
     }
@@ -318,13 +334,14 @@ ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) 
     const glm::dvec3 claimed = claim(pixel.x, pixel.y);
     const auto look = [&](const PixelSpread& spread) {
         const std::vector<Intervals> possible = predicted(pixel, spread);
-        ColorJudgement found{.bound = bound(pixel, spread),
+        std::vector<Intervals> right = bounds(pixel, spread);
+        if (is_exact(frame_.color_model, scene_))
+            for (Intervals& bound : right) bound = cut_to_a_step(bound, shading.color());
+        ColorJudgement found{.bound = shown_of(right, claimed),
                              .predicted = shown_of(possible, claimed),
                              .spread = spread};
         const bool is_predicted = contains(possible, claimed);
-        if (is_exact(frame_.color_model, scene_))
-            found.bound = cut_to_a_step(found.bound, shading.color());
-        if (contains(found.bound, claimed))
+        if (contains(right, claimed))
             found.verdict = is_predicted ? ColorVerdict::within : ColorVerdict::unpredicted;
         else
             found.verdict = is_predicted ? ColorVerdict::beyond : ColorVerdict::unexplained;
@@ -339,8 +356,8 @@ ColorJudgement ColorJudge::judged_as_shown(PixelPlace pixel, Scrutiny scrutiny) 
     };
     const ColorJudgement exactly = look(spread);
     if (is_settled(exactly.verdict)) return exactly;
-    const std::vector<Shading> in_cones = lit_in_cones(pixel);
-    pixel.in_cones = in_cones;
+    const std::vector<std::vector<Shading>> at_cones = shadings_at_cones(pixel);
+    pixel.at_cones = at_cones;
     const DrawnAttribute drawn = this->drawn(pixel.x, pixel.y);
     spread.share = drawn.share;
     const bool finite = std::isfinite(spread.share);

@@ -69,9 +69,9 @@ private:
         int y = 0;
         std::span<const Shading> shadings; ///< one per light
         std::uint32_t triangle = 0;
-        /// The same with lights lit that are claimed to be dark, but whose cone the pixel may be
-        /// drawn in: each of a technique's draws finds its edge by itself. Empty where none is.
-        std::span<const Shading> in_cones{};
+        /// The same as they may be drawn besides, if lights are claimed to be dark of whose cones
+        /// the pixel may lie at the edge: each of a technique's draws finds that by itself.
+        std::span<const std::vector<Shading>> at_cones{};
         /// As QuadRays has them, where the model filters: of all that the rasterizer may draw.
         double quad_share = 0;
         double quad_stretch = 0;
@@ -101,8 +101,9 @@ private:
     template <class Of>
     auto of_lights(std::span<const Shading> shadings, std::uint32_t triangle,
                    const PixelSpread& spread, const Of& of) const;
-    std::vector<Shading> lit_in_cones(const PixelPlace& pixel) const;
-    Intervals bound(const PixelPlace& pixel, const PixelSpread& spread) const;
+    std::vector<std::vector<Shading>> shadings_at_cones(const PixelPlace& pixel) const;
+    /// One interval for each choice of lights at whose cones' edges the pixel lies.
+    std::vector<Intervals> bounds(const PixelPlace& pixel, const PixelSpread& spread) const;
     /// One interval for each choice that the technique may have made (footprint_choices).
     std::vector<Intervals> predicted(const PixelPlace& pixel, const PixelSpread& spread) const;
     double lateral(int x, int y) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -151,15 +152,29 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
                                error_from(c, a, b, pixel, plane_of_depths(c, a, b))});
 }
 
+/// How much a pixel takes of each corner's value, at most.
+using Weights = std::array<double, 3>;
+
+Weights weights_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
+    return {weight_of(triangle, 0, pixel, reach), weight_of(triangle, 1, pixel, reach),
+            weight_of(triangle, 2, pixel, reach)};
+}
+
+/// What becomes of the error of a place that clipping gives a corner.
+enum class MadePlaces : std::uint8_t {
+    are_errors_of_values,
+    are_told_apart, ///< DrawnAttribute::aside
+};
+
 /// For a value over depth whose value is nowhere larger than 1: corners are off by their quotient's
 /// and product's roundings, and those of the shader that made them, 8 v in all.
 ///
 /// A corner made by clipping gets its value as it gets its place: three roundings more. Its place
-/// is rounded, too, and its value is then that of a place beside it, as in error_of: `moved` counts
-/// that as an error of the value. What moves corners that are not clipped is the driver's snapping
-/// and transform: lateral_error.
+/// is rounded, too, and its value is then that of a place beside it, as in error_of. What moves
+/// corners that are not clipped is the driver's snapping and transform: lateral_error.
 double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pixel,
-                          double variation, const glm::dvec2& steepest, double reach, bool moved) {
+                          double variation, const glm::dvec2& steepest, const Weights& weights,
+                          MadePlaces made) {
     const auto& [a, b, c] = triangle;
     if (!(twice_area(triangle) > 0)) return std::numeric_limits<double>::infinity();
     const std::array<Plane, 3> planes = steepest_planes(triangle, variation, steepest);
@@ -168,10 +183,10 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
     double clipping = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const PicturePoint& corner = triangle[i];
+        const double of_place =
+            made == MadePlaces::are_errors_of_values ? slope * corner.place_error : 0;
         if (corner.made_by_clipping)
-            clipping += weight_of(triangle, i, pixel, reach) *
-                        (3 * v * corner.inverse_depth + corner.w_error +
-                         (moved ? slope * corner.place_error : 0));
+            clipping += weights[i] * (3 * v * corner.inverse_depth + corner.w_error + of_place);
     }
     const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
     return 8 * v * largest + clipping +
@@ -179,25 +194,52 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
                      error_from(c, a, b, pixel, planes[2])});
 }
 
-/// How far aside, in pixels along each axis, the places may be drawn that a pixel may show: by the
-/// driver's snapping and transform, and where clipping has put corners.
+/// How far aside, in pixels in any direction, a corner may be drawn, or a triangle's coverage of a
+/// pixel found.
 double farthest_aside(const PictureTriangle& triangle, double reach) {
-    double farthest = reach;
-    for (const PicturePoint& corner : triangle)
-        if (corner.made_by_clipping) farthest = std::max(farthest, reach + corner.place_error);
-    return std::numbers::sqrt2 * farthest;
+    double farthest = 0;
+    for (const PicturePoint& corner : triangle) farthest = std::max(farthest, corner.place_error);
+    return std::numbers::sqrt2 * (reach + farthest);
 }
 
-// A pixel at x that a drawn triangle holds takes of its corners, drawn at x_k + d_k, the weights
-// w_k, which add up to 1 and are not negative: it shows the place x - sum w_k d_k, whose own
-// weights they are. That place lies within the largest d_k of x, which bounds them.
-double clipping_aside(const PictureTriangle& triangle, const glm::dvec2& pixel, double farthest) {
+// A triangle with its corners drawn at x_k + d_k takes at x of their values the weights w_k, which
+// add up to 1: it shows the place y = x - sum w_k d_k, whose weights in the triangle as it should
+// be they are. They may be negative: a pixel may be covered by snapped corners, and get its values
+// of others. With S the sum of their sizes, y lies within S times the farthest d of x; there a
+// weight is no larger than at x, and that way times its slope, which is its edge's length over
+// twice the area. So S is at most its value at x over 1 less the farthest d times the sum of the
+// slopes.
+Weights drawn_weights(const PictureTriangle& triangle, const glm::dvec2& pixel, double farthest) {
+    const Weights at_pixel = weights_of(triangle, pixel, 0);
+    const Weights when_moved = weights_of(triangle, pixel, farthest);
+    double sum = 0;
+    double growth = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        sum += at_pixel[k];
+        growth += when_moved[k] - at_pixel[k];
+    }
+    if (!(growth < 1)) {
+        constexpr double any = std::numeric_limits<double>::infinity();
+        return {any, any, any};
+    }
+    Weights weights{};
+    for (std::size_t k = 0; k < 3; ++k)
+        weights[k] = at_pixel[k] + sum / (1 - growth) * (when_moved[k] - at_pixel[k]);
+    return weights;
+}
+
+double clipping_aside(const PictureTriangle& triangle, const Weights& weights) {
     double aside = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (triangle[i].made_by_clipping)
-            aside +=
-                std::min(weight_of(triangle, i, pixel, farthest), 1.0) * triangle[i].place_error;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (triangle[k].made_by_clipping) aside += weights[k] * triangle[k].place_error;
     return aside;
+}
+
+/// The error of a value q = p / r, where p is the value over depth and r the inverse depth, both
+/// off by up to `error`: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
+double error_of_quotient(double error, double depth) {
+    const double share = error * depth; // of the inverse depth
+    return share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
 }
 
 /// The largest over the triangles that may cover the pixel, or over all if none does.
@@ -225,7 +267,7 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
 }
 
 /// The largest view depth of a triangle's plane in a square of the picture; infinite where the
-/// plane's horizon crosses it.
+/// plane's horizon crosses it, and where it is no number.
 double farthest_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec2& middle,
                       double half) {
     const glm::dvec3 a = corner(scene, triangle, 0);
@@ -238,7 +280,8 @@ double farthest_depth(const Scene& scene, std::uint32_t triangle, const glm::dve
             least = std::min(
                 least, glm::dot(ray_direction(scene.camera, middle.x + x, middle.y + y), across) /
                            of_plane);
-    return least > 0 ? 1 / least : std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return least > 0 && least < infinity ? 1 / least : infinity;
 }
 
 /// Of a dark cap, in the order in which it is drawn: that of the light cap, reversed.
@@ -337,8 +380,6 @@ double largest_setup_error(const std::array<PicturePoint, 3>& triangle, double r
     return largest;
 }
 
-// An interpolated value is q = p / r, where p is the value over depth and r the inverse depth, both
-// off by up to e: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
 double attribute_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel,
                        double variation) {
     const std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
@@ -346,14 +387,15 @@ double attribute_error(const Scene& scene, std::uint32_t triangle, const Covered
     const glm::dvec2 steepest = steepest_slope(fan, variation);
     const double error = largest_error(
         scene.camera, fan, pixel, [&](const PictureTriangle& one, const glm::dvec2& place) {
-            return attribute_error_of(one, place, variation, steepest, pixel.reach, true);
+            return attribute_error_of(one, place, variation, steepest,
+                                      weights_of(one, place, pixel.reach),
+                                      MadePlaces::are_errors_of_values);
         });
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
     const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
-    const double share = error * depth; // of the inverse depth
-    return share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
+    return error_of_quotient(error, depth);
 }
 
 DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
@@ -365,24 +407,27 @@ DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
     DrawnAttribute covering;
     DrawnAttribute any;
     bool covers = false;
+    const auto add = [](const DrawnAttribute& drawn, DrawnAttribute& to) {
+        to = {std::max(to.share, drawn.share), std::max(to.aside, drawn.aside)};
+    };
     for (const PictureTriangle& one : fan) {
         const double farthest = farthest_aside(one, pixel.reach);
-        const DrawnAttribute drawn{
-            attribute_error_of(one, place, variation, steepest, farthest, false),
-            clipping_aside(one, place, farthest)};
-        const auto add = [&](DrawnAttribute& to) {
-            to.share = std::max(to.share, drawn.share);
-            to.aside = std::max(to.aside, drawn.aside);
-        };
-        add(any);
-        if (may_reach(one, place, farthest)) add(covering), covers = true;
+        const Weights weights = drawn_weights(one, place, farthest);
+        const DrawnAttribute drawn{attribute_error_of(one, place, variation, steepest, weights,
+                                                      MadePlaces::are_told_apart),
+                                   clipping_aside(one, weights)};
+        add(drawn, any);
+        if (!may_reach(one, place, farthest)) continue;
+        add(drawn, covering);
+        covers = true;
     }
-    DrawnAttribute found = covers ? covering : any;
-    if (fan.empty()) found.share = std::numeric_limits<double>::infinity();
-    const double share =
-        found.share * farthest_depth(scene, triangle, place, pixel.reach + found.aside);
-    found.share = share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
-    return found;
+    const DrawnAttribute found = covers ? covering : any;
+    const double depth = farthest_depth(scene, triangle, place, pixel.reach + found.aside);
+    const double share = error_of_quotient(found.share, depth);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (fan.empty() || !std::isfinite(share) || !std::isfinite(found.aside))
+        return {infinity, infinity};
+    return {share, found.aside};
 }
 
 double interpolated_place_error(const Scene& scene, std::uint32_t triangle,

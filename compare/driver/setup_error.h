@@ -70,13 +70,14 @@ double attribute_error(const Scene& scene, std::uint32_t triangle, const Covered
 
 /// A value interpolated over a triangle, in perspective, at a pixel.
 struct DrawnAttribute {
-    double share = 0; ///< its error, as attribute_error has it, but for what `aside` tells
+    double share = 0; ///< its error, as attribute_error has it, without the part in `aside`
     /// Pixels, along each axis, by which the place that it is the value of may lie beside those
     /// within the pixel's reach: corners that clipping makes are rounded, and are drawn aside.
     double aside = 0;
 };
 
-/// Both of a triangle's values, where the largest differs by as much as it can.
+/// Both, of a value that differs between corners by up to twice its largest size. Both are infinite
+/// where either is.
 DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
                                const CoveredPixel& pixel);
 

@@ -6,8 +6,9 @@
 
 namespace shadowproof {
 
-/// Of a normal distribution with that standard deviation, the share beyond a distance of its
-/// middle, to one side. Half of it where the deviation is no number: what is off may lie anywhere.
+/// Of a normal distribution with that standard deviation, the share that lies further than a
+/// distance to one side of its middle. 0.5 where the deviation is no number: what is off may lie
+/// anywhere.
 inline double share_beyond(double distance, double deviation) {
     if (deviation == 0) return distance > 0 ? 0 : 0.5;
     const double beyond = 0.5 * std::erfc(distance / (deviation * std::numbers::sqrt2));

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct StartingPoint {
     glm::dvec3 to_light{0, 0, 0};
 };
 
-/// None where the claim depends on no ray.
+/// None where the claim depends on no ray, or the truth is a tie, which any error may break.
 std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace p) {
     const Scene& scene = claim.scene();
     const GroundTruth& truth = claim.traced.truth();
@@ -44,6 +45,7 @@ std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace
     if (start.seen == no_triangle || !receives_shadows(claim.tracer(), start.seen) ||
         !faces_light(claim.tracer(), start.seen))
         return std::nullopt;
+    if (truth.exactness.at(p.x, p.y) == Exactness::degenerate) return std::nullopt;
     if (!truth.in_cone.pixels.empty() && truth.in_cone.at(p.x, p.y) == 0) return std::nullopt;
     start.lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
     start.direction = ray_direction(scene.camera, p.x + 0.5, p.y + 0.5);
@@ -57,9 +59,8 @@ std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace
     return start;
 }
 
-/// The shadow ray as the model starts it, with exact numbers.
-AnyRay exact_ray(const TracedClaim& claim, const StartingPoint& start) {
-    const RayModel& model = claim.rays().model;
+/// The shadow ray as the model starts it, but for rounding to double.
+AnyRay exact_ray(const TracedClaim& claim, const StartingPoint& start, const RayModel& model) {
     const glm::dvec4 light = homogeneous(chosen_light(claim.scene()));
     AnyRay ray;
     ray.origin = start.at;
@@ -97,113 +98,122 @@ private:
     std::uint32_t stopped_ = 0;
 };
 
-/// Whether exact numbers give the truth, for each of up to sixteen. Where no distance is kept they
-/// do: what stands between the point and the light is not the point's own triangle.
-std::uint32_t right_by_model(const TracedClaim& claim, std::span<const StartingPoint> starts) {
-    std::uint32_t lit = 0;
-    for (std::size_t i = 0; i < starts.size(); ++i)
-        if (starts[i].lit) lit |= 1U << i;
-    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << starts.size()) - 1);
-    if (claim.rays().model.start == RayModel::Start::skip || !(claim.rays().model.distance > 0))
-        return all;
+/// Which of up to sixteen rays give another answer than the truth: one bit for each.
+std::uint32_t wrong_with(const TracedClaim& claim, std::span<const StartingPoint> starts,
+                         const RayModel& model) {
     AnyRays rays;
-    for (std::size_t i = 0; i < starts.size(); ++i)
-        rays.set(static_cast<int>(i), exact_ray(claim, starts[i]));
+    std::uint32_t lit = 0;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        rays.set(static_cast<int>(i), exact_ray(claim, starts[i], model));
+        if (starts[i].lit) lit |= 1U << i;
+    }
+    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << starts.size()) - 1);
     Stopped stopped(claim, starts);
     find_nearby(claim.tracer(), traversal_share, rays, stopped);
-    return (stopped.stopped() ^ lit) & all;
+    return ~(stopped.stopped() ^ lit) & all;
 }
 
-/// The standard deviations of the point that is met, in world units.
-struct Deviation {
-    double along_normal = 0;
-    double aside = 0; ///< of the eye ray
-};
+/// Whether the distance that the model keeps is what makes any of them wrong. Without one, what
+/// stands between the point and the light is not the point's own triangle, and exact rays are
+/// right; where doubles are not, they tell nothing of the distance.
+bool fails_by_model(const TracedClaim& claim, std::span<const StartingPoint> starts) {
+    RayModel model = claim.rays().model;
+    if (model.start == RayModel::Start::skip || !(model.distance > 0)) return false;
+    const std::uint32_t wrong = wrong_with(claim, starts, model);
+    if (wrong == 0) return false;
+    model.distance = 0;
+    return (wrong & ~wrong_with(claim, starts, model)) != 0;
+}
+
+double squared(const glm::dvec3& v) {
+    return glm::dot(v, v);
+}
 
 // Embree's distance is t = T / den = N . C / N . D, with N = e2 x e1 and C = a - o
 // (float_bounds.h). What N is off by moves T and den together: t by that times a - P over den, so
 // that it counts for little in small triangles. Of N's components each product is rounded four
 // times: both edges, the product and the difference; of T's products C, the product and two sums;
-// of den's all but C; and the quotient.
-double deviation_of_distance(const Corners& t, const glm::dvec3& eye, const StartingPoint& start) {
+// of den's all but C; and the quotient. Along the normal that is D . N over |N| as much. The
+// point's coordinates are a product and a sum, once more each with an offset. And the ray that
+// starts there meets its triangle at another distance of that kind, whose C is a - P.
+double deviation_along_normal(const TracedClaim& claim, const StartingPoint& start) {
+    const glm::dvec3 eye = claim.scene().camera.eye;
+    const Corners t = corners(claim.scene(), start.seen);
     const glm::dvec3 e1 = t.a - t.b;
     const glm::dvec3 e2 = t.c - t.a;
     const glm::dvec3 normal = glm::cross(e2, e1);
-    const glm::dvec3 to_a = t.a - eye;
     const glm::dvec3 way = start.at - eye;
-    const auto squared = [](const glm::dvec3& v) { return glm::dot(v, v); };
-    double sum = 4 * squared(normal * to_a) + 3 * squared(normal * way);
+    const glm::dvec3 to_a = t.a - start.at;
+    double lever = 0;
     for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
-        const double products = std::hypot(e2[j] * e1[k], e2[k] * e1[j]);
-        const double lever = products * (t.a - start.at)[i];
-        sum += 4 * lever * lever;
+        const double products = std::hypot(e2[j] * e1[k], e2[k] * e1[j]) * to_a[i];
+        lever += 4 * products * products;
     }
-    const double den = glm::dot(normal, start.direction);
-    const double distance = glm::length(way) / glm::length(start.direction);
-    return of_rounding * std::hypot(std::sqrt(sum) / den, distance);
+    const double of_eye_ray = 4 * squared(normal * (t.a - eye)) + 3 * squared(normal * way);
+    const double of_shadow_ray = 4 * squared(normal * to_a);
+    const double distances =
+        std::sqrt(2 * lever + of_eye_ray + of_shadow_ray) / glm::length(normal);
+    const double quotient = glm::dot(way, start.normal);
+    const bool moved = claim.rays().model.start == RayModel::Start::offset;
+    const double coordinates =
+        std::sqrt(squared(start.normal * way) + (moved ? 3 : 1) * squared(start.normal * start.at));
+    return of_rounding * std::hypot(distances, quotient, coordinates);
 }
 
-// A point is eye + t D, where eye and D are floats: rounding those moves it sideways, and along its
-// surface. The product and the sum are rounded, too.
-Deviation deviation_at(const TracedClaim& claim, const StartingPoint& start) {
+// Along each axis: eye and D are floats, and so are the product and the sum of the two.
+double deviation_aside(const TracedClaim& claim, const StartingPoint& start) {
     const glm::dvec3 eye = claim.scene().camera.eye;
-    const glm::dvec3 way = start.at - eye;
-    const double along = deviation_of_distance(corners(claim.scene(), start.seen), eye, start) *
-                         glm::dot(start.direction, start.normal);
-    const glm::dvec3 coordinates(std::hypot(way.x, start.at.x), std::hypot(way.y, start.at.y),
-                                 std::hypot(way.z, start.at.z));
-    const double rounded = of_rounding * glm::length(start.normal * coordinates);
-    const double of_ray =
-        of_rounding * std::hypot(glm::length(eye), glm::length(way), glm::length(start.at));
-    return {std::hypot(along, rounded), of_ray};
+    const double sizes = squared(eye) + 2 * squared(start.at - eye) + squared(start.at);
+    return of_rounding * std::sqrt(sizes / 3);
 }
 
-/// How far a point may be moved over its triangle, towards the light, before it leaves that.
-double way_to_edge(const Corners& t, const StartingPoint& start) {
-    const glm::dvec3 over = start.to_light - glm::dot(start.to_light, start.normal) * start.normal;
-    const glm::dvec3 towards = glm::normalize(over); // no number where the light is straight above
+/// How far a ray from a point to the light comes along its triangle's normal before it has left the
+/// triangle; infinite where the light is straight above.
+double height_at_edge(const Corners& t, const StartingPoint& start) {
+    const double up = glm::dot(start.to_light, start.normal);
+    const glm::dvec3 over = start.to_light - up * start.normal;
     const std::array<glm::dvec3, 3> at{t.a, t.b, t.c};
-    double least = infinity;
+    double least = infinity; // of the ray's parameter
     for (std::size_t k = 0; k < at.size(); ++k) {
         const glm::dvec3 edge = at[(k + 1) % 3] - at[k];
         glm::dvec3 inwards = glm::cross(start.normal, edge);
         if (glm::dot(inwards, at[(k + 2) % 3] - at[k]) < 0) inwards = -inwards;
-        const double closer = -glm::dot(towards, inwards);
+        const double closer = -glm::dot(over, inwards);
         if (closer > 0)
             least = std::min(least, std::max(glm::dot(start.at - at[k], inwards), 0.0) / closer);
     }
-    return least;
+    return least * up;
 }
 
 /// The chance that a lit point's ray meets the surface that it starts below: its own triangle, at
 /// the depth below over the cosine with the light, or, where that is skipped, the next one, if it
 /// is below still when it leaves the first.
-double chance_of_acne(const TracedClaim& claim, const StartingPoint& start, double deviation) {
+double chance_of_acne(const TracedClaim& claim, const StartingPoint& start) {
     if (!start.lit) return 0;
     const RayModel& model = claim.rays().model;
-    const double cosine = glm::dot(start.normal, glm::normalize(start.to_light));
     double kept = model.distance;
-    if (model.start == RayModel::Start::epsilon) kept *= cosine;
+    if (model.start == RayModel::Start::epsilon)
+        kept *= glm::dot(start.normal, glm::normalize(start.to_light));
     if (model.start == RayModel::Start::skip)
-        kept = way_to_edge(corners(claim.scene(), start.seen), start) * cosine /
-               std::sqrt(std::max(1 - cosine * cosine, 0.0));
-    return share_beyond(kept, deviation);
+        kept = height_at_edge(corners(claim.scene(), start.seen), start);
+    return share_beyond(kept, deviation_along_normal(claim, start));
 }
 
-/// Rays a standard deviation aside of a pixel's centre. A normal error takes a point over a border
-/// at a distance x as often as beyond x: over all x, 0.4 deviations to either side, where the
-/// border is less than one away.
+/// Of a point less than a standard deviation s from a border, on average: the share beyond a border
+/// at the distance x, over all x, adds up to 0.4 s.
 constexpr double chance_beside_border = 0.4;
-std::array<glm::dvec3, 4> rays_aside(const TracedClaim& claim, const StartingPoint& start,
-                                     double aside) {
+
+/// Rays a standard deviation to each side of a pixel's centre.
+std::array<glm::dvec3, 4> rays_aside(const TracedClaim& claim, const StartingPoint& start) {
     const Camera& camera = claim.scene().camera;
-    const double depth = view_depth(camera, start.at);
-    const double pixels = aside * 0.5 * camera.height / (camera.tan_half_height * depth);
+    const double pixels = deviation_aside(claim, start) * 0.5 * camera.height /
+                          (camera.tan_half_height * view_depth(camera, start.at));
     const double x = start.place.x + 0.5;
     const double y = start.place.y + 0.5;
-    return corner_rays(camera, x - pixels, y - pixels, x + pixels, y + pixels);
+    return {ray_direction(camera, x - pixels, y), ray_direction(camera, x + pixels, y),
+            ray_direction(camera, x, y - pixels), ray_direction(camera, x, y + pixels)};
 }
 
 /// Rows that are looked at together, so that few points are kept at once.
@@ -227,17 +237,16 @@ double expected_wrong(const TracedClaim& claim, int top, int bottom) {
         const std::size_t first = static_cast<std::size_t>(group) * packet_size;
         const auto some = std::span(starts).subspan(
             first, std::min<std::size_t>(packet_size, starts.size() - first));
-        const std::uint32_t right = right_by_model(claim, some);
         double& sum = expected[static_cast<std::size_t>(group)];
+        if (fails_by_model(claim, some)) sum = infinity;
         for (std::size_t i = 0; i < some.size(); ++i) {
-            if ((right >> i & 1U) == 0) sum = infinity;
-            const Deviation deviation = deviation_at(claim, some[i]);
-            sum += chance_of_acne(claim, some[i], deviation.along_normal);
-            std::ranges::copy(rays_aside(claim, some[i], deviation.aside),
+            sum += chance_of_acne(claim, some[i]);
+            std::ranges::copy(rays_aside(claim, some[i]),
                               aside.begin() + static_cast<std::ptrdiff_t>(4 * (first + i)));
         }
     });
     double sum = std::accumulate(expected.begin(), expected.end(), 0.0);
+    if (std::isinf(sum)) return sum;
     const std::vector<RayTruth> truths = trace_rays(claim.tracer(), aside);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         const Visibility own = starts[i].lit ? Visibility::lit : Visibility::shadowed;
@@ -253,7 +262,7 @@ double expected_wrong(const TracedClaim& claim, int top, int bottom) {
 double strain(const TracedClaim& claim) {
     double sum = 0;
     const int height = claim.scene().camera.height;
-    for (int top = 0; top < height; top += rows_at_once)
+    for (int top = 0; top < height && std::isfinite(sum); top += rows_at_once)
         sum += expected_wrong(claim, top, std::min(top + rows_at_once, height));
     return sum / std::numbers::ln2;
 }

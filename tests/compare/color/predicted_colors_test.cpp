@@ -2,6 +2,7 @@
 // settings, on surfaces without bumps, with tangents that are none, where the clipper cuts, where
 // floats end.
 #include "compare/driver/lighting/lighting_arithmetic.h"
+#include "reference/shade/added_shader.h"
 #include "tests/compare/color/judged_colors.h"
 #include "tests/scenes/over_scenes.h"
 
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -168,7 +171,7 @@ TracedScene stretched(const std::string& name, float by) {
 /// The clipper makes corners from the triangle's, whose sizes decide how far the new ones are off:
 /// a value interpolated between them is then that of a place beside the pixel. Each draw finds the
 /// edge of a spot light's cone by such values itself, so that some pixels have light where the
-/// claim has none.
+/// claim has none: what is right a little aside.
 TEST(Colors, of_triangles_that_the_clipper_cuts_are_predicted) {
     Gpu gpu(GlPlatform::osmesa);
     for (const char* name : {"coarse_curve", "bumpy_torus"})
@@ -180,8 +183,42 @@ TEST(Colors, of_triangles_that_the_clipper_cuts_are_predicted) {
                 const ColorCheck colors = checked_colors(scene, frame);
                 EXPECT_EQ(colors.unpredicted, 0U)
                     << "first " << colors.first_unpredicted_x << "," << colors.first_unpredicted_y;
+                if (is_exact(frame.color_model, scene.scene)) {
+                    EXPECT_EQ(colors.beyond, 0U);
+                }
             }
         }
+}
+
+/// That is so at the cone's edge alone: light where a claim without a counter is dark inside of it
+/// is unexplained.
+TEST(Colors, that_are_lit_where_the_claim_is_dark_inside_a_cone_are_unexplained) {
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene& scene = traced("coarse_curve", 160);
+    Frame frame = render(*find_technique("bump_eye_space"), scene.scene, scene.plan, gpu);
+    frame.counted.reset();
+    std::vector<SeenPoint> lit;
+    std::vector<std::size_t> dark;
+    for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i) {
+        const std::uint32_t triangle = frame.triangle.pixels[i];
+        if (frame.claim.pixels[i] != Visibility::shadowed || scene.truth.in_cone.pixels[i] == 0 ||
+            triangle == no_triangle || !sides_of(scene.tracer, triangle).faces_light())
+            continue;
+        const auto x = static_cast<double>(i % 160);
+        const auto y = static_cast<double>(i / 160);
+        dark.push_back(i);
+        lit.push_back({ray_direction(scene.scene.camera, x + 0.5, y + 0.5), triangle, true});
+    }
+    std::vector<Shading> shadings(lit.size());
+    AddedShader(scene.tracer, {}).shade(lit, shadings);
+    std::uint64_t brighter = 0;
+    for (std::size_t k = 0; k < dark.size(); ++k) {
+        if (glm::length(shadings[k].added_color()) < 0.01) continue;
+        frame.color.pixels[dark[k]] = shadings[k].color();
+        ++brighter;
+    }
+    EXPECT_GT(brighter, 100U);
+    EXPECT_EQ(checked_colors(scene, frame).unpredicted, brighter);
 }
 
 /// Where the clipper's errors are small, they excuse little: of the rest the texels explain, of
