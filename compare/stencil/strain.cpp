@@ -1,6 +1,7 @@
 #include "compare/stencil/strain.h"
 
 #include "compare/driver/error_bounds.h"
+#include "compare/judge/depends_on_shadow.h"
 #include "compare/judge/normal_distribution.h"
 #include "reference/parallel.h"
 #include "reference/trace/places.h"
@@ -24,21 +25,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Standard deviation of a sum of so many roundings for each of two faces, over its bound.
 double deviation_share(int roundings) {
-    return 0.5 / std::sqrt(3.0 * 2 * roundings);
+    return deviation_of_rounding / std::sqrt(2.0 * roundings);
 }
 
 /// Of a pixel, below which it is left out: those of 4096x4096 pixels add up to less than 0.017, and
 /// a technique is derived to break from log 2 on.
 constexpr double least_chance = 1e-9;
-
-/// A pixel whose claim depends on its counter.
-bool depends_on_counter(const CountedClaim& judged, PixelPlace p) {
-    const std::uint32_t triangle = judged.truth().triangle.at(p.x, p.y);
-    if (triangle == no_triangle || judged.receives[triangle] == 0) return false;
-    const Image<std::uint8_t>& cones = judged.truth().in_cone;
-    if (!cones.pixels.empty() && cones.at(p.x, p.y) == 0) return false;
-    return sides_of(judged.tracer(), triangle).faces_light();
-}
 
 /// The chance that a surface, off by a normal error along its ray, has another claim there: at all
 /// places where the shadow depth is 0 and should not be, or the other way round. The surface's own
@@ -116,7 +108,7 @@ std::vector<Strained> strained_pixels(const CountedClaim& judged) {
         std::vector<Crossing> crossings;
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
-                if (!depends_on_counter(judged, {x, y})) continue;
+                if (!depends_on_shadow(judged.traced, {x, y})) continue;
                 const Strained pixel = strained_at(judged, {x, y}, ledger, crossings);
                 if (pixel.chance > least_chance)
                     by_region[static_cast<std::size_t>(region)].push_back(pixel);

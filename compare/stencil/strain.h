@@ -12,11 +12,9 @@ namespace shadowproof {
 /// truth. Pixels whose truth changes within the driver's lateral error do not count: there either
 /// answer is right.
 ///
-/// N roundings, each of anything up to e, add up to N e at most (depth_error), and to sqrt(N / 3) e
-/// by standard deviation; half of that, since the largest error that rounding to float may have,
-/// relative to a number, is twice the smallest. Those of window depth and of the transform are
-/// independent: their squares add up. How the planes of faces are set up is not part of
-/// it: that depends on single faces.
+/// How far off depths are is reckoned by standard deviation (compare/judge/normal_distribution.h).
+/// Those of window depth and of the transform are independent: their squares add up. How the planes
+/// of faces are set up is not part of it: that depends on single faces.
 double strain(const CountedClaim& judged);
 
 } // namespace shadowproof

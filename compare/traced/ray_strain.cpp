@@ -1,5 +1,6 @@
 #include "compare/traced/ray_strain.h"
 
+#include "compare/judge/depends_on_shadow.h"
 #include "compare/judge/normal_distribution.h"
 #include "reference/parallel.h"
 #include "scenes/camera.h"
@@ -24,7 +25,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Standard deviation of one rounding, of a number of size 1.
-const double of_rounding = 0.5 * float_roundoff / std::sqrt(3.0);
+const double of_rounding = deviation_of_rounding * float_roundoff;
 
 /// A lit or shadowed point whose answer depends on a shadow ray.
 struct StartingPoint {
@@ -41,12 +42,9 @@ struct StartingPoint {
 std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace p) {
     const Scene& scene = claim.scene();
     const GroundTruth& truth = claim.traced.truth();
-    StartingPoint start{.place = p, .seen = truth.triangle.at(p.x, p.y)};
-    if (start.seen == no_triangle || !receives_shadows(claim.tracer(), start.seen) ||
-        !faces_light(claim.tracer(), start.seen))
-        return std::nullopt;
+    if (!depends_on_shadow(claim.traced, p)) return std::nullopt;
     if (truth.exactness.at(p.x, p.y) == Exactness::degenerate) return std::nullopt;
-    if (!truth.in_cone.pixels.empty() && truth.in_cone.at(p.x, p.y) == 0) return std::nullopt;
+    StartingPoint start{.place = p, .seen = truth.triangle.at(p.x, p.y)};
     start.lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
     start.direction = ray_direction(scene.camera, p.x + 0.5, p.y + 0.5);
     start.at = scene.camera.eye + truth.depth.at(p.x, p.y) * start.direction;

@@ -14,11 +14,10 @@ namespace shadowproof {
 /// The point that is met is off along its normal by what rounds its distance and its coordinates,
 /// and sideways by what rounds the eye ray as well. A ray that so starts below its surface meets
 /// that, unless it is nearer than the model's distance; one that starts beside the point may have
-/// another truth. N roundings, each of anything up to e, add up to sqrt(N / 3) e by standard
-/// deviation; half of that, since the largest error that rounding to float may have, relative to a
-/// number, is twice the smallest. How Embree rounds at the edges of triangles is not part of it,
-/// nor what lies beyond a silhouette; and where the model skips the point's own triangle, another
-/// is taken to follow at each of its edges.
+/// another truth. How far off it is is reckoned by standard deviation
+/// (compare/judge/normal_distribution.h). How Embree rounds at the edges of triangles is not part
+/// of it, nor what lies beyond a silhouette; and where the model skips the point's own triangle,
+/// another is taken to follow at each of its edges.
 double strain(const TracedClaim& claim);
 
 } // namespace shadowproof

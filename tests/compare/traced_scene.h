@@ -5,12 +5,21 @@
 #include "compare/families.h"
 #include "raster/render.h"
 #include "reference/predict/prediction.h"
+#include "scenes/load/catalog.h"
 #include "scenes/plan/plan.h"
 
+#include <string>
 #include <string_view>
 #include <utility>
 
 namespace shadowproof::tests {
+
+/// A bundled scene, seen in a square picture of so many pixels a side.
+inline Scene square_scene(const std::string& name, int side) {
+    SceneRequest request;
+    request.width = request.height = side;
+    return load_scene(name, request);
+}
 
 struct TracedScene {
     Scene scene;

@@ -1,10 +1,6 @@
 // How near techniques are to failing, worked out without looking at what they drew.
-#include "compare/families.h"
-#include "raster/render.h"
-#include "raster/technique.h"
-#include "scenes/load/catalog.h"
-#include "scenes/plan/plan.h"
 #include "scenes/stress/parameter.h"
+#include "tests/compare/traced_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -14,18 +10,16 @@
 namespace shadowproof {
 namespace {
 
+using tests::TracedScene;
+
 Scene small(const char* name) {
-    Scene scene = load_scene(name, {});
-    scene.camera.width = scene.camera.height = 160;
-    return scene;
+    return tests::square_scene(name, 160);
 }
 
 double strain_of(Gpu& gpu, const Scene& scene, const char* technique) {
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const TracedScene traced(tracer, truth);
-    const Frame frame = render(*find_technique(technique), scene, make_plan(scene), gpu);
-    return judge_of(traced, frame)->strain().value();
+    const TracedScene traced(scene);
+    const Frame frame = render(*find_technique(technique), traced.scene, traced.plan, gpu);
+    return judge_of(traced.traced, frame)->strain().value();
 }
 
 TEST(Strain, of_fixed_point_depths_grows_as_the_near_plane_comes_nearer_and_of_reversed_not) {
@@ -59,28 +53,23 @@ TEST(Strain, comes_from_no_face_that_is_drawn_with_the_same_depths) {
 
 TEST(Strain, is_the_same_whatever_was_drawn) {
     Gpu gpu(GlPlatform::osmesa);
-    const Scene scene = stressed(small("ordinary"), {"near_plane", 1e-3});
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const TracedScene traced(tracer, truth);
-    Frame frame = render(*find_technique("zfail"), scene, make_plan(scene), gpu);
-    const double drawn = judge_of(traced, frame)->strain().value();
+    const TracedScene traced(stressed(small("ordinary"), {"near_plane", 1e-3}));
+    Frame frame = render(*find_technique("zfail"), traced.scene, traced.plan, gpu);
+    const double drawn = judge_of(traced.traced, frame)->strain().value();
     EXPECT_GT(drawn, 0);
     std::ranges::fill(frame.counted->counter.pixels, 7U);
     std::ranges::fill(frame.claim.pixels, Visibility::lit);
     std::ranges::fill(frame.depth.pixels, 0.5F);
     std::ranges::fill(frame.triangle.pixels, 0U);
-    EXPECT_EQ(judge_of(traced, frame)->strain().value(), drawn);
+    EXPECT_EQ(judge_of(traced.traced, frame)->strain().value(), drawn);
 }
 
 TEST(Strain, of_maps_nothing_is_derived) {
     Gpu gpu(GlPlatform::osmesa);
-    const Scene scene = small("ordinary");
-    const Tracer tracer(scene);
-    const GroundTruth truth = trace(tracer);
-    const TracedScene traced(tracer, truth);
-    const Frame frame = render(*find_technique("cube_map_six_pass"), scene, make_plan(scene), gpu);
-    EXPECT_FALSE(judge_of(traced, frame)->strain());
+    const TracedScene traced(small("ordinary"));
+    const Frame frame =
+        render(*find_technique("cube_map_six_pass"), traced.scene, traced.plan, gpu);
+    EXPECT_FALSE(judge_of(traced.traced, frame)->strain());
 }
 
 } // namespace

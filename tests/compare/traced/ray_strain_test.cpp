@@ -1,11 +1,7 @@
 // How near traced techniques are to failing, worked out without looking at what they traced: as
 // many pixels are wrong as are expected, and none where floats suffice.
-#include "compare/families.h"
-#include "raster/render.h"
-#include "raster/technique.h"
-#include "scenes/load/catalog.h"
-#include "scenes/plan/plan.h"
 #include "scenes/stress/parameter.h"
+#include "tests/compare/traced_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -13,40 +9,34 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace shadowproof {
 namespace {
 
-Scene small(const char* name) {
-    Scene scene = load_scene(name, {});
-    scene.camera.width = scene.camera.height = 160;
-    return scene;
+Scene small(const std::string& name) {
+    return tests::square_scene(name, 160);
 }
 
 /// A technique's picture of a scene, and its judge.
 struct Rays {
-    Scene scene;
-    Tracer tracer{scene};
-    GroundTruth truth = trace(tracer);
-    TracedScene traced{tracer, truth};
+    tests::TracedScene traced;
     Frame frame;
 
-    Rays(Gpu& gpu, Scene given, const char* technique, const RaySettings& settings = {})
-        : scene(std::move(given)) {
-        Plan plan = make_plan(scene);
-        plan.asked.rays = settings;
-        frame = render(*find_technique(technique), scene, plan, gpu);
+    Rays(Gpu& gpu, Scene scene, const char* technique, const RaySettings& settings = {})
+        : traced(std::move(scene)) {
+        traced.plan.asked.rays = settings;
+        frame = render(*find_technique(technique), traced.scene, traced.plan, gpu);
     }
-    Rays(const Rays&) = delete;
 
     /// Pixels.
     double expected() const {
-        return judge_of(traced, frame)->strain().value() * std::numbers::ln2;
+        return judge_of(traced.traced, frame)->strain().value() * std::numbers::ln2;
     }
     double wrong() const {
         double count = 0;
         for (std::size_t i = 0; i < frame.claim.pixels.size(); ++i)
-            count += frame.claim.pixels[i] != truth.visibility.pixels[i] ? 1 : 0;
+            count += frame.claim.pixels[i] != traced.truth.visibility.pixels[i] ? 1 : 0;
         return count;
     }
 };
@@ -90,7 +80,7 @@ TEST(RayStrain, is_next_to_none_where_floats_suffice) {
     for (const BundledScene& entry : bundled_scenes()) {
         const std::string name(entry.name);
         for (const char* technique : {"traced_epsilon", "traced_offset", "traced_skip"}) {
-            const Rays rays(gpu, small(name.c_str()), technique);
+            const Rays rays(gpu, small(name), technique);
             if (rays.wrong() > 0) continue;
             ++right;
             EXPECT_LT(rays.expected(), std::numbers::ln2) << name << ", " << technique;
