@@ -68,6 +68,10 @@ void require_picture(const Frame& frame, const Scene& scene, std::string_view te
     if (const Light* light = unsuited_light(technique, scene))
         throw Error(file, "has a light that is not one for " + name + ": " + light->choice,
                     "leave the technique out; it needs " + std::string(technique.needs));
+    if (scene.camera.is_orthographic() && !technique.sees_in_parallel)
+        throw Error(file,
+                    "has an orthographic camera, and " + name + " draws from perspective ones",
+                    "leave the technique out, or choose another camera with --camera");
     if (!is_bump_lit(scene))
         throw Error(file, "has no bump map, and " + name + " is for those that do",
                     "leave the technique out, or give a material a normalTexture");

@@ -41,6 +41,7 @@ struct Technique {
     /// The numbers in which it tells apart the depths of volumes and surfaces; null: it counts no
     /// volumes.
     DepthModel (*depth_model)(const Scene& scene) = nullptr;
+    bool sees_in_parallel = false;        ///< it draws what orthographic cameras see, too
     bool squares_thrice = false;          ///< its highlights have the exponent 8 alone
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
     /// The flags that affect it, but not all techniques; without their dashes.
@@ -75,6 +76,7 @@ inline const Light* unsuited_light(const Technique& technique, const Scene& scen
 /// Whether a technique can draw such a scene.
 inline bool can_draw(const Technique& technique, const Scene& scene) {
     if (unsuited_light(technique, scene) != nullptr) return false;
+    if (scene.camera.is_orthographic() && !technique.sees_in_parallel) return false;
     if (!technique.needs_bump_maps) return true;
     return is_bump_lit(scene) && technique.needs_environment == scene.environment.has_value() &&
            !(technique.squares_thrice && scene.highlight.exponent() != 8);

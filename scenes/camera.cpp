@@ -4,26 +4,35 @@
 
 namespace shadowproof {
 
+glm::dvec4 homogeneous_eye(const Camera& camera) {
+    return camera.is_orthographic() ? glm::dvec4(-camera.forward, 0) : glm::dvec4(camera.eye, 1);
+}
+
 glm::dvec2 half_extent(const Camera& camera) {
-    return {camera.tan_half_height * camera.width / camera.height, camera.tan_half_height};
+    return {camera.half_height * camera.width / camera.height, camera.half_height};
 }
 
-glm::dvec3 ray_column(const Camera& camera, double x) {
-    return camera.forward + half_extent(camera).x * (2 * x / camera.width - 1) * camera.right;
+glm::dvec3 sight_column(const Camera& camera, double x) {
+    const glm::dvec3& centre = camera.is_orthographic() ? camera.eye : camera.forward;
+    return centre + half_extent(camera).x * (2 * x / camera.width - 1) * camera.right;
 }
 
-glm::dvec3 ray_row(const Camera& camera, double y) {
+glm::dvec3 sight_row(const Camera& camera, double y) {
     return half_extent(camera).y * (1 - 2 * y / camera.height) * camera.up;
 }
 
-glm::dvec3 ray_direction(const Camera& camera, double x, double y) {
-    return ray_column(camera, x) + ray_row(camera, y);
+glm::dvec3 line_of_sight(const Camera& camera, double x, double y) {
+    return sight_column(camera, x) + sight_row(camera, y);
 }
 
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera, double left, double top, double right,
-                                      double bottom) {
-    return {ray_direction(camera, left, top), ray_direction(camera, right, top),
-            ray_direction(camera, right, bottom), ray_direction(camera, left, bottom)};
+std::array<glm::dvec3, 4> corner_lines(const Camera& camera, double left, double top, double right,
+                                       double bottom) {
+    return {line_of_sight(camera, left, top), line_of_sight(camera, right, top),
+            line_of_sight(camera, right, bottom), line_of_sight(camera, left, bottom)};
+}
+
+glm::dvec3 way_to_eye(const Camera& camera, const glm::dvec3& point) {
+    return camera.is_orthographic() ? -camera.forward : glm::normalize(camera.eye - point);
 }
 
 double view_depth(const Camera& camera, const glm::dvec3& point) {
@@ -32,10 +41,14 @@ double view_depth(const Camera& camera, const glm::dvec3& point) {
 
 glm::dvec2 project(const Camera& camera, const glm::dvec3& point) {
     const glm::dvec3 relative = point - camera.eye;
-    const double depth = glm::dot(relative, camera.forward);
+    const double depth = camera.is_orthographic() ? 1 : glm::dot(relative, camera.forward);
     const glm::dvec2 half = half_extent(camera);
     return {(glm::dot(relative, camera.right) / (depth * half.x) + 1) * 0.5 * camera.width,
             (1 - glm::dot(relative, camera.up) / (depth * half.y)) * 0.5 * camera.height};
+}
+
+double pixels_of_length(const Camera& camera, double depth) {
+    return 0.5 * camera.height / (camera.half_height * (camera.is_orthographic() ? 1 : depth));
 }
 
 glm::dmat3 view_from_eye_relative(const Camera& camera) {

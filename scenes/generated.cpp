@@ -88,7 +88,7 @@ void finish(Scene& scene, const char* mesh, const glm::dvec3& eye, const glm::dv
     scene.materials.emplace_back();
     scene.meshes = {{mesh, 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
     scene.camera.eye = eye;
-    scene.camera.tan_half_height = 0.6;
+    scene.camera.half_height = 0.6;
     scene.lights.emplace_back();
     scene.lights[0].position = light;
 }

@@ -26,7 +26,8 @@ bool scales_exactly(const Scene& scene, int power) {
     const auto exactly = [&](const auto& v) { return scales_exactly_by_components(v, power); };
     const Camera& camera = scene.camera;
     const bool far = std::isinf(camera.far) || scales_exactly(camera.far, power);
-    return far && exactly(camera.eye) && scales_exactly(camera.near, power) &&
+    const bool height = !camera.is_orthographic() || scales_exactly(camera.half_height, power);
+    return far && height && exactly(camera.eye) && scales_exactly(camera.near, power) &&
            std::all_of(scene.positions.begin(), scene.positions.end(), exactly) &&
            std::all_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
                return exactly(light.position) &&
@@ -41,6 +42,7 @@ void scale(Scene& scene, double factor) {
     scene.camera.eye *= factor;
     scene.camera.near *= factor;
     scene.camera.far *= factor;
+    if (scene.camera.is_orthographic()) scene.camera.half_height *= factor;
     for (Light& light : scene.lights) {
         light.position *= factor;
         light.range *= factor;

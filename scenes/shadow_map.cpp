@@ -140,7 +140,7 @@ Camera map_camera(const Light& light, const MapModel& model, std::size_t face) {
         camera.right = axes.s;
         camera.up = axes.t;
         camera.forward = axes.major;
-        camera.tan_half_height = 1;
+        camera.half_height = 1;
         return camera;
     }
     const auto [right, up, forward] = axes_along(light.direction);
@@ -149,9 +149,9 @@ Camera map_camera(const Light& light, const MapModel& model, std::size_t face) {
     camera.forward = forward;
     if (model.shape == MapModel::Shape::sun) {
         camera.eye = model.eye;
-        camera.tan_half_height = model.half_side;
+        camera.half_height = model.half_side;
     } else {
-        camera.tan_half_height = half_side_of_spot(light);
+        camera.half_height = half_side_of_spot(light);
     }
     return camera;
 }

@@ -43,7 +43,7 @@ inline constexpr double customary_epsilon = 1e-3;
 /// The rays of one pixel.
 struct TracedPixel {
     static constexpr std::uint32_t none = 0xffffffffU; ///< no triangle
-    glm::vec3 direction{0, 0, 0};                      ///< of the eye ray
+    glm::vec3 line{0, 0, 0};                           ///< of sight (camera.h), in float
     std::uint32_t seen = none;                         ///< the triangle that it met first
     float depth = 0;                                   ///< where: its t
     FloatRay shadow{};
@@ -54,10 +54,16 @@ struct TracedPixel {
 
 struct TracedRays {
     RayModel model{};
-    glm::vec3 eye{0, 0, 0}; ///< the origin of all eye rays
-    float near = 0;         ///< their limits
+    bool is_parallel = false;   ///< eye rays share their direction, otherwise their origin:
+    glm::vec3 eye{0, 0, 0};     ///< this
+    glm::vec3 forward{0, 0, 0}; ///< or this
+    float near = 0;             ///< their limits
     float far = 0;
     Image<TracedPixel> pixels;
+
+    FloatRay eye_ray(const glm::vec3& line) const {
+        return {is_parallel ? line : eye, is_parallel ? forward : line, near, far};
+    }
 };
 
 } // namespace shadowproof

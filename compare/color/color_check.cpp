@@ -62,7 +62,7 @@ struct TruePicture {
     std::vector<SeenPoint> seen(int x, int y) const {
         std::vector<SeenPoint> points;
         const auto add = [&](const GroundTruth& under) {
-            points.push_back({ray_direction(camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
+            points.push_back({line_of_sight(camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
                               under.visibility.at(x, y) == Visibility::lit});
         };
         for (const auto& light : before) add(light->truth);

@@ -91,7 +91,7 @@ bool ColorJudge::is_as_true(int x, int y) const {
 }
 
 glm::dvec3 ColorJudge::direction(int x, int y, const glm::dvec2& beside) const {
-    return ray_direction(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y);
+    return line_of_sight(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y);
 }
 
 void ColorJudge::append_points(int x, int y, std::vector<SeenPoint>& points) const {

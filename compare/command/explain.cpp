@@ -131,14 +131,12 @@ std::string cause_words(const TechniqueAtPixel& technique) {
 }
 
 std::string ray_text(const Scene& scene, const PixelRecord& record) {
-    const glm::dvec3& eye = scene.camera.eye;
-    std::string text = fmt::format("  ray       from {} along {}\n", vector_words(eye),
+    std::string text = fmt::format("  ray       from {} along {}\n", vector_words(record.start),
                                    vector_words(record.direction));
     const bool seen = record.seen != no_triangle;
-    text += seen ? fmt::format("  sees      {} at {}, depth {:.9g}\n",
-                               triangle_words(scene, record.seen),
-                               vector_words(eye + record.ledger.surface * record.direction),
-                               record.ledger.surface)
+    text += seen ? fmt::format(
+                       "  sees      {} at {}, depth {:.9g}\n", triangle_words(scene, record.seen),
+                       vector_words(record.start + record.depth * record.direction), record.depth)
                  : "  sees      background\n";
     const Light& light = chosen_light(scene);
     const bool directional = light.kind == Light::Kind::directional;
@@ -160,20 +158,22 @@ std::string ray_text(const Scene& scene, const PixelRecord& record) {
     return text;
 }
 
+/// Empty where no volumes are counted.
 std::string ledger_text(const Scene& scene, const PixelRecord& record) {
-    const RayCounts& counts = record.ledger.counts;
+    if (!record.ledger) return {};
+    const RayCounts& counts = record.ledger->counts;
     std::string text = "  shadow volumes along the ray, by depth\n";
     text += fmt::format("    {:>14}  {:>6}  inside\n", "depth", "change");
     std::int32_t inside = counts.at_eye;
     text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "eye", "", inside);
-    for (const Crossing& crossing : record.ledger.crossings) {
+    for (const Crossing& crossing : record.ledger->crossings) {
         inside += crossing.change;
         text +=
             fmt::format("    {:>14.9g}  {:>+6}  {:>6}  {} of {}\n", crossing.depth, crossing.change,
                         inside, name_of(crossing.part), triangle_words(scene, crossing.triangle));
     }
     text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "infinity", "", counts.at_infinity);
-    if (!record.ledger.adds_up)
+    if (!record.ledger->adds_up)
         text +=
             "    the depths are rounded, and rounding moved a crossing: the sums differ from the "
             "exact counts\n";

@@ -39,7 +39,7 @@ Scene stated_picture() {
     Scene scene;
     scene.camera.near = 0.1;
     scene.camera.far = 100;
-    scene.camera.tan_half_height = std::tan(glm::radians(30.0));
+    scene.camera.half_height = std::tan(glm::radians(30.0));
     scene.lights.emplace_back();
     return scene;
 }

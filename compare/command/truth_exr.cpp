@@ -76,9 +76,9 @@ Pixel pixel_of(const Scene& scene, const GroundTruth& truth, int x, int y) {
     pixel.visibility = static_cast<float>(static_cast<double>(truth.visibility.at(x, y)) / 255.0);
     pixel.exactness = static_cast<float>(truth.exactness.at(x, y));
     if (pixel.triangle == no_triangle) return pixel;
-    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
-    const glm::dvec3 position = scene.unit * (scene.camera.eye + truth.depth.at(x, y) * direction);
-    const glm::dvec3 normal = seen_normal(scene, pixel.triangle, direction);
+    const glm::dvec3 line = line_of_sight(scene.camera, x + 0.5, y + 0.5);
+    const glm::dvec3 position = scene.unit * point_on(scene.camera, line, truth.depth.at(x, y));
+    const glm::dvec3 normal = seen_normal(scene, pixel.triangle, direction_of(scene.camera, line));
     for (int k = 0; k < 3; ++k) {
         pixel.position[k] = static_cast<float>(position[k]);
         pixel.normal[k] = static_cast<float>(normal[k]);

@@ -67,7 +67,7 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, double standar
                        .weights = corner.weights};
     const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
                                     double(camera.width), double(camera.height)});
-    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double scale = 0.5 * camera.height / camera.half_height;
     const double depth_error = corner.error.z / at.z;
     point.place_error = std::max(corner.error.x, corner.error.y) / at.z * scale +
                         depth_error * pixels + 3 * v * pixels;

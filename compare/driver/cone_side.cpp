@@ -19,12 +19,12 @@ ConeSides cone_sides(const Scene& scene, const DepthModel& model, double far,
                      std::uint32_t triangle, int x, int y) {
     const Light& light = chosen_light(scene);
     if (light.kind != Light::Kind::spot) return {};
-    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
-    const double depth = depth_on_triangle(scene, triangle, direction);
+    const glm::dvec3 line = line_of_sight(scene.camera, x + 0.5, y + 0.5);
+    const double depth = depth_on_triangle(scene, triangle, line);
     if (!(depth > 0)) return {true, true}; // its plane is not met: it is drawn aside
-    const glm::dvec3 point = scene.camera.eye + depth * direction;
+    const glm::dvec3 point = point_on(scene.camera, line, depth);
     const double clips_at = model.clips_at_far() ? far : std::numeric_limits<double>::infinity();
-    const CoveredPixel pixel{direction, lateral_error(scene, model, point),
+    const CoveredPixel pixel{line, lateral_error(scene, model, point),
                              drawing_of(scene, model, clips_at)};
     const glm::dvec3 from_light = point - light.position;
     const double error =

@@ -44,7 +44,7 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
     const Camera& camera = scene.camera;
     const double half_step = half_snapping_step(depth_model.subpixel_bits);
     const double pixels = std::max(camera.width, camera.height);
-    const double scale = 0.5 * camera.height / camera.tan_half_height;
+    const double scale = 0.5 * camera.height / camera.half_height;
     double terms = 0;
     for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
         terms = std::max(terms, position_terms(scene, depth_model, axis, point) +

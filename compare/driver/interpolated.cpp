@@ -60,9 +60,10 @@ auto at_corners(const Of& of) {
 
 } // namespace
 
-glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
+glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line) {
+    const glm::dvec3& direction = direction_of(scene.camera, line);
     const glm::dvec3 first = corner(scene, triangle, 0);
-    const glm::dvec3 a = first - scene.camera.eye;
+    const glm::dvec3 a = first - start_of(scene.camera, line);
     const glm::dvec3 e = corner(scene, triangle, 1) - first;
     const glm::dvec3 f = corner(scene, triangle, 2) - first;
     const double all = glm::dot(direction, glm::cross(e, f));

@@ -18,10 +18,10 @@ DriverMaskErrors::DriverMaskErrors(const Scene& scene, const DepthModel& depth_m
     : scene_(scene), depth_model_(depth_model), drawing_(drawing) {}
 
 // What lies aside is told by the rays of the pixel's neighbourhood.
-MaskError DriverMaskErrors::at(std::uint32_t triangle, const glm::dvec3& direction) const {
-    const double depth = depth_on_triangle(scene_, triangle, direction);
-    const double reach = lateral_error(scene_, depth_model_, scene_.camera.eye + depth * direction);
-    const double share = attribute_error(scene_, triangle, {direction, reach, drawing_});
+MaskError DriverMaskErrors::at(std::uint32_t triangle, const glm::dvec3& line) const {
+    const double depth = depth_on_triangle(scene_, triangle, line);
+    const double reach = lateral_error(scene_, depth_model_, point_on(scene_.camera, line, depth));
+    const double share = attribute_error(scene_, triangle, {line, reach, drawing_});
     glm::dvec2 largest(0);
     for (const glm::dvec2& corner : mask_coordinates(scene_, triangle))
         largest = glm::max(largest, glm::abs(corner));
@@ -33,8 +33,8 @@ bool may_stand(const Tracer& tracer, const Neighbourhood& around, const MaskErro
     const Tracer::State& state = tracer.state();
     if (!state.has_mask(triangle)) return true;
     const MaskedTriangle masked = state.masked(triangle);
-    return std::ranges::any_of(around.rays, [&](const glm::dvec3& direction) {
-        return may_stand_on_ray({state.eye, direction, {}}, masked, errors.at(triangle, direction),
+    return std::ranges::any_of(around.rays, [&](const glm::dvec3& line) {
+        return may_stand_on_ray(state.ray(line), masked, errors.at(triangle, line),
                                 MaskReading::most);
     });
 }

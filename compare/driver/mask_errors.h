@@ -23,7 +23,7 @@ inline constexpr double alpha_roundings = 6 * float_roundoff;
 class DriverMaskErrors final : public MaskErrors {
 public:
     DriverMaskErrors(const Scene& scene, const DepthModel& depth_model, const Drawing& drawing);
-    MaskError at(std::uint32_t triangle, const glm::dvec3& direction) const override;
+    MaskError at(std::uint32_t triangle, const glm::dvec3& line) const override;
 
 private:
     const Scene& scene_;

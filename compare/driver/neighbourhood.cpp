@@ -14,7 +14,7 @@ Neighbourhood neighbourhood(const Camera& camera, const glm::dvec2& centre,
     constexpr std::array<double, 5> steps{0, -1, 1, -0.5, 0.5};
     Neighbourhood around;
     const auto ray = [&](double right, double down) {
-        return ray_direction(camera, centre.x + right, centre.y + down);
+        return line_of_sight(camera, centre.x + right, centre.y + down);
     };
     const auto add = [&](double reach) {
         for (std::size_t i = 1; i < steps.size() * steps.size(); ++i)

@@ -54,7 +54,7 @@ DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Dr
 
 PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, int x, int y)
     : PlaneAtPixel(picture, triangle, plane_before_eye(picture.scene, triangle),
-                   ray_direction(picture.scene.camera, x + 0.5, y + 0.5)) {}
+                   line_of_sight(picture.scene.camera, x + 0.5, y + 0.5)) {}
 
 double PlaneAtPixel::slope() const {
     const Camera& camera = picture_.scene.camera;

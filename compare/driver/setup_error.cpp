@@ -278,7 +278,7 @@ double farthest_depth(const Scene& scene, std::uint32_t triangle, const glm::dve
     for (const double x : {-half, half})
         for (const double y : {-half, half})
             least = std::min(
-                least, glm::dot(ray_direction(scene.camera, middle.x + x, middle.y + y), across) /
+                least, glm::dot(line_of_sight(scene.camera, middle.x + x, middle.y + y), across) /
                            of_plane);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     return least > 0 && least < infinity ? 1 / least : infinity;

@@ -33,7 +33,7 @@ double change_between(double from, double to, const Predicate& holds) {
 // depths that suffice are one interval. The place is found by thirds.
 SufficientDepths sufficient_depths(const Scene& scene, const DepthModel& depth_model) {
     const Camera& camera = scene.camera;
-    const double width_of_pixel = 2 * camera.tan_half_height / camera.height;
+    const double width_of_pixel = 2 * camera.half_height / camera.height;
     const auto relative_error = [&](double t) {
         return depth_error(scene, depth_model, camera.eye + t * camera.forward) / t;
     };

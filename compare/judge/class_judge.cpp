@@ -18,7 +18,7 @@ std::vector<BandRadius> ClassJudge::radii(std::span<const PixelPlace> places) co
         const double depth =
             std::min(claim_.traced.truth().depth.at(p.x, p.y), claim_.traced.far());
         const glm::dvec3 point =
-            scene.camera.eye + depth * ray_direction(scene.camera, p.x + 0.5, p.y + 0.5);
+            point_on(scene.camera, line_of_sight(scene.camera, p.x + 0.5, p.y + 0.5), depth);
         const double error = lateral_error(scene, claim_.frame.depth_model, point);
         radii.push_back({error, error + footprint()});
     }

@@ -1,6 +1,7 @@
 #include "compare/judge/pixel_record.h"
 
 #include "reference/predict/ledger.h"
+#include "reference/trace/faces.h"
 #include "scenes/camera.h"
 
 #include <algorithm>
@@ -66,29 +67,40 @@ PixelRecord record_pixel(const TracedScene& traced, int x, int y) {
     PixelRecord record;
     record.x = x;
     record.y = y;
-    record.direction = ray_direction(tracer.scene().camera, x + 0.5, y + 0.5);
+    const Camera& camera = tracer.scene().camera;
+    const glm::dvec3 line = line_of_sight(camera, x + 0.5, y + 0.5);
+    record.start = start_of(camera, line);
+    record.direction = direction_of(camera, line);
     record.visibility = truth.visibility.at(x, y);
     record.exactness = truth.exactness.at(x, y);
     record.seen = truth.triangle.at(x, y);
     if (record.seen != no_triangle)
         record.faces_light = sides_of(tracer, record.seen).faces_light();
-    const RayTruth truth_again = trace_ray(tracer, record.direction);
+    const RayTruth truth_again = trace_ray(tracer, line);
     record.in_cone = truth_again.in_cone;
-    if (record.visibility == Visibility::shadowed)
-        record.occluder = occluder_of(tracer, record.direction);
+    if (record.visibility == Visibility::shadowed) record.occluder = occluder_of(tracer, line);
     if (has_masks(tracer.scene()))
-        record.let_through = count_let_through(tracer, record.direction, record.seen);
+        record.let_through = count_let_through(tracer, line, record.seen);
     record.far = traced.far();
-    record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
-    record.depth_margin = depth_margin(record.ledger, record.seen);
+    record.depth = record.seen == no_triangle
+                       ? std::numeric_limits<double>::infinity()
+                       : depth_on_triangle(tracer.scene(), record.seen, line);
+    if (!camera.is_orthographic()) {
+        record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
+        record.depth_margin = depth_margin(*record.ledger, record.seen);
+    }
     record.pixel_margin = pixel_margin(truth.visibility, x, y);
     return record;
 }
 
 PixelRecord in_units(PixelRecord record, double unit) {
     record.far *= unit;
-    record.ledger.surface *= unit;
-    for (Crossing& crossing : record.ledger.crossings) crossing.depth *= unit;
+    record.start *= unit;
+    record.depth *= unit;
+    if (record.ledger) {
+        record.ledger->surface *= unit;
+        for (Crossing& crossing : record.ledger->crossings) crossing.depth *= unit;
+    }
     if (record.depth_margin) *record.depth_margin *= unit;
     return record;
 }

@@ -13,16 +13,19 @@ namespace shadowproof {
 struct PixelRecord {
     int x = 0;
     int y = 0;
-    glm::dvec3 direction{0, 0, 0}; ///< of the eye ray; its parameter is view depth
+    glm::dvec3 start{0, 0, 0};     ///< of the eye ray
+    glm::dvec3 direction{0, 0, 0}; ///< its parameter is view depth
     Visibility visibility = Visibility::background;
     Exactness exactness = Exactness::filtered;
     std::uint32_t seen = no_triangle;
+    double depth = 0;                     ///< where it is seen; infinite where nothing is
     bool faces_light = false;             ///< the seen side faces the light
     bool in_cone = true;                  ///< false outside a spot light's cone
     std::uint32_t occluder = no_triangle; ///< if shadowed by a triangle: one in between
     double far = 0;                       ///< the finite far plane's depth
     std::int32_t let_through = 0;         ///< of the volumes at the surface, by holes in masks
-    PixelLedger ledger;
+    /// None where lines of sight are parallel: volumes are counted in perspective alone.
+    std::optional<PixelLedger> ledger;
     /// Distance in view depth from the surface to the nearest crossing other than its own light
     /// cap; none if either is missing.
     std::optional<double> depth_margin;

@@ -16,7 +16,7 @@ struct LightRay {
 LightRay ray_through(const LightView& light, std::size_t face, const glm::dvec2& place) {
     const Camera& camera = light.camera(face);
     if (light.model().shape != MapModel::Shape::sun)
-        return {camera.eye, ray_direction(camera, place.x, place.y)};
+        return {camera.eye, line_of_sight(camera, place.x, place.y)};
     const glm::dvec2 aside = (2.0 / light.model().size * place - 1.0) * light.model().half_side;
     return {camera.eye + aside.x * camera.right - aside.y * camera.up, camera.forward};
 }
@@ -47,7 +47,7 @@ glm::dvec2 footprint(const LightView& light, const Scene& scene, const Texel& te
 
 double width_at(const LightView& light, const Texel& texel, double depth) {
     const bool is_parallel = light.model().shape == MapModel::Shape::sun;
-    const double half = light.camera(texel.face).tan_half_height * (is_parallel ? 1 : depth);
+    const double half = light.camera(texel.face).half_height * (is_parallel ? 1 : depth);
     return 2 * half / light.model().size;
 }
 

@@ -14,8 +14,8 @@ MapCentres::MapCentres(const JudgedClaim& claim, const LightView& light)
     : claim_(claim), light_(light), receives_(receiving_triangles(claim.traced.scene())),
       asked_(light.model()) {
     const Camera& camera = claim.traced.scene().camera;
-    for (int x = 0; x < camera.width; ++x) columns_.push_back(ray_column(camera, x + 0.5));
-    for (int y = 0; y < camera.height; ++y) rows_.push_back(ray_row(camera, y + 0.5));
+    for (int x = 0; x < camera.width; ++x) columns_.push_back(sight_column(camera, x + 0.5));
+    for (int y = 0; y < camera.height; ++y) rows_.push_back(sight_row(camera, y + 0.5));
     for (std::uint32_t triangle = 0; triangle < receives_.size(); ++triangle)
         asks_.push_back(receives(triangle) &&
                         sides_of(claim.traced.tracer(), triangle).faces_light());

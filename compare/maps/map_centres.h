@@ -36,7 +36,7 @@ public:
     /// What the pixel's centre looks up; nothing where it asks no texel.
     std::optional<PixelLookup> lookup_at(PixelPlace p) const;
 
-    /// Of the pixel's centre (ray_direction).
+    /// Of the pixel's centre (line_of_sight).
     glm::dvec3 direction_at(PixelPlace p) const {
         return columns_[static_cast<std::size_t>(p.x)] + rows_[static_cast<std::size_t>(p.y)];
     }

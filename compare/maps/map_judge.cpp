@@ -140,7 +140,7 @@ private:
         const Camera& camera = scene.camera;
         const glm::dvec3 to_eye = camera.eye - light_.origin();
         const auto at = [&](double x, double y) {
-            const glm::dvec3 direction = ray_direction(camera, x, y);
+            const glm::dvec3 direction = line_of_sight(camera, x, y);
             const double depth = depth_on_triangle(scene, triangle, direction);
             return to_eye + (depth > 0 ? depth : claim_.traced.far()) * direction;
         };

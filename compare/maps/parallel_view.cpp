@@ -65,7 +65,7 @@ AnyRay ParallelView::ray_from(const glm::dvec3& origin, const LiftedLimits& lift
 
 AnyRay ParallelView::ray_at(double x, double y, const LiftedLimits& lifted) const {
     const Camera& from = camera(0);
-    const double half = from.tan_half_height;
+    const double half = from.half_height;
     return ray_from(from.eye + half * (2 * x / from.width - 1) * from.right +
                         half * (1 - 2 * y / from.height) * from.up,
                     lifted);
@@ -125,7 +125,7 @@ ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster
     const auto [a, b, c] = from_short_edge(corners(casters_, caster));
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double along = glm::dot(from.forward, normal);
-    const double side_of_texel = 2 * from.tan_half_height / from.width;
+    const double side_of_texel = 2 * from.half_height / from.width;
     return {glm::dot(a - ray_at(texel.x + 0.5, texel.y + 0.5).origin, normal) / along,
             side_of_texel *
                 (std::abs(glm::dot(from.right, normal)) + std::abs(glm::dot(from.up, normal))) /

@@ -58,8 +58,8 @@ PerspectiveView::PerspectiveView(const Scene& scene, const MapEvidence& map, int
         std::vector<glm::dvec3>& columns = columns_.emplace_back();
         std::vector<glm::dvec3>& rows = rows_.emplace_back();
         for (int i = 0; i < map.model.size; ++i) {
-            columns.push_back(ray_column(casters.camera, i + 0.5));
-            rows.push_back(ray_row(casters.camera, i + 0.5));
+            columns.push_back(sight_column(casters.camera, i + 0.5));
+            rows.push_back(sight_row(casters.camera, i + 0.5));
         }
     }
     caster_at_ = inverse_of(of_scene_, scene.triangles.size());
@@ -334,7 +334,7 @@ std::vector<PicturePoint> PerspectiveView::pictured(std::size_t face, std::uint3
 const CasterGrid& PerspectiveView::grid(std::size_t face) const {
     std::call_once(is_made_[face], [&] {
         const Scene& scene = faces_[face];
-        const double wide = 2 * scene.camera.tan_half_height;
+        const double wide = 2 * scene.camera.half_height;
         std::vector<CasterBox> boxes;
         for (std::uint32_t caster = 0; caster < scene.triangles.size(); ++caster) {
             std::array<glm::dvec3, 3> corners{};
@@ -372,7 +372,7 @@ const CasterGrid& PerspectiveView::grid(std::size_t face) const {
 bool PerspectiveView::clipping_may_draw(const Texel& texel, std::uint32_t caster,
                                         double reach) const {
     const Scene& scene = faces_[texel.face];
-    const double half = scene.camera.tan_half_height;
+    const double half = scene.camera.half_height;
     bool is_cut = false;
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3 at = corner(scene, caster, k) - scene.camera.eye;

@@ -23,8 +23,8 @@ constexpr double v = float_roundoff;
 ViewCorner clip_corner(const Camera& camera, const glm::dvec3& point) {
     const glm::dvec3 relative = point - camera.eye;
     const double depths = camera.far - camera.near;
-    const std::array<glm::dvec3, 3> rows{camera.right / camera.tan_half_height,
-                                         camera.up / camera.tan_half_height,
+    const std::array<glm::dvec3, 3> rows{camera.right / camera.half_height,
+                                         camera.up / camera.half_height,
                                          camera.forward * (2 / depths)};
     const glm::dvec3 constant(0, 0, (camera.far + camera.near) / depths);
     ViewCorner corner;

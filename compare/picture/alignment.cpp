@@ -23,18 +23,23 @@ namespace {
 using Label = std::uint32_t; ///< color_label
 
 /// A view beside the scene's: it shows at picture point (x, y) what the scene's camera, turned and
-/// zoomed, sees at (x, y) + shift.
+/// zoomed, sees at (x, y) + shift. Lines of sight that are all parallel are not turned: they stay
+/// in the scene's own direction, and move aside instead.
 struct View {
     glm::dvec2 shift{0, 0}; ///< pixels
-    double yaw = 0;         ///< radians, about the camera's up: to the left
-    double pitch = 0;       ///< about its right: upwards
+    double yaw = 0;         ///< radians, about the camera's up: to the left; parallel: half heights
+                            ///< of the picture
+    double pitch = 0;       ///< about its right: upwards; likewise
     double roll = 0;        ///< about the way it looks: counter-clockwise
-    double zoom = 1;        ///< by which the tangent of half the field of view grows
+    double zoom = 1;        ///< by which half the picture's height grows
 };
 
-/// The ray of a pixel's centre in another view, of view depth 1 in the scene's own.
-glm::dvec3 direction_in(const Camera& camera, const View& view, int x, int y) {
-    const glm::dvec3 own = ray_direction(camera, x + 0.5 + view.shift.x, y + 0.5 + view.shift.y);
+/// The line of sight of a pixel's centre in another view: of view depth 1 in the scene's own, or
+/// parallel to the scene's.
+glm::dvec3 line_in(const Camera& camera, const View& view, int x, int y) {
+    const bool is_parallel = camera.is_orthographic();
+    const glm::dvec3 line = line_of_sight(camera, x + 0.5 + view.shift.x, y + 0.5 + view.shift.y);
+    const glm::dvec3 own = is_parallel ? line - camera.eye : line;
     glm::dvec3 v(view.zoom * glm::dot(own, camera.right), view.zoom * glm::dot(own, camera.up), 1);
     const auto turn = [](double& a, double& b, double angle) {
         const double turned = std::cos(angle) * a - std::sin(angle) * b;
@@ -42,6 +47,11 @@ glm::dvec3 direction_in(const Camera& camera, const View& view, int x, int y) {
         a = turned;
     };
     turn(v.x, v.y, view.roll);
+    if (is_parallel) {
+        v.x -= view.yaw * camera.half_height;
+        v.y += view.pitch * camera.half_height;
+        return camera.eye + v.x * camera.right + v.y * camera.up;
+    }
     turn(v.z, v.y, view.pitch); // forward to up
     turn(v.x, v.z, view.yaw);   // right to forward, and forward to the left
     return (v.x * camera.right + v.y * camera.up) / v.z + camera.forward;
@@ -104,16 +114,16 @@ private:
         const GroundTruth& truth = traced_.truth();
         RayTruth seen{truth.visibility.at(x, y), truth.triangle.at(x, y), truth.depth.at(x, y)};
         seen.in_cone = in_cone(truth, truth.visibility.index(x, y));
-        return label_of(seen, ray_direction(camera_, x + 0.5, y + 0.5));
+        return label_of(seen, line_of_sight(camera_, x + 0.5, y + 0.5));
     }
 
-    Label label_of(RayTruth seen, const glm::dvec3& direction) const {
+    Label label_of(RayTruth seen, const glm::dvec3& line) const {
         if (shows_ == Shows::no_shadows && seen.triangle != no_triangle)
             seen.visibility =
                 sides_of(traced_.tracer(), seen.triangle).faces_light() && seen.in_cone
                     ? Visibility::lit
                     : Visibility::shadowed;
-        return color_label(scene_, seen, direction);
+        return color_label(scene_, seen, line);
     }
 
     glm::dvec3 color(int x, int y) const {
@@ -221,14 +231,12 @@ private:
     }
 
     std::vector<Label> labels_in(const View& view, std::span<const Spot> spots) const {
-        std::vector<glm::dvec3> directions;
-        directions.reserve(spots.size());
-        for (const Spot& spot : spots)
-            directions.push_back(direction_in(camera_, view, spot.x, spot.y));
-        const std::vector<RayTruth> seen = trace_rays(traced_.tracer(), directions);
+        std::vector<glm::dvec3> lines;
+        lines.reserve(spots.size());
+        for (const Spot& spot : spots) lines.push_back(line_in(camera_, view, spot.x, spot.y));
+        const std::vector<RayTruth> seen = trace_rays(traced_.tracer(), lines);
         std::vector<Label> labels;
-        for (std::size_t i = 0; i < seen.size(); ++i)
-            labels.push_back(label_of(seen[i], directions[i]));
+        for (std::size_t i = 0; i < seen.size(); ++i) labels.push_back(label_of(seen[i], lines[i]));
         return labels;
     }
 
@@ -301,7 +309,9 @@ private:
         const int step = std::max(1, std::max(camera_.width, camera_.height) / along_side);
         for (int y = step / 2; y < camera_.height; y += step)
             for (int x = step / 2; x < camera_.width; x += step) spots.push_back({x, y});
-        const double pixel = 2 * half_extent(camera_).y / camera_.height; // at depth 1
+        // At depth 1, or of half heights.
+        const double pixel =
+            (camera_.is_orthographic() ? 2 : 2 * half_extent(camera_).y) / camera_.height;
         View best;
         double least = scatter(best, spots);
         for (double turn = 0.064; turn > 0.25 * pixel;) {
@@ -335,6 +345,7 @@ private:
 
     /// Names what moves something in the picture by more than half a pixel.
     std::optional<std::string> words_of(const View& view, double pixel) const {
+        if (camera_.is_orthographic()) return words_of_parallel(view, pixel);
         const glm::dvec2 half = half_extent(camera_);
         const double border = std::max(half.x, half.y);
         std::string words;
@@ -353,6 +364,28 @@ private:
         add_turn(view.yaw, view.yaw, "its up axis");
         add_turn(view.pitch, view.pitch, "its right axis");
         add_turn(view.roll, view.roll * border, "the way it looks");
+        return words.empty() ? std::nullopt : std::optional(words);
+    }
+
+    std::optional<std::string> words_of_parallel(const View& view, double pixel) const {
+        const double height = 2 * camera_.half_height * scene_.unit;
+        const double border = std::max(1.0, static_cast<double>(camera_.width) / camera_.height);
+        std::string words;
+        const auto add = [&](double moved, const std::string& what) {
+            if (std::abs(moved) > 0.5 * pixel) words += (words.empty() ? "" : "; ") + what;
+        };
+        add((view.zoom - 1) * border, fmt::format("shows {:.5g} from top to bottom, the scene's "
+                                                  "camera {:.5g}",
+                                                  view.zoom * height, height));
+        const auto moved = [&](double by, const char* positive, const char* negative) {
+            return fmt::format("its camera is {:.5g} too far {}", std::abs(by) * 0.5 * height,
+                               by > 0 ? positive : negative);
+        };
+        add(view.yaw, moved(view.yaw, "to the left", "to the right"));
+        add(view.pitch, moved(view.pitch, "up", "down"));
+        add(view.roll * border, fmt::format("its camera is turned by {:.2f} degrees about the way "
+                                            "it looks",
+                                            glm::degrees(view.roll)));
         return words.empty() ? std::nullopt : std::optional(words);
     }
 };

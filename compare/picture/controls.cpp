@@ -87,7 +87,7 @@ void add_lost_triangle(const TracedScene& traced, const ShadowedPixels& shadowed
     const std::size_t pixel = shadowed.pixels[shadowed.pixels.size() / 2];
     const auto width = static_cast<std::size_t>(scene.camera.width);
     const std::uint32_t lost = occluder_of(
-        traced.tracer(), ray_direction(scene.camera, static_cast<double>(pixel % width) + 0.5,
+        traced.tracer(), line_of_sight(scene.camera, static_cast<double>(pixel % width) + 0.5,
                                        static_cast<double>(pixel / width) + 0.5));
     if (lost == no_triangle) return;
     controls.push_back(

@@ -245,6 +245,7 @@ Scene seen_from_light(const Scene& scene, LightSampling::Culled culled) {
     if (culled == LightSampling::Culled::front) // turned over, their backs are what is seen
         for (glm::uvec3& triangle : casters.triangles) std::swap(triangle.y, triangle.z);
     if (chosen_light(scene).kind == Light::Kind::directional) return casters;
+    casters.camera.projection = Projection::perspective;
     casters.camera.eye = chosen_light(scene).position;
     // Of the way to the surface, which is what directions are: what is closer to the light than
     // floats tell from it touches the light.

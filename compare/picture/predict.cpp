@@ -68,13 +68,13 @@ Predict truth_of(std::function<Scene()> make, int threads) {
             picture = trace(tracer).visibility;
             return;
         }
-        std::vector<glm::dvec3> directions;
-        directions.reserve(pixels);
+        std::vector<glm::dvec3> lines;
+        lines.reserve(pixels);
         for (const Patch& patch : patches)
             for_each_pixel(patch, [&](int x, int y) {
-                directions.push_back(ray_direction(scene.camera, x + 0.5, y + 0.5));
+                lines.push_back(line_of_sight(scene.camera, x + 0.5, y + 0.5));
             });
-        const std::vector<RayTruth> answers = trace_rays(tracer, directions);
+        const std::vector<RayTruth> answers = trace_rays(tracer, lines);
         auto answer = answers.begin();
         for (const Patch& patch : patches)
             for_each_pixel(patch, [&](int x, int y) { picture.at(x, y) = (answer++)->visibility; });
@@ -96,7 +96,7 @@ bool may_be_lit(const TracedScene& traced, std::size_t pixel) {
 
 glm::dvec3 seen_point(const TracedScene& traced, int x, int y) {
     const Camera& camera = traced.scene().camera;
-    return camera.eye + traced.truth().depth.at(x, y) * ray_direction(camera, x + 0.5, y + 0.5);
+    return point_on(camera, line_of_sight(camera, x + 0.5, y + 0.5), traced.truth().depth.at(x, y));
 }
 
 Scene cast_by(const Scene& scene, const std::function<bool(std::uint32_t)>& casts) {

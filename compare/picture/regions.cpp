@@ -53,7 +53,7 @@ std::string caster_of(const TracedScene& traced, const Spots& spots) {
     const std::size_t step = std::max<std::size_t>(1, spots.size() / most_asked);
     for (std::size_t i = 0; i < spots.size(); i += step) {
         const std::uint32_t occluder = occluder_of(
-            traced.tracer(), ray_direction(scene.camera, spots[i].x + 0.5, spots[i].y + 0.5));
+            traced.tracer(), line_of_sight(scene.camera, spots[i].x + 0.5, spots[i].y + 0.5));
         if (occluder != no_triangle) ++casters[mesh_of(scene, occluder)];
     }
     return most_frequent(casters, scene);

@@ -214,7 +214,7 @@ void try_moved_light(Trial& trial) {
     const Image<double>& depths = trial.truth().depth;
     const double depth =
         std::min(depths.at(depths.width / 2, depths.height / 2), trial.traced().far());
-    const glm::dvec3 point = scene.camera.eye + depth * scene.camera.forward;
+    const glm::dvec3 point = point_on(scene.camera, eye_line(scene.camera), depth);
     const bool directional = light.kind == Light::Kind::directional;
     const glm::dvec3 way = directional ? light.direction : point - light.position;
     if (!(glm::length(way) > 0)) return;

@@ -25,9 +25,9 @@ glm::dvec3 color_at(const Picture& picture, std::size_t pixel) {
     return {values[0], values[1], values[2]};
 }
 
-std::uint32_t color_label(const Scene& scene, const RayTruth& seen, const glm::dvec3& direction) {
+std::uint32_t color_label(const Scene& scene, const RayTruth& seen, const glm::dvec3& line) {
     if (seen.triangle == no_triangle) return 0;
-    const glm::dvec3 point = scene.camera.eye + seen.depth * direction;
+    const glm::dvec3 point = point_on(scene.camera, line, seen.depth);
     const auto group =
         static_cast<std::uint32_t>(angle_group(sine_to_light(scene, seen.triangle, point)));
     const std::uint32_t lit = seen.visibility == Visibility::lit ? 1 : 0;

@@ -26,7 +26,7 @@ glm::dvec3 color_at(const Picture& picture, std::size_t pixel);
 
 /// What decides a pixel's colour in a picture of plain surfaces: mesh, angle group and visibility,
 /// as one number; background is 0.
-std::uint32_t color_label(const Scene& scene, const RayTruth& seen, const glm::dvec3& direction);
+std::uint32_t color_label(const Scene& scene, const RayTruth& seen, const glm::dvec3& line);
 
 /// A label's pixels: the median of each channel.
 glm::dvec3 median_color(std::vector<glm::dvec3>& colors);

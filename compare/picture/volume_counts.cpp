@@ -73,12 +73,12 @@ struct VolumeCounts::State {
         const Scene& scene = traced.scene();
         const Camera& camera = scene.camera;
         RegionLedger ledger = made.volumes->ledger(
-            corner_rays(camera, patch.left, patch.top, patch.right, patch.bottom));
+            corner_lines(camera, patch.left, patch.top, patch.right, patch.bottom));
         std::vector<CrossedPixel> pixels;
         for_each_pixel(patch, [&](int x, int y) {
             const std::uint32_t seen = traced.truth().triangle.at(x, y);
             if (seen == no_triangle || !sides_of(traced.tracer(), seen).faces_light()) return;
-            const glm::dvec3 direction = ray_direction(camera, x + 0.5, y + 0.5);
+            const glm::dvec3 direction = line_of_sight(camera, x + 0.5, y + 0.5);
             CrossedPixel& pixel = pixels.emplace_back(
                 CrossedPixel{x, y, depth_on_triangle(scene, seen, direction), seen});
             ledger.crossings(direction, pixel.crossings);

@@ -29,12 +29,24 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
     return json;
 }
 
+/// How many volumes points of the ray are in; null where none are counted.
+Json inside_json(const PixelRecord& record) {
+    if (!record.ledger) return nullptr;
+    const RayCounts& counts = record.ledger->counts;
+    const bool seen = record.seen != no_triangle;
+    return {{"eye", counts.at_eye},
+            {"near", counts.at_near},
+            {"surface", seen ? Json(counts.at_surface) : Json(nullptr)},
+            {"far", counts.at_far},
+            {"infinity", counts.at_infinity},
+            {"let_through", record.let_through}};
+}
+
 } // namespace
 
 nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
                                const std::vector<TechniqueAtPixel>& techniques) {
     const Camera& camera = scene.camera;
-    const RayCounts& counts = record.ledger.counts;
     const bool seen = record.seen != no_triangle;
     Json json{{"schema", "shadowproof/pixel/1"},
               {"scene", scene.name},
@@ -42,7 +54,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
               {"y", record.y},
               {"width", camera.width},
               {"height", camera.height},
-              {"eye", vector_json(camera.eye)},
+              {"eye", vector_json(record.start)},
               {"direction", vector_json(record.direction)},
               {"near", camera.near},
               {"far", record.far},
@@ -54,27 +66,21 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
               {"margin",
                {{"depth", optional_json(record.depth_margin)},
                 {"pixels", optional_json(record.pixel_margin)}}},
-              {"inside",
-               {{"eye", counts.at_eye},
-                {"near", counts.at_near},
-                {"surface", seen ? Json(counts.at_surface) : Json(nullptr)},
-                {"far", counts.at_far},
-                {"infinity", counts.at_infinity},
-                {"let_through", record.let_through}}},
+              {"inside", inside_json(record)},
               {"crossings", Json::array()},
-              {"adds_up", record.ledger.adds_up},
+              {"adds_up", !record.ledger || record.ledger->adds_up},
               {"notes", scene.notes},
               {"techniques", Json::array()}};
     if (seen) {
-        const double depth = record.ledger.surface;
-        json["seen"]["depth"] = depth;
-        json["seen"]["point"] = vector_json(camera.eye + depth * record.direction);
+        json["seen"]["depth"] = record.depth;
+        json["seen"]["point"] = vector_json(record.start + record.depth * record.direction);
         json["seen"]["corners"] = corners_json(scene, record.seen);
         json["seen"]["faces_light"] = record.faces_light;
         if (chosen_light(scene).kind == Light::Kind::spot) json["seen"]["in_cone"] = record.in_cone;
     }
-    for (const Crossing& crossing : record.ledger.crossings)
-        json["crossings"].push_back(crossing_json(scene, crossing, {}));
+    if (record.ledger)
+        for (const Crossing& crossing : record.ledger->crossings)
+            json["crossings"].push_back(crossing_json(scene, crossing, {}));
     for (const TechniqueAtPixel& technique : techniques)
         json["techniques"].push_back(technique_json(scene, technique));
     return json;

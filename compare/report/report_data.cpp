@@ -49,7 +49,7 @@ std::string scene_script(const SceneResult& scene) {
                   {"right", vector_json(camera.right)},
                   {"up", vector_json(camera.up)},
                   {"forward", vector_json(camera.forward)},
-                  {"tan_half_height", camera.tan_half_height},
+                  {"half_height", camera.half_height},
                   {"near", camera.near}}},
                 {"far", scene.far},
                 {"light", light_json(scene.light)},

@@ -81,7 +81,7 @@ void find_words(const Inputs& in, Region& region) {
         most = {std::max(most.x, p.x), std::max(most.y, p.y)};
     }
     RegionLedger ledgers = in.prediction.volumes().ledger(
-        corner_rays(camera, least.x, least.y, most.x + 1, most.y + 1));
+        corner_lines(camera, least.x, least.y, most.x + 1, most.y + 1));
     PixelLedger ledger;
     for (const Place& p : region.places) {
         find_pixel_ledger(in.tracer, ledgers, in.truth, in.prediction.depths(), p.x, p.y, ledger);

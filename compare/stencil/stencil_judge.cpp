@@ -45,8 +45,8 @@ std::array<glm::dvec3, 4> corners_around(const Camera& camera, const Region& reg
     const int top = region.places.front().y / region_side * region_side;
     double reach = 0;
     for (const Neighbourhood& each : around) reach = std::max(reach, each.reach);
-    return corner_rays(camera, left - reach, top - reach, left + region_side + reach,
-                       top + region_side + reach);
+    return corner_lines(camera, left - reach, top - reach, left + region_side + reach,
+                        top + region_side + reach);
 }
 
 /// Finds what may be drawn at a pixel: what is true in a neighbourhood, the pixel's own or one
@@ -98,11 +98,11 @@ public:
         const int left = places.front().x / region_side * region_side;
         const int top = places.front().y / region_side * region_side;
         RegionLedger ledger = prediction_.volumes().ledger(
-            corner_rays(camera, left, top, left + region_side, top + region_side));
+            corner_lines(camera, left, top, left + region_side, top + region_side));
         std::vector<Crossing> crossings;
         std::vector<BandRadius> radii;
         for (const PixelPlace& p : places)
-            radii.push_back(band_radius(claim_, p, ray_direction(camera, p.x + 0.5, p.y + 0.5),
+            radii.push_back(band_radius(claim_, p, line_of_sight(camera, p.x + 0.5, p.y + 0.5),
                                         ledger, crossings));
         return radii;
     }

@@ -75,7 +75,7 @@ Strained strained_at(const CountedClaim& judged, PixelPlace p, RegionLedger& led
                      std::vector<Crossing>& crossings) {
     const GroundTruth& truth = judged.truth();
     const Scene& scene = judged.traced.scene();
-    const glm::dvec3 direction = ray_direction(scene.camera, p.x + 0.5, p.y + 0.5);
+    const glm::dvec3 direction = line_of_sight(scene.camera, p.x + 0.5, p.y + 0.5);
     const double depth = truth.depth.at(p.x, p.y);
     const glm::dvec3 point = scene.camera.eye + depth * direction;
     const bool lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
@@ -104,7 +104,7 @@ std::vector<Strained> strained_pixels(const CountedClaim& judged) {
         const int right = std::min(left + region_side, camera.width);
         const int bottom = std::min(top + region_side, camera.height);
         RegionLedger ledger =
-            judged.prediction.volumes().ledger(corner_rays(camera, left, top, right, bottom));
+            judged.prediction.volumes().ledger(corner_lines(camera, left, top, right, bottom));
         std::vector<Crossing> crossings;
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
@@ -126,7 +126,7 @@ std::array<glm::dvec3, 4> rays_aside(const CountedClaim& judged, const Strained&
     const double aside = lateral_error(scene, judged.frame.depth_model, pixel.point);
     const double x = pixel.place.x + 0.5;
     const double y = pixel.place.y + 0.5;
-    return corner_rays(scene.camera, x - aside, y - aside, x + aside, y + aside);
+    return corner_lines(scene.camera, x - aside, y - aside, x + aside, y + aside);
 }
 
 } // namespace

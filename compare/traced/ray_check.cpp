@@ -19,7 +19,7 @@ AnyRay as_exact(const FloatRay& ray) {
 }
 
 AnyRay TracedClaim::eye_ray(PixelPlace p) const {
-    return {rays().eye, pixel(p).direction, rays().near, rays().far};
+    return as_exact(rays().eye_ray(pixel(p).line));
 }
 
 AnyRay TracedClaim::shadow_ray(PixelPlace p) const {
@@ -28,10 +28,11 @@ AnyRay TracedClaim::shadow_ray(PixelPlace p) const {
 
 glm::vec3 rounded_hit(const TracedClaim& claim, PixelPlace p) {
     const TracedPixel& pixel = claim.pixel(p);
+    const FloatRay ray = claim.rays().eye_ray(pixel.line);
     glm::vec3 point;
     for (int axis = 0; axis < 3; ++axis) {
-        const float along = pixel.depth * pixel.direction[axis];
-        point[axis] = claim.rays().eye[axis] + along;
+        const float along = pixel.depth * ray.direction[axis];
+        point[axis] = ray.origin[axis] + along;
     }
     return point;
 }
@@ -89,7 +90,10 @@ FloatRay expected_shadow_ray(const TracedClaim& claim, PixelPlace p, float dista
 RayFault fault_of_all(const TracedClaim& claim) {
     const Camera& camera = claim.scene().camera;
     const TracedRays& rays = claim.rays();
-    if (rays.eye != glm::vec3(camera.eye)) return "eye is not the camera's";
+    if (rays.is_parallel != camera.is_orthographic()) return "projection is not the camera's";
+    if (rays.is_parallel ? rays.forward != glm::vec3(camera.forward)
+                         : rays.eye != glm::vec3(camera.eye))
+        return rays.is_parallel ? "view direction is not the camera's" : "eye is not the camera's";
     if (rays.near != static_cast<float>(camera.near) || rays.far != static_cast<float>(camera.far))
         return "eye ray has other limits than the camera";
     if (!(rays.model.distance >= 0) || !std::isfinite(rays.model.distance))
@@ -206,7 +210,7 @@ RayFault fault_of_shadow_ray(const TracedClaim& claim, PixelPlace p) {
 RayFault fault_at(const TracedClaim& claim, PixelPlace p) {
     const TracedPixel& pixel = claim.pixel(p);
     const Visibility claimed = claim.frame.claim.at(p.x, p.y);
-    if (pixel.direction != glm::vec3(ray_direction(claim.scene().camera, p.x + 0.5, p.y + 0.5)))
+    if (pixel.line != glm::vec3(line_of_sight(claim.scene().camera, p.x + 0.5, p.y + 0.5)))
         return "eye ray is not that of the pixel";
     if (const RayFault fault = fault_of_seen(claim, p); !fault.empty()) return fault;
     constexpr RayFault contradicted = "claim does not follow from what its rays met";

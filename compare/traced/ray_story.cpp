@@ -89,6 +89,7 @@ Account account_of_rays(const TracedClaim& claim, PixelPlace p, RayFault fault, 
         return index == no_triangle ? std::string("-") : std::to_string(index);
     };
     const bool sees = pixel.seen != no_triangle;
+    const FloatRay eye_ray = claim.rays().eye_ray(pixel.line);
     account.columns = {{"saw", triangle(pixel.seen)},
                        {"at", sees ? fmt::format("{:.9g}", pixel.depth * unit) : "-"},
                        {"stopped by", triangle(pixel.occluder)}};
@@ -97,8 +98,8 @@ Account account_of_rays(const TracedClaim& claim, PixelPlace p, RayFault fault, 
               {"saw", pixel.seen == no_triangle ? Json(nullptr) : Json(pixel.seen)},
               {"at", sees ? Json(pixel.depth * unit) : Json(nullptr)},
               {"eye_ray",
-               {{"origin", point(glm::dvec3(claim.rays().eye) * unit)},
-                {"direction", point(pixel.direction)}}}};
+               {{"origin", point(glm::dvec3(eye_ray.origin) * unit)},
+                {"direction", point(eye_ray.direction)}}}};
     if (fault.empty()) {
         const ExactRays exact = trace_exactly(claim, p);
         account.columns.push_back({"exactly", exact.hits.empty()

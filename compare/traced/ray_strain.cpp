@@ -32,7 +32,7 @@ struct StartingPoint {
     PixelPlace place{};
     std::uint32_t seen = no_triangle;
     bool lit = false;
-    glm::dvec3 direction{0, 0, 0}; ///< of the eye ray
+    glm::dvec3 eye{0, 0, 0}; ///< where the eye ray starts
     glm::dvec3 at{0, 0, 0};
     glm::dvec3 normal{0, 0, 0}; ///< unit, on the light's side
     glm::dvec3 to_light{0, 0, 0};
@@ -46,8 +46,9 @@ std::optional<StartingPoint> starting_point(const TracedClaim& claim, PixelPlace
     if (truth.exactness.at(p.x, p.y) == Exactness::degenerate) return std::nullopt;
     StartingPoint start{.place = p, .seen = truth.triangle.at(p.x, p.y)};
     start.lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
-    start.direction = ray_direction(scene.camera, p.x + 0.5, p.y + 0.5);
-    start.at = scene.camera.eye + truth.depth.at(p.x, p.y) * start.direction;
+    const glm::dvec3 line = line_of_sight(scene.camera, p.x + 0.5, p.y + 0.5);
+    start.eye = start_of(scene.camera, line);
+    start.at = point_on(scene.camera, line, truth.depth.at(p.x, p.y));
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     start.to_light = glm::dvec3(light) - light.w * start.at;
     const Corners t = corners(scene, start.seen);
@@ -135,12 +136,11 @@ double squared(const glm::dvec3& v) {
 // point's coordinates are a product and a sum, once more each with an offset. And the ray that
 // starts there meets its triangle at another distance of that kind, whose C is a - P.
 double deviation_along_normal(const TracedClaim& claim, const StartingPoint& start) {
-    const glm::dvec3 eye = claim.scene().camera.eye;
     const Corners t = corners(claim.scene(), start.seen);
     const glm::dvec3 e1 = t.a - t.b;
     const glm::dvec3 e2 = t.c - t.a;
     const glm::dvec3 normal = glm::cross(e2, e1);
-    const glm::dvec3 way = start.at - eye;
+    const glm::dvec3 way = start.at - start.eye;
     const glm::dvec3 to_a = t.a - start.at;
     double lever = 0;
     for (int i = 0; i < 3; ++i) {
@@ -149,7 +149,7 @@ double deviation_along_normal(const TracedClaim& claim, const StartingPoint& sta
         const double products = std::hypot(e2[j] * e1[k], e2[k] * e1[j]) * to_a[i];
         lever += 4 * products * products;
     }
-    const double of_eye_ray = 4 * squared(normal * (t.a - eye)) + 3 * squared(normal * way);
+    const double of_eye_ray = 4 * squared(normal * (t.a - start.eye)) + 3 * squared(normal * way);
     const double of_shadow_ray = 4 * squared(normal * to_a);
     const double distances =
         std::sqrt(2 * lever + of_eye_ray + of_shadow_ray) / glm::length(normal);
@@ -161,9 +161,8 @@ double deviation_along_normal(const TracedClaim& claim, const StartingPoint& sta
 }
 
 // Along each axis: eye and D are floats, and so are the product and the sum of the two.
-double deviation_aside(const TracedClaim& claim, const StartingPoint& start) {
-    const glm::dvec3 eye = claim.scene().camera.eye;
-    const double sizes = squared(eye) + 2 * squared(start.at - eye) + squared(start.at);
+double deviation_aside(const StartingPoint& start) {
+    const double sizes = squared(start.eye) + 2 * squared(start.at - start.eye) + squared(start.at);
     return of_rounding * std::sqrt(sizes / 3);
 }
 
@@ -206,12 +205,12 @@ constexpr double chance_beside_border = 0.4;
 /// Rays a standard deviation to each side of a pixel's centre.
 std::array<glm::dvec3, 4> rays_aside(const TracedClaim& claim, const StartingPoint& start) {
     const Camera& camera = claim.scene().camera;
-    const double pixels = deviation_aside(claim, start) * 0.5 * camera.height /
-                          (camera.tan_half_height * view_depth(camera, start.at));
+    const double pixels =
+        deviation_aside(start) * pixels_of_length(camera, view_depth(camera, start.at));
     const double x = start.place.x + 0.5;
     const double y = start.place.y + 0.5;
-    return {ray_direction(camera, x - pixels, y), ray_direction(camera, x + pixels, y),
-            ray_direction(camera, x, y - pixels), ray_direction(camera, x, y + pixels)};
+    return {line_of_sight(camera, x - pixels, y), line_of_sight(camera, x + pixels, y),
+            line_of_sight(camera, x, y - pixels), line_of_sight(camera, x, y + pixels)};
 }
 
 /// Rows that are looked at together, so that few points are kept at once.

@@ -78,8 +78,8 @@ Framebuffer make_face(const GlFunctions& gl, const MapPass& pass, std::size_t fa
 ClipTransform parallel_transform(const Camera& camera) {
     const double depths = camera.far - camera.near;
     glm::dmat4 clip_from_view(1);
-    clip_from_view[0][0] = 1 / camera.tan_half_height;
-    clip_from_view[1][1] = 1 / camera.tan_half_height;
+    clip_from_view[0][0] = 1 / camera.half_height;
+    clip_from_view[1][1] = 1 / camera.half_height;
     clip_from_view[2][2] = -2 / depths;
     clip_from_view[3][2] = -(camera.far + camera.near) / depths;
     ClipTransform transform;
@@ -171,8 +171,8 @@ GLenum gl_format(MapFormat format) {
 }
 
 glm::mat3 map_from_world(const Camera& camera) {
-    return glm::transpose(glm::dmat3(camera.right / camera.tan_half_height,
-                                     camera.up / camera.tan_half_height, camera.forward));
+    return glm::transpose(glm::dmat3(camera.right / camera.half_height,
+                                     camera.up / camera.half_height, camera.forward));
 }
 
 MapPass make_map_pass(const GlFunctions& gl, const Scene& scene, const Geometry& geometry,

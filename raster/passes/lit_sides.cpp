@@ -9,7 +9,7 @@ LitSides lit_sides(const Scene& scene) {
     std::vector<std::uint32_t>& triangles = sides.triangles;
     const std::vector<std::uint8_t> receives = receiving_triangles(scene);
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const glm::dvec4 eye(scene.camera.eye, 1);
+    const glm::dvec4 eye = homogeneous_eye(scene.camera);
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
         const double of_light = side(scene, triangle, light);
         const double of_eye = side(scene, triangle, eye);

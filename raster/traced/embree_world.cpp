@@ -67,7 +67,7 @@ void filter(const RTCFilterFunctionNArguments* args) {
 Tables tables_of(const Scene& scene) {
     Tables tables{double_sided_triangles(scene), casting_triangles(scene),
                   masks_of_triangles(scene)};
-    const glm::dvec4 eye(scene.camera.eye, 1);
+    const glm::dvec4 eye = homogeneous_eye(scene.camera);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         const double of_eye = side(scene, i, eye);
         tables.seen[i] = of_eye > 0 || (of_eye < 0 && tables.seen[i] != 0) ? 1 : 0;

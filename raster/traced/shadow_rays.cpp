@@ -40,13 +40,15 @@ public:
         frame_.claim = Image<Visibility>(scene.camera.width, scene.camera.height);
         TracedRays& rays = frame_.rays.emplace();
         rays.model = recipe.model;
+        rays.is_parallel = scene.camera.is_orthographic();
         rays.eye = scene.camera.eye;
+        rays.forward = scene.camera.forward;
         rays.near = static_cast<float>(scene.camera.near);
         rays.far = static_cast<float>(scene.camera.far);
         rays.pixels = Image<TracedPixel>(scene.camera.width, scene.camera.height);
         for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
             to_light_.push_back(side(scene, i, homogeneous(light_)));
-            to_eye_.push_back(side(scene, i, glm::dvec4(scene.camera.eye, 1)));
+            to_eye_.push_back(side(scene, i, homogeneous_eye(scene.camera)));
         }
     }
 
@@ -62,11 +64,11 @@ public:
             const auto [x, y] = at(i);
             eye.valid[i] = x < scene_.camera.width && y < scene_.camera.height;
             if (!eye.valid[i]) continue;
-            const FloatRay ray{frame_.rays->eye, ray_direction(scene_.camera, x + 0.5, y + 0.5),
-                               frame_.rays->near, frame_.rays->far};
+            const glm::vec3 line = line_of_sight(scene_.camera, x + 0.5, y + 0.5);
+            const FloatRay ray = frame_.rays->eye_ray(line);
             eye.valid[i] = may_be_shot(ray);
             set(eye, i, ray);
-            frame_.rays->pixels.at(x, y).direction = ray.direction;
+            frame_.rays->pixels.at(x, y).line = line;
         }
         world_.find_nearest(eye);
         for (std::size_t i = 0; i < traced_packet; ++i) {
@@ -132,7 +134,8 @@ private:
         pixel.seen = triangle;
         pixel.depth = eye.far[lane];
         claim = Visibility::shadowed;
-        const glm::vec3 point = frame_.rays->eye + pixel.depth * pixel.direction;
+        const FloatRay ray = frame_.rays->eye_ray(pixel.line);
+        const glm::vec3 point = ray.origin + pixel.depth * ray.direction;
         if (!faces_light(triangle) || !in_cone(point)) return;
         claim = Visibility::lit;
         if (receives_[triangle] == 0) return;

@@ -72,7 +72,7 @@ struct Quotient {
 template <class A>
 Quotient<A> plane_depth(const A& arithmetic, const EyeRay& ray, const Corners& t) {
     const Vector<A> n = normal(arithmetic, t);
-    return {dot<A>(difference(arithmetic, t.a, ray.eye), n),
+    return {dot<A>(difference(arithmetic, t.a, ray.start), n),
             dot<A>(direction_of(arithmetic, ray), n)};
 }
 

@@ -20,14 +20,14 @@ using namespace formulas;
 template <class A>
 using Weights = std::array<Number<A>, 3>;
 
-/// Seen from the eye: the volumes that the ray's direction spans with the edges across. They add up
-/// to its product with the triangle's normal.
+/// Seen from where the ray starts: the volumes that the ray's direction spans with the edges
+/// across. They add up to its product with the triangle's normal.
 template <class A>
 Weights<A> weights_on_ray(const A& arithmetic, const EyeRay& ray, const Corners& t) {
-    const glm::dvec4 eye(ray.eye, 1);
+    const glm::dvec4 start(ray.start, 1);
     const Vector<A> d = direction_of(arithmetic, ray);
     const auto across = [&](const glm::dvec3& a, const glm::dvec3& b) {
-        return dot<A>(d, edge_plane(arithmetic, eye, a, b));
+        return dot<A>(d, edge_plane(arithmetic, start, a, b));
     };
     return {across(t.b, t.c), across(t.c, t.a), across(t.a, t.b)};
 }
@@ -42,7 +42,7 @@ Weights<A> weights_before_light(const A& arithmetic, const EyeRay& ray, const Ra
     const auto across = [&](const glm::dvec3& a, const glm::dvec3& b) {
         const Vector<A> plane = edge_plane(arithmetic, ray.light, a, b);
         const glm::dvec3 from = ray.light.w != 0 ? glm::dvec3(ray.light) : a;
-        return place.denominator * dot<A>(difference(arithmetic, ray.eye, from), plane) +
+        return place.denominator * dot<A>(difference(arithmetic, ray.start, from), plane) +
                place.numerator * dot<A>(d, plane);
     };
     return {across(t.b, t.c), across(t.c, t.a), across(t.a, t.b)};

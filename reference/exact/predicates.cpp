@@ -53,7 +53,7 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
                                  const glm::dvec3& origin, const Vector<A>& plane) {
     const Number<A> along = dot<A>(direction_of(arithmetic, ray), plane);
     if (q.kind == RayPoint::Kind::infinity) return sign_of(along);
-    const Number<A> base = dot<A>(difference(arithmetic, ray.eye, origin), plane);
+    const Number<A> base = dot<A>(difference(arithmetic, ray.start, origin), plane);
     const Quotient<A> t = position(arithmetic, ray, q);
     return with_sign_of(t.denominator * base + t.numerator * along, t.denominator);
 }
@@ -82,7 +82,7 @@ Decision Predicates::side(const glm::dvec4& o, const Corners& t) const {
 Decision Predicates::edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const {
     return decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
         return sign_of(dot<A>(direction_of(arithmetic, ray),
-                              edge_plane(arithmetic, glm::dvec4(ray.eye, 1), a, b)));
+                              edge_plane(arithmetic, glm::dvec4(ray.start, 1), a, b)));
     });
 }
 
@@ -113,8 +113,8 @@ Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm
             return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
         const std::optional<int> sign = point_against<A>(arithmetic, ray, q, a, plane);
         if (q.kind != RayPoint::Kind::infinity || sign != 0) return sign;
-        // The ray is parallel to the plane: the side is the eye's.
-        return sign_of(dot<A>(difference(arithmetic, ray.eye, a), plane));
+        // The ray is parallel to the plane: the side is that of its start.
+        return sign_of(dot<A>(difference(arithmetic, ray.start, a), plane));
     });
 }
 
@@ -166,7 +166,7 @@ Decision Predicates::within_cone(const EyeRay& ray, const RayPoint& q, const Con
         filters_,
         [&]<class A>(const A& arithmetic) -> std::optional<int> {
             const Quotient<A> t = position(arithmetic, ray, q);
-            const Vector<A> base = difference(arithmetic, ray.eye, cone.apex);
+            const Vector<A> base = difference(arithmetic, ray.start, cone.apex);
             const Vector<A> d = direction_of(arithmetic, ray);
             const Vector<A> v{t.denominator * base.x + t.numerator * d.x,
                               t.denominator * base.y + t.numerator * d.y,

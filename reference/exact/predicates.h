@@ -20,7 +20,8 @@ struct Decision {
     Exactness exactness = Exactness::filtered;
 };
 
-/// A point Q = E + (n / d) D of an eye ray, kept as the exact quotient, or its end at infinity.
+/// A point Q = E + (n / d) D of an eye ray, which starts at E, kept as the exact quotient, or its
+/// end at infinity.
 struct RayPoint {
     enum class Kind : std::uint8_t {
         surface,  ///< where the ray meets the plane of `surface`
@@ -33,9 +34,10 @@ struct RayPoint {
 };
 
 /// The eye ray of a query, and the light that its points are looked at from: (position, 1), or the
-/// direction to a directional one, 0 (scenes/scene.h).
+/// direction to a directional one, 0 (scenes/scene.h). It starts at the eye or, where lines of
+/// sight are parallel, in the plane of the eye.
 struct EyeRay {
-    glm::dvec3 eye;
+    glm::dvec3 start;
     glm::dvec3 direction;
     glm::dvec4 light;
 };
@@ -60,7 +62,7 @@ public:
     Decision edge(const EyeRay& ray, const glm::dvec3& a, const glm::dvec3& b) const;
 
     /// Sign of t(T) - t(U), the depths at which the eye ray meets the planes of T and U.
-    /// Neither plane may hold the ray's direction or the eye. Degree 6.
+    /// Neither plane may hold the ray's direction or its start. Degree 6.
     Decision depth_order(const EyeRay& ray, const Corners& t, const Corners& u) const;
 
     /// Sign of t(T) - depth. Degree 3.

@@ -18,7 +18,7 @@ void count_tile(Prober& prober, const Tile& tile, Image<std::int32_t>& counts,
         if ((tile.lanes >> lane & 1U) != 0 && point_of(tile.x(lane), tile.y(lane), points[lane]))
             lanes |= 1U << lane;
     Lanes<std::int32_t> found{};
-    prober.count(tile.directions, lanes, points, found, masks);
+    prober.count(tile.lines, lanes, points, found, masks);
     for (std::size_t lane = 0; lane < packet_size; ++lane)
         if ((lanes >> lane & 1U) != 0) counts.at(tile.x(lane), tile.y(lane)) = found[lane];
 }
@@ -49,13 +49,13 @@ ShadowDepths count_depths(const Tracer& tracer, double far, const SurfaceOf& sur
         });
     });
 
-    // The eye: depth 0 on any ray.
+    // The eye: depth 0 on a line of sight through it.
     Prober prober(state);
     Lanes<Prober::Point> points{};
-    Vectors directions;
+    Vectors lines;
     Lanes<std::int32_t> found{};
-    directions.set(0, camera.forward);
-    prober.count(directions, 1, points, found);
+    lines.set(0, eye_line(camera));
+    prober.count(lines, 1, points, found);
     depths.at_eye = found[0];
     return depths;
 }
@@ -99,18 +99,17 @@ Image<std::int32_t> count_let_through(const Tracer& tracer, const GroundTruth& t
     return all;
 }
 
-std::int32_t count_let_through(const Tracer& tracer, const glm::dvec3& direction,
-                               std::uint32_t seen) {
+std::int32_t count_let_through(const Tracer& tracer, const glm::dvec3& line, std::uint32_t seen) {
     if (seen == no_triangle) return 0;
     Prober prober(tracer.state());
     Lanes<Prober::Point> points{};
     points[0] = {.kind = RayPoint::Kind::surface, .skip = seen};
-    Vectors directions;
-    directions.set(0, direction);
+    Vectors lines;
+    lines.set(0, line);
     Lanes<std::int32_t> all{};
     Lanes<std::int32_t> standing{};
-    prober.count(directions, 1, points, all);
-    prober.count(directions, 1, points, standing, Prober::Masks::kept);
+    prober.count(lines, 1, points, all);
+    prober.count(lines, 1, points, standing, Prober::Masks::kept);
     return all[0] - standing[0];
 }
 

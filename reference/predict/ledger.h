@@ -30,9 +30,8 @@ ShadowDepths count_shadow_depths_at(const Tracer& tracer, const Image<double>& s
 /// At each pixel how many of the light-facing triangles between the visible surface and the light
 /// let it through, as their masks leave them out there; 0 at background.
 Image<std::int32_t> count_let_through(const Tracer& tracer, const GroundTruth& truth);
-/// The same where a ray of direction D meets the triangle `seen`.
-std::int32_t count_let_through(const Tracer& tracer, const glm::dvec3& direction,
-                               std::uint32_t seen);
+/// The same where a line of sight meets the triangle `seen`.
+std::int32_t count_let_through(const Tracer& tracer, const glm::dvec3& line, std::uint32_t seen);
 
 /// One crossing of an eye ray with the boundary of the shadow volumes.
 struct Crossing {

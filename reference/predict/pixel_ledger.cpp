@@ -26,9 +26,9 @@ RayCounts sums(const Tracer& tracer, const PixelLedger& ledger, double far, std:
     return sums;
 }
 
-double surface_depth(const Scene& scene, std::uint32_t seen, const glm::dvec3& direction) {
+double surface_depth(const Scene& scene, std::uint32_t seen, const glm::dvec3& line) {
     if (seen == no_triangle) return std::numeric_limits<double>::infinity();
-    return depth_on_triangle(scene, seen, direction);
+    return depth_on_triangle(scene, seen, line);
 }
 
 } // namespace
@@ -36,7 +36,7 @@ double surface_depth(const Scene& scene, std::uint32_t seen, const glm::dvec3& d
 void find_pixel_ledger(const Tracer& tracer, RegionLedger& region, const GroundTruth& truth,
                        const ShadowDepths& depths, int x, int y, PixelLedger& ledger) {
     const Scene& scene = tracer.scene();
-    const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
+    const glm::dvec3 direction = line_of_sight(scene.camera, x + 0.5, y + 0.5);
     const std::uint32_t seen = truth.triangle.at(x, y);
     ledger.counts = {depths.at_eye, depths.at_near.at(x, y), depths.at_surface.at(x, y),
                      depths.at_far.at(x, y), depths.at_infinity.at(x, y)};
@@ -48,7 +48,8 @@ void find_pixel_ledger(const Tracer& tracer, RegionLedger& region, const GroundT
 PixelLedger pixel_ledger(const Tracer& tracer, const GroundTruth& truth, const ShadowDepths& depths,
                          int x, int y) {
     const Silhouette silhouette(tracer);
-    RegionLedger region(tracer, silhouette, corner_rays(tracer.scene().camera, x, y, x + 1, y + 1));
+    RegionLedger region(tracer, silhouette,
+                        corner_lines(tracer.scene().camera, x, y, x + 1, y + 1));
     PixelLedger ledger;
     find_pixel_ledger(tracer, region, truth, depths, x, y, ledger);
     return ledger;

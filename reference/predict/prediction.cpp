@@ -218,11 +218,11 @@ Image<std::int32_t> Prediction::count_all(const CountedVolumes& made,
                     counts.at(x, y) = count_from_depths(depths, truth, x, y, model);
             return;
         }
-        RegionLedger ledger = made.volumes.ledger(corner_rays(camera, left, top, right, bottom));
+        RegionLedger ledger = made.volumes.ledger(corner_lines(camera, left, top, right, bottom));
         std::vector<Crossing> crossings;
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
-                const glm::dvec3 direction = ray_direction(camera, x + 0.5, y + 0.5);
+                const glm::dvec3 direction = line_of_sight(camera, x + 0.5, y + 0.5);
                 ledger.crossings(direction, crossings);
                 const std::uint32_t seen = truth.triangle.at(x, y);
                 const double surface =

@@ -6,6 +6,7 @@
 #include "scenes/mesh/topology.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
@@ -68,15 +69,21 @@ double with_sign(double side, int sign) {
     return sign * side > 0 ? side : sign * std::numeric_limits<double>::denorm_min();
 }
 
+/// Shadow volumes are counted along lines of sight that meet in the eye.
+const glm::dvec3& eye_of(const Tracer::State& state) {
+    assert(!state.scene->camera.is_orthographic());
+    return state.scene->camera.eye;
+}
+
 EyeRay any_ray(const Tracer::State& state) {
-    return {state.eye, state.scene->camera.forward, state.light};
+    return {eye_of(state), state.scene->camera.forward, state.light};
 }
 constexpr RayPoint at_eye{.kind = RayPoint::Kind::depth, .surface = {}, .depth = 0};
 
 /// The eye's side of the plane of the side over the edge from a to b.
 double eye_against_side(const Tracer::State& state, const glm::dvec3& plane, const glm::dvec3& a,
                         const glm::dvec3& b) {
-    return with_sign(glm::dot(state.eye - side_point(state.light, a, b), plane),
+    return with_sign(glm::dot(eye_of(state) - side_point(state.light, a, b), plane),
                      state.predicates.shadow_edge_untied(any_ray(state), at_eye, a, b).sign);
 }
 
@@ -86,7 +93,7 @@ double eye_against_cap(const Tracer::State& state, std::uint32_t triangle, const
     int sign = state.from_eye.side[triangle];
     // The predicate's plane points to the front, the cap's into the volume.
     if (sign == 0) sign = -state.predicates.side_of_point_untied(any_ray(state), at_eye, t).sign;
-    return with_sign(glm::dot(state.eye - t.a, plane), sign);
+    return with_sign(glm::dot(eye_of(state) - t.a, plane), sign);
 }
 
 /// Signs of a function that is linear in the direction, over a region.
@@ -144,7 +151,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
             numbers[position] = static_cast<std::uint32_t>(vertices_.size());
             const glm::dvec3 at(scene.positions[position]);
             const glm::dvec3 from_light = state.light.w * at - glm::dvec3(state.light);
-            vertices_.push_back({at, plane_through_eye(from_light, state.eye, at)});
+            vertices_.push_back({at, plane_through_eye(from_light, eye_of(state), at)});
         }
         return numbers[position];
     };
@@ -160,7 +167,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
         side.plane = reversed ? accurate_side_plane(state.light, b, a)
                               : accurate_side_plane(state.light, a, b);
         side.eye = eye_against_side(state, side.plane, reversed ? b : a, reversed ? a : b);
-        side.edge = edge_plane(state.eye, a, b);
+        side.edge = edge_plane(eye_of(state), a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
         side.flipped = edge.a > edge.b;
     }
@@ -255,7 +262,7 @@ void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
     const auto may_meet = [&](const Box& box) {
         const glm::dvec3 lower(box.lower);
         const glm::dvec3 upper(box.upper);
-        const glm::dvec3 centre = 0.5 * (lower + upper) - state.eye;
+        const glm::dvec3 centre = 0.5 * (lower + upper) - eye_of(state);
         const glm::dvec3 half = 0.5 * (upper - lower);
         return std::all_of(walls.begin(), walls.end(), [&](const glm::dvec3& wall) {
             // 2^-40 of the terms' sizes leaves room for thousands of roundings.
@@ -283,7 +290,7 @@ void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec
     cap.eye = eye_against_cap(state, triangle, from, cap.plane);
     const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
     for (std::size_t k = 0; k < 3; ++k) {
-        cap.edges[k] = edge_plane(state.eye, loop[k], loop[k + 1]);
+        cap.edges[k] = edge_plane(eye_of(state), loop[k], loop[k + 1]);
         cap.reversed[k] = before(loop[k + 1], loop[k]);
     }
     if (cap.may_be_met(corners)) caps_.push_back(cap);

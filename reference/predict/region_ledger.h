@@ -52,7 +52,7 @@ inline constexpr int region_side = 16;
 class RegionLedger {
 public:
     /// `corners`: directions of four rays of the picture whose rectangle contains all rays to be
-    /// queried, as from corner_rays: the corners of pixels leave room on all sides of their
+    /// queried, as from corner_lines: the corners of pixels leave room on all sides of their
     /// centres. Keeps a reference to the tracer.
     RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                  const std::array<glm::dvec3, 4>& corners);

@@ -24,8 +24,8 @@ Image<Visibility> under_whole_casters(const Tracer& tracer) {
                 rays.set(tile, left, top);
                 SeenLanes seen;
                 LitLanes lighting;
-                eye.see(tile.directions, tile.lanes, seen);
-                light.light(tile.directions, tile.lanes, seen, lighting);
+                eye.see(tile.lines, tile.lanes, seen);
+                light.light(tile.lines, tile.lanes, seen, lighting);
                 tile.copy(lighting.visibility, visibility);
             }
     });

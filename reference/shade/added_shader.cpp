@@ -52,7 +52,7 @@ void AddedShader::shade(std::span<const SeenPoint> points, std::span<Shading> sh
             const auto at = [&](std::size_t lane) { return (first + lane) * lights() + light; };
             for (std::size_t lane = 0; lane < count; ++lane) {
                 const SeenPoint& point = points[at(lane)];
-                shader.set(lane, point.direction, point.triangle, point.lit);
+                shader.set(lane, point.line, point.triangle, point.lit);
             }
             shader.shade();
             for (std::size_t lane = 0; lane < count; ++lane)

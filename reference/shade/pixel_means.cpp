@@ -27,32 +27,34 @@ constexpr int rays_of_texel = 4; ///< along its side
 class TriangleMaps {
 public:
     TriangleMaps(const Scene& scene, std::uint32_t triangle)
-        : surface_(&scene.surfaces[std::size_t{3} * triangle]) {
-        const glm::dvec3 a = corner(scene, triangle, 0);
-        const glm::dvec3 e = corner(scene, triangle, 1) - a;
-        const glm::dvec3 f = corner(scene, triangle, 2) - a;
-        across_ = glm::cross(e, f);
-        toward_b_ = glm::cross(f, a - scene.camera.eye);
-        toward_c_ = glm::cross(a - scene.camera.eye, e);
+        : camera_(&scene.camera), surface_(&scene.surfaces[std::size_t{3} * triangle]),
+          a_(corner(scene, triangle, 0)), e_(corner(scene, triangle, 1) - a_),
+          f_(corner(scene, triangle, 2) - a_) {
+        across_ = glm::cross(e_, f_);
     }
 
-    glm::dvec2 at(const glm::dvec3& direction, glm::vec2 Surface::*map) const {
+    glm::dvec2 at(const glm::dvec3& line, glm::vec2 Surface::*map) const {
+        const glm::dvec3 from_line = a_ - start_of(*camera_, line);
+        const glm::dvec3& direction = direction_of(*camera_, line);
         const double all = glm::dot(direction, across_);
-        const double b = glm::dot(direction, toward_b_) / all;
-        const double c = glm::dot(direction, toward_c_) / all;
+        const double b = glm::dot(direction, glm::cross(f_, from_line)) / all;
+        const double c = glm::dot(direction, glm::cross(from_line, e_)) / all;
         return (1 - b - c) * glm::dvec2(surface_[0].*map) + b * glm::dvec2(surface_[1].*map) +
                c * glm::dvec2(surface_[2].*map);
     }
-    double cosine(const glm::dvec3& direction) const {
+    double cosine(const glm::dvec3& line) const {
+        const glm::dvec3& direction = direction_of(*camera_, line);
         const double lengths = glm::length(direction) * glm::length(across_);
         return lengths > 0 ? std::abs(glm::dot(direction, across_)) / lengths : 0;
     }
 
 private:
+    const Camera* camera_;
     const Surface* surface_;
+    glm::dvec3 a_;
+    glm::dvec3 e_; ///< edges from there
+    glm::dvec3 f_;
     glm::dvec3 across_{0, 0, 0};
-    glm::dvec3 toward_b_{0, 0, 0};
-    glm::dvec3 toward_c_{0, 0, 0};
 };
 
 /// What a pixel's centre sees of textures.
@@ -68,7 +70,7 @@ Extent extent_at(const Scene& scene, std::uint32_t triangle, int x, int y) {
         if (texture == no_texture) return glm::dvec2(0);
         const Image<glm::vec4>& image = scene.textures[texture].texels;
         const auto at = [&](double column, double row) {
-            return maps.at(ray_direction(scene.camera, column, row), map) *
+            return maps.at(line_of_sight(scene.camera, column, row), map) *
                    glm::dvec2(image.width, image.height);
         };
         const glm::dvec2 sides(glm::distance(at(x, y + 0.5), at(x + 1, y + 0.5)),
@@ -79,7 +81,7 @@ Extent extent_at(const Scene& scene, std::uint32_t triangle, int x, int y) {
     const glm::dvec2 bumps = texels(material.bump_map, &Surface::bump_at);
     return {.bump_texels = std::max(bumps.x, bumps.y),
             .most_texels = glm::max(bumps, texels(material.decal, &Surface::decal_at)),
-            .cosine = maps.cosine(ray_direction(scene.camera, x + 0.5, y + 0.5))};
+            .cosine = maps.cosine(line_of_sight(scene.camera, x + 0.5, y + 0.5))};
 }
 
 int rays_for(double texels) {
@@ -129,9 +131,9 @@ private:
 
     void shade_packet(const SampleRays& rays, int first, int count, Sums& sums) {
         const std::uint32_t lanes = (1U << static_cast<unsigned>(count)) - 1;
-        Vectors directions;
+        Vectors lines;
         for (int lane = 0; lane < count; ++lane)
-            directions.set(static_cast<std::size_t>(lane), rays.at(first + lane));
+            lines.set(static_cast<std::size_t>(lane), rays.at(first + lane));
         const std::uint32_t centre = lights_.back().truth.triangle.at(rays.x, rays.y);
         std::array<glm::dvec3, packet_size> colors{};
         std::array<bool, packet_size> alike{};
@@ -139,8 +141,8 @@ private:
         for (LightShader& light : lights_) {
             SeenLanes seen;
             LitLanes lighting;
-            light.prober.see(directions, lanes, seen);
-            light.prober.light(directions, lanes, seen, lighting);
+            light.prober.see(lines, lanes, seen);
+            light.prober.light(lines, lanes, seen, lighting);
             const auto for_seen = [&](const auto& work) {
                 for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
                     if (seen.triangle[lane] != no_triangle) work(lane);
@@ -152,7 +154,7 @@ private:
                         mesh_of(scene_, seen.triangle[lane]) == mesh_of(scene_, centre) &&
                         lighting.visibility[lane] == light.truth.visibility.at(rays.x, rays.y);
             for_seen([&](std::size_t lane) {
-                light.shader.set(lane, directions[lane], seen.triangle[lane],
+                light.shader.set(lane, lines[lane], seen.triangle[lane],
                                  lighting.visibility[lane] == Visibility::lit);
             });
             light.shader.shade();

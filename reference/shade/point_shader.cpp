@@ -17,7 +17,7 @@ namespace {
 LaneLight lane_light(const Tracer::State& state) {
     const Light& light = chosen_light(*state.scene);
     LaneLight lanes;
-    lanes.to = glm::dvec4(light.position - state.eye, 1);
+    lanes.to = glm::dvec4(light.position - state.scene->camera.eye, 1);
     if (light.kind == Light::Kind::directional)
         lanes.to = glm::dvec4(glm::normalize(glm::dvec3(state.light)), 0);
     lanes.axis = light.direction;
@@ -93,7 +93,7 @@ void PointShader::learn(std::uint32_t triangle, Known& known) const {
     if (known.material->height_in_space) known.texel = texel_sides(scene, triangle);
     known.hand = scene.surfaces[std::size_t{3} * triangle].tangent.w;
     const glm::dvec3 a = corner(scene, triangle, 0);
-    known.point = a - state.eye;
+    known.point = a - scene.camera.eye;
     known.edge_b = corner(scene, triangle, 1) - a;
     known.edge_c = corner(scene, triangle, 2) - a;
     known.across = glm::cross(known.edge_b, known.edge_c);
@@ -138,12 +138,19 @@ PointShader::Look PointShader::look_at(const Known& known, const glm::dvec3& wei
     return look;
 }
 
-void PointShader::set(std::size_t lane, const glm::dvec3& direction, std::uint32_t triangle,
-                      bool lit) {
+void PointShader::set(std::size_t lane, const glm::dvec3& line, std::uint32_t triangle, bool lit) {
     const Known& seen = known(triangle);
-    const double all = 1 / glm::dot(direction, seen.across);
-    const double b = share(glm::dot(direction, seen.toward_b) * all);
-    const double c = share(glm::dot(direction, seen.toward_c) * all);
+    const Scene& scene = *tables_->state->scene;
+    const Camera& camera = scene.camera;
+    const glm::dvec3& direction = direction_of(camera, line);
+    const bool is_parallel = camera.is_orthographic();
+    const glm::dvec3 from_line =
+        is_parallel ? corner(scene, triangle, 0) - start_of(camera, line) : glm::dvec3(0);
+    const auto weight = [&](const glm::dvec3& toward) {
+        return share(glm::dot(direction, toward) * (1 / glm::dot(direction, seen.across)));
+    };
+    const double b = weight(is_parallel ? glm::cross(seen.edge_c, from_line) : seen.toward_b);
+    const double c = weight(is_parallel ? glm::cross(from_line, seen.edge_b) : seen.toward_c);
     const glm::dvec3 weights(1 - b - c, b, c);
     glm::dvec3 normal = blend(weights, seen.normals);
     if (!(glm::dot(normal, normal) > 0)) normal = seen.across;

@@ -32,8 +32,8 @@ class PointShader {
 public:
     explicit PointShader(const ShadingTables& tables) : tables_(&tables), known_(kept_triangles) {}
 
-    /// The point that the eye ray along `direction` sees on `triangle`.
-    void set(std::size_t lane, const glm::dvec3& direction, std::uint32_t triangle, bool lit);
+    /// The point of `triangle` that is seen along a line of sight.
+    void set(std::size_t lane, const glm::dvec3& line, std::uint32_t triangle, bool lit);
 
     /// Shades all points that are set. Afterwards, lane by lane:
     void shade() { light_lanes(tables_->light, lanes_); }
@@ -56,8 +56,8 @@ private:
         glm::dvec3 edge_b{0, 0, 0};   ///< from there to the second
         glm::dvec3 edge_c{0, 0, 0};   ///< from there to the third
         glm::dvec3 across{0, 0, 0};   ///< the triangle: edge_b x edge_c
-        glm::dvec3 toward_b{0, 0, 0}; ///< edge_c x point
-        glm::dvec3 toward_c{0, 0, 0}; ///< point x edge_b
+        glm::dvec3 toward_b{0, 0, 0}; ///< edge_c x point, where all lines start at the eye
+        glm::dvec3 toward_c{0, 0, 0}; ///< point x edge_b, likewise
         ThreeOf<glm::dvec3> normals{};
         ThreeOf<glm::dvec3> tangents{};
         ThreeOf<glm::dvec2> decal_at{};

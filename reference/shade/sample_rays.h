@@ -18,8 +18,8 @@ struct SampleRays {
 
     int count() const { return columns * rows; }
     glm::dvec3 at(int sample) const {
-        return ray_column(camera, x + (sample % columns + 0.5) / columns) +
-               ray_row(camera, y + (sample / columns + 0.5) / rows);
+        return sight_column(camera, x + (sample % columns + 0.5) / columns) +
+               sight_row(camera, y + (sample / columns + 0.5) / rows);
     }
 };
 

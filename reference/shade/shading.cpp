@@ -45,7 +45,7 @@ void shade_seen(const Tracer& tracer, const GroundTruth& truth, const Use& use) 
             if ((tile.lanes >> lane & 1U) == 0) continue;
             const std::uint32_t triangle = truth.triangle.pixels[pixel(lane)];
             if (triangle == no_triangle) continue;
-            shader.set(lane, tile.directions[lane], triangle,
+            shader.set(lane, tile.lines[lane], triangle,
                        truth.visibility.pixels[pixel(lane)] == Visibility::lit);
             seen |= 1U << lane;
         }
@@ -94,20 +94,20 @@ Sum sum_of(const SampleRays& rays, Prober& prober, PointShader& shader, const Of
     Sum sum;
     for (int first = 0; first < rays.count(); first += packet_size) {
         const int count = std::min(packet_size, rays.count() - first);
-        Vectors directions;
+        Vectors lines;
         for (int lane = 0; lane < count; ++lane)
-            directions.set(static_cast<std::size_t>(lane), rays.at(first + lane));
+            lines.set(static_cast<std::size_t>(lane), rays.at(first + lane));
         const std::uint32_t lanes = (1U << static_cast<unsigned>(count)) - 1;
         SeenLanes seen;
         LitLanes lighting;
-        prober.see(directions, lanes, seen);
-        prober.light(directions, lanes, seen, lighting);
+        prober.see(lines, lanes, seen);
+        prober.light(lines, lanes, seen, lighting);
         const auto for_seen = [&](const auto& work) {
             for (std::size_t lane = 0; lane < static_cast<std::size_t>(count); ++lane)
                 if (seen.triangle[lane] != no_triangle) work(lane);
         };
         for_seen([&](std::size_t lane) {
-            shader.set(lane, directions[lane], seen.triangle[lane],
+            shader.set(lane, lines[lane], seen.triangle[lane],
                        lighting.visibility[lane] == Visibility::lit);
             ++sum.seen;
         });
@@ -164,12 +164,12 @@ Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth,
     return terms;
 }
 
-std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction) {
-    const RayTruth truth = trace_ray(tracer, direction);
+std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& line) {
+    const RayTruth truth = trace_ray(tracer, line);
     if (truth.triangle == no_triangle) return std::nullopt;
     const ShadingTables tables = make_shading_tables(tracer);
     PointShader shader(tables);
-    shader.set(0, direction, truth.triangle, truth.visibility == Visibility::lit);
+    shader.set(0, line, truth.triangle, truth.visibility == Visibility::lit);
     shader.shade();
     return shader.terms(0);
 }
@@ -191,7 +191,7 @@ void RayShader::shade(std::span<const SeenPoint> points, std::span<Shading> shad
         const std::size_t count = std::min<std::size_t>(packet_size, points.size() - first);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const SeenPoint& point = points[first + lane];
-            shader.set(lane, point.direction, point.triangle, point.lit);
+            shader.set(lane, point.line, point.triangle, point.lit);
         }
         shader.shade();
         for (std::size_t lane = 0; lane < count; ++lane)

@@ -5,10 +5,12 @@
 // for each angle of a spot's cone), each rounded by itself; so any processor gives the same bits.
 // Where a step divides by a length of zero, it says what holds instead.
 //
-//  1. Point. D is the eye ray's direction, a the seen triangle's first corner less the eye, e and f
-//     its edges from there to the second and the third corner. The weights of these two are
-//     D . (f x a) and D . (a x e), over D . (e x f), each clamped to [0, 1]; the first corner's is
-//     1 less theirs. The point less the eye is Q = a + wb e + wc f. Normals, tangents and texture
+//  1. Point. D is the direction of the line of sight, a the seen triangle's first corner less the
+//     place where that starts (the eye; S where the camera is orthographic), e and f its edges from
+//     there to the second and the third corner. The weights of these two are D . (f x a) and
+//     D . (a x e), over D . (e x f), each clamped to [0, 1]; the first corner's is 1 less theirs.
+//     Q, the point less the eye, is the first corner less the eye plus wb e + wc f, whatever the
+//     camera: only D and the start differ. Normals, tangents and texture
 //     coordinates are interpolated with the same weights, from the floats that Scene::surfaces
 //     holds.
 //  2. Frame. N is the interpolated normal, normalised (of length zero: the triangle's own). T is
@@ -101,12 +103,12 @@ Image<glm::dvec3> shade(const Tracer& tracer, const GroundTruth& truth,
 Image<Shading> shade_terms(const Tracer& tracer, const GroundTruth& truth,
                            const TracedLights& before = {});
 
-/// What is seen along one ray, shaded; nothing where that is background.
-std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& direction);
+/// What is seen along a line of sight, shaded; nothing where that is background.
+std::optional<Shading> shade_ray(const Tracer& tracer, const glm::dvec3& line);
 
-/// What the eye ray along `direction` sees.
+/// What is seen along a line of sight.
 struct SeenPoint {
-    glm::dvec3 direction{0, 0, -1};
+    glm::dvec3 line{0, 0, -1};
     std::uint32_t triangle = no_triangle;
     bool lit = false;
 };

@@ -1,6 +1,7 @@
 #include "reference/trace/arbiters.h"
 
 #include "reference/exact/norms.h"
+#include "reference/trace/parallel_sight.h"
 #include "reference/trace/plane_edges.h"
 #include "scenes/roundoff.h"
 
@@ -42,16 +43,50 @@ private:
     }
 };
 
-/// The place of a met triangle in the view's scale: 1/s, within bounds.
-std::pair<float, float> inverse_depth(const PacketRays& rays, const EyeRay& ray, const Corners& t) {
+/// A product with a triangle's normal, and how far it may be off.
+struct Product {
+    double value = 0;
+    double error = 0;
+};
+
+/// Where a ray meets a plane: its depth is their quotient.
+struct PlaneDepth {
+    Product numerator;
+    Product denominator;
+};
+
+/// As in view.cpp: 8 u l^2 per component of the normal, 50 u m l^2 for the dot product.
+PlaneDepth plane_depth(const EyeRay& ray, const Corners& t) {
     const PlaneEdges edges(t);
     const glm::dvec3 normal = glm::cross(edges.ab, edges.ac);
-    const glm::dvec3 to_plane = edges.a - ray.eye;
-    // As in view.cpp: 8 u l^2 per component, 50 u m l^2 for the dot product.
-    const double numerator = glm::dot(to_plane, normal);
-    const double numerator_error = 50 * u * largest(to_plane) * edges.product;
-    const double denominator = glm::dot(ray.direction, normal);
-    const double denominator_error = 50 * u * largest(ray.direction) * edges.product;
+    const auto times_normal = [&](const glm::dvec3& v) {
+        return Product{glm::dot(v, normal), 50 * u * largest(v) * edges.product};
+    };
+    return {times_normal(edges.a - ray.start), times_normal(ray.direction)};
+}
+
+/// The place of a met triangle on a parallel line of sight: its height, within bounds.
+std::pair<float, float> height(const PacketRays& rays, int lane, const Corners& t) {
+    const auto [numerator, denominator] = plane_depth(rays.ray(lane), t);
+    // The plane is too nearly parallel to tell.
+    if (!(std::abs(denominator.value) > 4 * denominator.error))
+        return {-std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+    // The denominator may be smaller by a quarter, which makes errors up to 4/3 as large: 1.5
+    // covers that and second order, 4 u the roundings.
+    const double depth = numerator.value / denominator.value;
+    const double size = std::abs(denominator.value);
+    const double error =
+        std::abs(depth) * (1.5 * denominator.error / size + 4 * u) + 1.5 * numerator.error / size;
+    const auto [low, high] =
+        heights_at(*rays.state, (*rays.lines)[static_cast<std::size_t>(lane)], depth, error);
+    return {float_below(low), float_above(high)};
+}
+
+/// The place of a met triangle in the view's scale: 1/s, within bounds.
+std::pair<float, float> inverse_depth(const PacketRays& rays, int lane, const Corners& t) {
+    const PlaneDepth depth = plane_depth(rays.ray(lane), t);
+    const auto [numerator, numerator_error] = depth.numerator;
+    const auto [denominator, denominator_error] = depth.denominator;
     const double scale = rays.state->from_eye.scale;
     // The plane is too near the eye to tell: it may be nearer than any.
     if (!(std::abs(numerator) > 4 * numerator_error))
@@ -69,7 +104,8 @@ void NearestArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle,
     ++rays_.undecided;
     std::optional<Candidate> candidate = met(lane, triangle);
     if (!candidate) return;
-    const auto [lo, most] = inverse_depth(rays_, rays_.ray(lane), rays_.triangle(triangle));
+    const auto place = rays_.state->from_eye.parallel ? height : inverse_depth;
+    const auto [lo, most] = place(rays_, lane, rays_.triangle(triangle));
     const float unit = packet.unit[static_cast<std::size_t>(lane)];
     // By the floats' own bound, too: what came later would have been left out by it.
     candidate->hi = std::min(most * unit, hi);
@@ -108,7 +144,8 @@ std::optional<NearestArbiter::Candidate> NearestArbiter::met(int lane, std::uint
         if (!signs.at_least_zero(side, orientation)) return std::nullopt;
         candidate.through[k] = side.sign == 0;
     }
-    // The eye is not in the triangle's plane, so the planes of two edges meet in a line.
+    // The eye, or the direction to it, is not in the triangle's plane, so the planes of two edges
+    // meet in a line.
     for (std::size_t k = 0; k < 3; ++k)
         if (candidate.through[k] && candidate.through[(k + 1) % 3]) {
             vertex_[static_cast<std::size_t>(lane)] = corners[(k + 1) % 3];
@@ -130,8 +167,10 @@ bool NearestArbiter::stands(const EyeRay& ray, int lane, std::uint32_t triangle,
                                     : rays_.leeway->readings[static_cast<std::size_t>(lane)];
     if (reading == MaskReading::exact)
         return signs.at_least_zero(mask_on_ray(rays_.filters, ray, state.masked(triangle)), 1);
-    return may_stand_on_ray(ray, state.masked(triangle),
-                            rays_.leeway->errors->at(triangle, ray.direction), reading);
+    return may_stand_on_ray(
+        ray, state.masked(triangle),
+        rays_.leeway->errors->at(triangle, (*rays_.lines)[static_cast<std::size_t>(lane)]),
+        reading);
 }
 
 void NearestArbiter::settle(RayPacket& packet) {

@@ -22,16 +22,14 @@ class Signs;
 /// The rays of a packet as all arbiters see them, and how many signs needed exact arithmetic.
 struct PacketRays {
     const Tracer::State* state = nullptr;
-    const Vectors* directions = nullptr;
+    const Vectors* lines = nullptr; ///< of sight
     Predicates predicates;
     Filters filters = Filters::on;
     const PacketMasks* leeway = nullptr; ///< null: masks are read exactly
     std::uint64_t exact_decisions = 0;   ///< of triangles that are met
     std::uint64_t undecided = 0;         ///< how often floats left a triangle to an arbiter
 
-    EyeRay ray(int lane) const {
-        return {state->eye, (*directions)[static_cast<std::size_t>(lane)], state->light};
-    }
+    EyeRay ray(int lane) const { return state->ray((*lines)[static_cast<std::size_t>(lane)]); }
     Corners triangle(std::uint32_t index) const { return corners(*state->scene, index); }
 };
 

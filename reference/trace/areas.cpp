@@ -82,9 +82,9 @@ std::optional<SeenTriangle> seen_triangle(const Tracer& tracer, std::uint32_t tr
     if (!sides.visible) return std::nullopt; // also where the eye lies in its plane
     const Tracer::State& state = tracer.state();
     const Corners t = corners(*state.scene, triangle);
-    const glm::dvec3 a = t.a - state.eye;
-    const glm::dvec3 b = t.b - state.eye;
-    const glm::dvec3 c = t.c - state.eye;
+    const glm::dvec3 a = t.a - state.scene->camera.eye;
+    const glm::dvec3 b = t.b - state.scene->camera.eye;
+    const glm::dvec3 c = t.c - state.scene->camera.eye;
     const double sign = sides.front_to_eye ? -1 : 1;
     return SeenTriangle{
         triangle,
@@ -119,7 +119,7 @@ Directions directions_of(const Camera& camera, int left, int top, int right, int
     const auto farthest = [](int from, int to, int of) {
         return std::max(std::abs(2.0 * from / of - 1), std::abs(2.0 * to / of - 1));
     };
-    return {ray_direction(camera, (left + right) / 2.0, (top + bottom) / 2.0),
+    return {line_of_sight(camera, (left + right) / 2.0, (top + bottom) / 2.0),
             half.x * (right - left - 1) / camera.width * camera.right,
             half.y * (bottom - top - 1) / camera.height * camera.up,
             1 + half.x * farthest(left, right, camera.width) +
@@ -159,7 +159,8 @@ struct Areas::Seen {
 };
 
 bool Areas::are_worth(const Tracer& tracer, std::size_t pixels) {
-    return tracer.state().scene->triangles.size() * pixels_for_a_triangle <= pixels;
+    return tracer.state().eye.w != 0 &&
+           tracer.state().scene->triangles.size() * pixels_for_a_triangle <= pixels;
 }
 
 Areas::Areas(int width, int height)

@@ -23,7 +23,8 @@ public:
     /// Of a pixel that is not told.
     static constexpr std::uint32_t untold = no_triangle - 1;
 
-    /// Whether pixels are so many that looking at areas of them may be quicker than tracing.
+    /// Whether pixels are so many that looking at areas of them may be quicker than tracing. Never
+    /// where lines of sight are parallel: what is told here follows from directions.
     static bool are_worth(const Tracer& tracer, std::size_t pixels);
 
     /// Of a picture in which nothing is told yet.

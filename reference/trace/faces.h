@@ -49,20 +49,21 @@ inline glm::dvec3 cap_plane(const Corners& t) {
     return glm::cross(t.c - t.a, t.b - t.a);
 }
 
-/// Parameter t at which eye + t D meets a plane through `through`. Infinite or NaN where they are
+/// Parameter t at which start + t D meets a plane through `through`. Infinite or NaN where they are
 /// parallel.
-inline double depth_on_plane(const glm::dvec3& eye, const glm::dvec3& direction,
+inline double depth_on_plane(const glm::dvec3& start, const glm::dvec3& direction,
                              const glm::dvec3& through, const glm::dvec3& plane) {
-    return -glm::dot(eye - through, plane) / glm::dot(direction, plane);
+    return -glm::dot(start - through, plane) / glm::dot(direction, plane);
 }
 
-/// The same for the plane of a triangle of the scene, from the scene's eye: the depth of a ray that
+/// The same for the plane of a triangle of the scene and a line of sight: the depth at which that
 /// hits the triangle.
 inline double depth_on_triangle(const Scene& scene, std::uint32_t triangle,
-                                const glm::dvec3& direction) {
+                                const glm::dvec3& line) {
     const Corners t = from_short_edge(
         {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)});
-    return depth_on_plane(scene.camera.eye, direction, t.a, cap_plane(t));
+    return depth_on_plane(start_of(scene.camera, line), direction_of(scene.camera, line), t.a,
+                          cap_plane(t));
 }
 
 } // namespace shadowproof

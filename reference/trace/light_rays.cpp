@@ -77,23 +77,29 @@ void rise_to(const OriginView& view, const Vector& q, Number error, RayPacket& p
     store(number(infinity), packet.upper_hi, i);
 }
 
-void lead_to_points(const Tracer::State& state, const Vectors& directions, const Lanes<double>& t,
+void lead_to_points(const Tracer::State& state, const Vectors& lines, const Lanes<double>& t,
                     const Lanes<double>& t_error, RayPacket& packet) {
     const OriginView& view = state.from_light;
-    const glm::dvec3 base = state.eye - view.origin;
-    const Number base_size = number(shadowproof::largest(base));
+    const Camera& camera = state.scene->camera;
+    const bool is_parallel = camera.is_orthographic();
+    const glm::dvec3 one_base = camera.eye - view.origin;
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
-        // (E - O) + t D: u for the difference, u for the product, u for the sum; 4 u for all with
-        // room.
+        // (E - O) + t D, E where the line starts: u for the difference, u for the product, u for
+        // the sum; 4 u for all with room.
+        Vector base;
         Vector direction;
         Vector along;
         Vector q;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            direction.axis[axis] = load(directions.axis[axis], i);
+            const int k = static_cast<int>(axis);
+            const Number line = load(lines.axis[axis], i);
+            base.axis[axis] =
+                is_parallel ? hn::Sub(line, number(view.origin[k])) : number(one_base[k]);
+            direction.axis[axis] = is_parallel ? number(camera.forward[k]) : line;
             along.axis[axis] = hn::Mul(load(t, i), direction.axis[axis]);
-            q.axis[axis] = hn::Add(number(base[static_cast<int>(axis)]), along.axis[axis]);
+            q.axis[axis] = hn::Add(base.axis[axis], along.axis[axis]);
         }
-        const Number error = hn::Add(hn::Mul(number(4 * u), hn::Add(base_size, largest(along))),
+        const Number error = hn::Add(hn::Mul(number(4 * u), hn::Add(largest(base), largest(along))),
                                      hn::Mul(largest(direction), load(t_error, i)));
         if (view.parallel) {
             rise_to(view, q, error, packet, i);
@@ -146,22 +152,23 @@ LightRay from_far_light_to_infinity(const OriginView& view, const glm::dvec3& di
 
 } // namespace
 
-void lead_to_points(const Tracer::State& state, const Vectors& directions, const Lanes<double>& t,
+void lead_to_points(const Tracer::State& state, const Vectors& lines, const Lanes<double>& t,
                     const Lanes<double>& t_error, RayPacket& packet) {
-    HWY_DYNAMIC_DISPATCH(lead_to_points)(state, directions, t, t_error, packet);
+    HWY_DYNAMIC_DISPATCH(lead_to_points)(state, lines, t, t_error, packet);
 }
 
 // Rays of a directional light leave the scene, except where D points straight away from the light:
-// there they meet everything above the eye's own place.
-std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& direction) {
+// there they meet everything above the place where the line of sight starts.
+std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line) {
+    const glm::dvec3& direction = direction_of(state.scene->camera, line);
     if (!state.from_light.parallel) return LightRay{{direction, 0}, {}};
     if (state.from_light.shear.lean != 0)
         return from_far_light_to_infinity(state.from_light, direction);
-    if (!state.predicates.runs_from_light({state.eye, direction, state.light})) return std::nullopt;
+    if (!state.predicates.runs_from_light(state.ray(line))) return std::nullopt;
     RayPacket packet;
-    Vectors directions;
-    directions.set(0, direction);
-    lead_to_points(state, directions, {}, {}, packet);
+    Vectors lines;
+    lines.set(0, line);
+    lead_to_points(state, lines, {}, {}, packet);
     LightRay ray{{packet.direction[0], packet.direction_error[0]}, {}};
     ray.limits.lower_lo = ray.limits.lower_hi = -no_limit;
     return ray;

@@ -10,9 +10,9 @@
 namespace shadowproof {
 
 /// Sets direction, error and limits of every lane: to the point at view depth t, off by t_error, of
-/// the eye ray along D. Hits that count lie between the light and the point. The caller activates
+/// the line of sight. Hits that count lie between the light and the point. The caller activates
 /// lanes and says what is skipped.
-void lead_to_points(const Tracer::State& state, const Vectors& directions, const Lanes<double>& t,
+void lead_to_points(const Tracer::State& state, const Vectors& lines, const Lanes<double>& t,
                     const Lanes<double>& t_error, RayPacket& packet);
 
 struct LightRay {
@@ -20,7 +20,8 @@ struct LightRay {
     HitLimits limits;
 };
 
-/// From the light along the eye ray's direction, to infinity; nothing where no triangle can be met.
-std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& direction);
+/// From the light along the direction of a line of sight, to infinity; nothing where no triangle
+/// can be met.
+std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line);
 
 } // namespace shadowproof

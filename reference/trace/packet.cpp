@@ -3,6 +3,7 @@
 #include "reference/trace/rays.h"
 
 #include <algorithm>
+#include <cmath>
 
 // Highway compiles what follows once for each instruction set, then chooses when it runs.
 #undef HWY_TARGET_INCLUDE
@@ -209,14 +210,23 @@ void meet_cluster(Search& search, std::uint32_t number, std::uint32_t lanes) {
                              static_cast<std::size_t>(__builtin_ctz(left)), search.arbiter);
 }
 
-/// How far the walk must still look: where 1/s is best_lo, and a little further.
+/// How far the walk must still look: where 1/s is best_lo, and a little further; of parallel rays,
+/// where the height is.
 void lower_limits(const Search& search, int first, int count, float* far) {
     const RayPacket& packet = search.packet;
     for (int i = 0; i < count; ++i) {
         const auto l = static_cast<std::size_t>(first + i);
         const double best = packet.best_lo[l];
-        if (!(best > 0)) continue;
-        const double s = search.ratio / best * (1 + 0x1p-20) - packet.walk_start[l];
+        double s = 0;
+        if (search.records.view().parallel) {
+            if (std::isinf(best)) continue;
+            s = -search.ratio * best / packet.unit[l];
+            s += 0x1p-20 * std::abs(s);
+        } else {
+            if (!(best > 0)) continue;
+            s = search.ratio / best * (1 + 0x1p-20);
+        }
+        s -= packet.walk_start[l];
         far[i] = std::min(far[i], static_cast<float>(std::max(s, 0.0)) + 0x1p-20F);
     }
 }
@@ -240,7 +250,7 @@ void visit(void* visitor, std::uint32_t cluster, int first, int count, float* fa
 
 template <Query query>
 void search_for(RayPacket& packet, RecordCache& records, Arbiter& arbiter) {
-    prepare(packet, records.view());
+    prepare(packet, records.view(), query == Query::nearest);
     const BoxTrees& trees = *records.view().trees;
     Search search{packet, records, arbiter, trees.frame().scale / records.view().scale};
     packet.walk.lanes = packet.active;

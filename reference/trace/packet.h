@@ -92,7 +92,7 @@ public:
     virtual void settle(RayPacket& /*packet*/) {}
 };
 
-/// packet.hit: the triangle with the largest 1/s. Not for parallel rays.
+/// packet.hit: the triangle with the largest 1/s, or the highest where rays are parallel.
 void find_nearest(RayPacket& packet, RecordCache& records, Arbiter& arbiter);
 /// packet.hit: some triangle that is certainly met; the lane is then done. The arbiter adds what
 /// remains.

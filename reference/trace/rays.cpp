@@ -132,11 +132,11 @@ void prepare_from_origin(RayPacket& packet, const OriginView& view) {
 // Parallel rays: all points whose sheared coordinates are (u, v). With axes as in shear.h one of
 // them is (u, v, 0), and from there the light lies along (slope_u - lean u, slope_v - lean v, 1),
 // times `up`. u and v, off by `error`, weigh once and a little; slopes are known to 3 2^-53 of
-// themselves. Beyond 2 no box lies.
-void prepare_parallel(RayPacket& packet, const OriginView& view) {
+// themselves. Beyond 2 no box lies. From above all goes the other way.
+void prepare_parallel(RayPacket& packet, const OriginView& view, bool from_above) {
     const Shear& shear = view.shear;
     const double ratio = view.trees->frame().scale / view.scale;
-    const Number up = number(shear.up);
+    const Number up = number(from_above ? -shear.up : shear.up);
     const Number lean = number(shear.lean);
     Number room = number(0);
     for (std::size_t i = 0; i < packet_size; i += hn::Lanes(doubles)) {
@@ -144,7 +144,10 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
         const Number u = hn::Div(load(packet.direction.axis[0], i), w);
         const Number v = hn::Div(load(packet.direction.axis[1], i), w);
         const Number error = hn::Div(load(packet.direction_error, i), w);
-        const Number height = load(packet.lower_lo, i);
+        // Where the ray begins, and where it ends.
+        const Number height =
+            from_above ? hn::Neg(load(packet.upper_hi, i)) : load(packet.lower_lo, i);
+        const Number last = from_above ? hn::Neg(load(packet.lower_lo, i)) : number(infinity);
         const Direction of = normalised(packet, i);
         store_direction(of, packet, i);
         const std::array<Number, 3> place{u, v, number(0)};
@@ -174,7 +177,7 @@ void prepare_parallel(RayPacket& packet, const OriginView& view) {
         cut_lanes({{near_or(p[0], 4), near_or(p[1], 4), near_or(p[2], 4)},
                    {near_or(d[0], 1), near_or(d[1], 1), near_or(d[2], 1)},
                    near_or(begin, 0),
-                   number(infinity)},
+                   hn::Add(hn::Mul(last, number(ratio)), number(0x1p-20))},
                   true, packet.walk, packet.walk_start, i);
         room = hn::Max(room, of_active(packet, i, near_or(off, 0)));
     }
@@ -209,9 +212,9 @@ void find_extremes(RayPacket& packet) {
     packet.most_magnitude = hn::GetLane(hn::MaxOfLanes(all, most_magnitude));
 }
 
-void prepare(RayPacket& packet, const OriginView& view) {
+void prepare(RayPacket& packet, const OriginView& view, bool from_above) {
     if (view.parallel)
-        prepare_parallel(packet, view);
+        prepare_parallel(packet, view, from_above);
     else
         prepare_from_origin(packet, view);
     find_extremes(packet);
@@ -228,8 +231,8 @@ namespace {
 HWY_EXPORT(prepare);
 } // namespace
 
-void prepare(RayPacket& packet, const OriginView& view) {
-    HWY_DYNAMIC_DISPATCH(prepare)(packet, view);
+void prepare(RayPacket& packet, const OriginView& view, bool from_above) {
+    HWY_DYNAMIC_DISPATCH(prepare)(packet, view, from_above);
 }
 
 } // namespace shadowproof

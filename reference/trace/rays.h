@@ -6,7 +6,8 @@
 
 namespace shadowproof {
 
-/// Sets what follows from the inputs of set_lane, for rays of this view.
-void prepare(RayPacket& packet, const OriginView& view);
+/// Sets what follows from the inputs of set_lane, for rays of this view. `from_above`: parallel
+/// rays are walked from their upper limits down; otherwise from the lower ones up.
+void prepare(RayPacket& packet, const OriginView& view, bool from_above);
 
 } // namespace shadowproof

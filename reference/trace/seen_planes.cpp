@@ -69,37 +69,45 @@ constexpr std::size_t plane_count = 64;
 
 } // namespace
 
-SeenPlanes::SeenPlanes(const Scene& scene, const glm::dvec3& eye)
-    : scene_(&scene), eye_(eye), planes_(plane_count) {}
+SeenPlanes::SeenPlanes(const Scene& scene) : scene_(&scene), planes_(plane_count) {
+    for (std::size_t lane = 0; lane < packet_size; ++lane) forward_.set(lane, scene.camera.forward);
+}
 
-const SeenPlanes::Plane& SeenPlanes::plane_of(std::uint32_t triangle) {
+void SeenPlanes::Plane::start_from(const glm::dvec3& start) {
+    const glm::dvec3 to_plane = corner - start;
+    numerator = glm::dot(to_plane, normal);
+    numerator_error = 50 * double_roundoff * largest(to_plane) * edges / std::abs(numerator);
+}
+
+SeenPlanes::Plane& SeenPlanes::plane_of(std::uint32_t triangle) {
     Plane& plane = planes_[triangle % plane_count];
     if (plane.triangle == triangle) return plane;
     const PlaneEdges edges(corners(*scene_, triangle));
-    const glm::dvec3 to_plane = edges.a - eye_;
     plane.triangle = triangle;
     plane.normal = glm::cross(edges.ab, edges.ac);
     plane.normal_error = 8.1 * double_roundoff * edges.product;
     plane.normal_size = largest(plane.normal);
-    plane.numerator = glm::dot(to_plane, plane.normal);
-    plane.numerator_error =
-        50 * double_roundoff * largest(to_plane) * edges.product / std::abs(plane.numerator);
+    plane.corner = edges.a;
+    plane.edges = edges.product;
+    plane.start_from(scene_->camera.eye);
     return plane;
 }
 
-void SeenPlanes::measure(const Vectors& directions, std::uint32_t lanes,
+void SeenPlanes::measure(const Vectors& lines, std::uint32_t lanes,
                          const Lanes<std::uint32_t>& triangles, Lanes<double>& depth,
                          Lanes<double>& depth_error) {
+    const bool is_parallel = scene_->camera.is_orthographic();
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
         const auto l = static_cast<std::size_t>(__builtin_ctz(left));
-        const Plane& plane = plane_of(triangles[l]);
+        Plane& plane = plane_of(triangles[l]);
+        if (is_parallel) plane.start_from(lines[l]);
         lanes_.normal.set(l, plane.normal);
         lanes_.normal_error[l] = plane.normal_error;
         lanes_.normal_size[l] = plane.normal_size;
         lanes_.numerator[l] = plane.numerator;
         lanes_.numerator_error[l] = plane.numerator_error;
     }
-    HWY_DYNAMIC_DISPATCH(measure)(directions, lanes_);
+    HWY_DYNAMIC_DISPATCH(measure)(is_parallel ? forward_ : lines, lanes_);
     for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
         const auto l = static_cast<std::size_t>(__builtin_ctz(left));
         depth[l] = lanes_.depth[l];

@@ -38,11 +38,16 @@ struct Tracer::State {
     std::vector<std::uint8_t> receives;     ///< one flag per triangle
     std::vector<std::uint8_t> facing;       ///< bits of Facing, per triangle
     std::vector<std::uint32_t> masks;       ///< masks_of_triangles
-    glm::dvec3 eye{0, 0, 0};
-    glm::dvec4 light{0, 0, 0, 1}; ///< homogeneous
-    std::optional<Cone> cone;     ///< of a spot light
-    LazyShells shells;            ///< of the casters
+    glm::dvec4 eye{0, 0, 0, 1};             ///< homogeneous_eye
+    glm::dvec4 light{0, 0, 0, 1};           ///< homogeneous
+    std::optional<Cone> cone;               ///< of a spot light
+    LazyShells shells;                      ///< of the casters
     double build_milliseconds = 0;
+
+    /// A line of sight (camera.h), as the predicates take it.
+    EyeRay ray(const glm::dvec3& line) const {
+        return {start_of(scene->camera, line), direction_of(scene->camera, line), light};
+    }
 
     bool has_mask(std::uint32_t triangle) const {
         return !masks.empty() && masks[triangle] != no_mask;

@@ -43,10 +43,10 @@ PixelRays::PixelRays(const Camera& camera) : width_(camera.width), height_(camer
     };
     for (std::size_t tile = 0; tile < columns_.size(); ++tile)
         for (std::size_t lane = 0; lane < packet_size; ++lane)
-            columns_[tile].set(lane, ray_column(camera, center(tile, lane % tile_side, width_)));
+            columns_[tile].set(lane, sight_column(camera, center(tile, lane % tile_side, width_)));
     for (std::size_t tile = 0; tile < rows_.size(); ++tile)
         for (std::size_t lane = 0; lane < packet_size; ++lane)
-            rows_[tile].set(lane, ray_row(camera, center(tile, lane / tile_side, height_)));
+            rows_[tile].set(lane, sight_row(camera, center(tile, lane / tile_side, height_)));
 }
 
 void PixelRays::set(Tile& tile, int left, int top) const {
@@ -58,7 +58,7 @@ void PixelRays::set(Tile& tile, int left, int top) const {
     for (int y = 0; y < bottom; ++y) tile.lanes |= ((1U << right) - 1) << (y * tile_side);
     HWY_DYNAMIC_DISPATCH(add)
     (columns_[static_cast<std::size_t>(left / tile_side)],
-     rows_[static_cast<std::size_t>(top / tile_side)], tile.directions);
+     rows_[static_cast<std::size_t>(top / tile_side)], tile.lines);
 }
 
 } // namespace shadowproof

@@ -21,7 +21,7 @@ struct Tile {
     int left = 0;
     int top = 0;
     std::uint32_t lanes = 0; ///< one bit per pixel that lies within the picture
-    Vectors directions;
+    Vectors lines;           ///< of sight
 
     int x(std::size_t lane) const { return left + static_cast<int>(lane) % tile_side; }
     int y(std::size_t lane) const { return top + static_cast<int>(lane) / tile_side; }
@@ -42,8 +42,8 @@ struct Tile {
     }
 };
 
-/// The rays of a picture's pixels, equal to ray_direction, from one vector per column and one per
-/// row. Beyond the picture they are those of its last column and row.
+/// The lines of sight of a picture's pixels, equal to line_of_sight, from one vector per column and
+/// one per row. Beyond the picture they are those of its last column and row.
 class PixelRays {
 public:
     explicit PixelRays(const Camera& camera);

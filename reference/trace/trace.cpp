@@ -70,14 +70,14 @@ Tracer::Tracer(const Scene& scene, int threads) : state_(std::make_unique<State>
     state.double_sided = double_sided_triangles(scene);
     state.receives = receiving_triangles(scene);
     state.masks = masks_of_triangles(scene);
-    state.eye = scene.camera.eye;
+    state.eye = homogeneous_eye(scene.camera);
     state.light = homogeneous(chosen_light(scene));
     state.cone = cone_of(chosen_light(scene));
     const auto from = [&](const glm::dvec4& origin, bool may_be_parallel) {
         return view_from(origin, may_be_parallel, scene, *state.trees, state.places,
                          state.predicates, state.threads);
     };
-    state.from_eye = from(glm::dvec4(state.eye, 1), false);
+    state.from_eye = from(state.eye, false);
     state.from_light = from(state.light, true);
     state.side_of_light = state.from_light.side;
     state.facing = facing_of(state);
@@ -128,8 +128,8 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
         [&](Prober& prober, const Tile& tile) {
             thread_local SeenLanes seen;
             thread_local LitLanes lighting;
-            prober.see(tile.directions, tile.lanes, seen);
-            prober.light(tile.directions, tile.lanes, seen, lighting);
+            prober.see(tile.lines, tile.lanes, seen);
+            prober.light(tile.lines, tile.lanes, seen, lighting);
             for (std::size_t lane = 0; lane < packet_size; ++lane)
                 lighting.exactness[lane] = std::max(lighting.exactness[lane], seen.exactness[lane]);
             tile.copy(lighting.visibility, truth.visibility);
@@ -159,10 +159,9 @@ GroundTruth trace(const Tracer& tracer, Filters filters) {
 namespace {
 
 /// Calls work(prober, packet, lanes, first) for sixteen rays at a time, on all threads; `first`:
-/// the index of the packet's first ray. `direction`: of each ray, by its index.
-template <class Direction, class Work>
-void for_packets(const Tracer::State& state, std::size_t rays, const Direction& direction,
-                 const Work& work) {
+/// the index of the packet's first ray. `line`: of each ray, by its index.
+template <class Line, class Work>
+void for_packets(const Tracer::State& state, std::size_t rays, const Line& line, const Work& work) {
     std::vector<std::unique_ptr<Prober>> probers(static_cast<std::size_t>(state.threads));
     constexpr std::size_t piece_size = std::size_t{64} * packet_size;
     const auto pieces = static_cast<int>((rays + piece_size - 1) / piece_size);
@@ -174,8 +173,7 @@ void for_packets(const Tracer::State& state, std::size_t rays, const Direction& 
         for (std::size_t first = begin; first < end; first += packet_size) {
             const std::size_t count = std::min<std::size_t>(packet_size, end - first);
             Vectors packet;
-            for (std::size_t lane = 0; lane < count; ++lane)
-                packet.set(lane, direction(first + lane));
+            for (std::size_t lane = 0; lane < count; ++lane) packet.set(lane, line(first + lane));
             work(*prober, packet, (1U << count) - 1, first);
         }
     });
@@ -193,11 +191,11 @@ void see_with(Prober& prober, const Vectors& packet, std::uint32_t lanes, std::s
 
 } // namespace
 
-std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                  const MaskLeeway& leeway) {
-    std::vector<RayTruth> truths(directions.size());
+    std::vector<RayTruth> truths(lines.size());
     for_packets(
-        tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
+        tracer.state(), lines.size(), [&](std::size_t i) { return lines[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             LitLanes lighting;
@@ -212,22 +210,22 @@ std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec
     return truths;
 }
 
-std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction) {
+std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& line) {
     Prober prober(tracer.state());
-    Vectors directions;
-    directions.set(0, direction);
+    Vectors lines;
+    lines.set(0, line);
     SeenLanes seen;
     Lanes<std::uint32_t> triangles{};
-    prober.see(directions, 1, seen);
-    prober.occluders(directions, 1, seen, triangles);
+    prober.see(lines, 1, seen);
+    prober.occluders(lines, 1, seen, triangles);
     return triangles[0];
 }
 
-std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                   const MaskLeeway& leeway) {
-    std::vector<SeenSurface> surfaces(directions.size());
+    std::vector<SeenSurface> surfaces(lines.size());
     for_packets(
-        tracer.state(), directions.size(), [&](std::size_t i) { return directions[i]; },
+        tracer.state(), lines.size(), [&](std::size_t i) { return lines[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             see_with(prober, packet, lanes, first, leeway, seen);
@@ -242,9 +240,9 @@ SeenRange range_of(const Camera& camera) {
 }
 
 void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t rays,
-                   const std::function<glm::dvec3(std::size_t)>& direction,
+                   const std::function<glm::dvec3(std::size_t)>& line,
                    const std::function<void(std::size_t, std::uint32_t)>& found) {
-    for_packets(tracer.state(), rays, direction,
+    for_packets(tracer.state(), rays, line,
                 [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
                     SeenLanes seen;
                     prober.see_triangle(packet, lanes, range, seen);
@@ -253,8 +251,8 @@ void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t ray
                 });
 }
 
-RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction) {
-    return trace_rays(tracer, std::span(&direction, 1)).front();
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& line) {
+    return trace_rays(tracer, std::span(&line, 1)).front();
 }
 
 namespace {

@@ -69,7 +69,7 @@ private:
 /// instruction set, and but for `exactness` and its counts without filters.
 GroundTruth trace(const Tracer& tracer, Filters filters = Filters::on);
 
-/// The truth along one ray of direction D from the eye (as Camera's ray_direction gives it).
+/// The truth along a line of sight, as line_of_sight (camera.h) gives it.
 struct RayTruth {
     Visibility visibility = Visibility::background;
     std::uint32_t triangle = no_triangle;
@@ -77,9 +77,9 @@ struct RayTruth {
     Exactness exactness = Exactness::filtered;
     bool in_cone = true; ///< false where the visible point is outside the spot light's cone
 };
-RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& direction);
+RayTruth trace_ray(const Tracer& tracer, const glm::dvec3& line);
 
-/// By how much another program may misread a triangle's mask along a ray.
+/// By how much another program may misread a triangle's mask along a line of sight.
 class MaskErrors {
 public:
     MaskErrors() = default;
@@ -87,7 +87,7 @@ public:
     MaskErrors& operator=(const MaskErrors&) = delete;
     virtual ~MaskErrors() = default;
     /// Called by several threads at once.
-    virtual MaskError at(std::uint32_t triangle, const glm::dvec3& direction) const = 0;
+    virtual MaskError at(std::uint32_t triangle, const glm::dvec3& line) const = 0;
 };
 /// How another program may read the masks of what the eye sees, ray by ray.
 struct MaskLeeway {
@@ -95,21 +95,21 @@ struct MaskLeeway {
     const MaskErrors* errors = nullptr;
 };
 
-/// The truth along many rays, on all threads.
-std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+/// The truth along many lines of sight, on all threads.
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                  const MaskLeeway& leeway = {});
 
 /// The lowest-numbered triangle between what a ray sees and the light; no_triangle where there is
 /// none, or nothing is seen, or its side that is seen is turned away from the light.
-std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& direction);
+std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& line);
 
-/// What is seen along each ray, whether or not it is lit: the nearest triangle and its view depth,
-/// no_triangle and infinity where there is none.
+/// What is seen along each line of sight, whether or not it is lit: the nearest triangle and its
+/// view depth, no_triangle and infinity where there is none.
 struct SeenSurface {
     std::uint32_t triangle = no_triangle;
     double depth = 0;
 };
-std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> directions,
+std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                   const MaskLeeway& leeway = {});
 /// View depths between which surfaces are seen.
 struct SeenRange {
@@ -119,10 +119,10 @@ struct SeenRange {
 };
 SeenRange range_of(const Camera& camera);
 
-/// The triangles that so many rays see, of which nothing is kept: `direction` gives each ray by its
-/// index, `found` takes what it sees, both on all threads.
+/// The triangles that so many lines of sight meet first, of which nothing is kept: `line` gives
+/// each by its index, `found` takes what is seen along it, both on all threads.
 void see_triangles(const Tracer& tracer, const SeenRange& range, std::size_t rays,
-                   const std::function<glm::dvec3(std::size_t)>& direction,
+                   const std::function<glm::dvec3(std::size_t)>& line,
                    const std::function<void(std::size_t, std::uint32_t)>& found);
 
 /// Which sides of a triangle the eye and the light see, exactly: a sign of zero is neither.

@@ -2,6 +2,7 @@
 
 #include "reference/trace/arbiters.h"
 #include "reference/trace/light_rays.h"
+#include "reference/trace/parallel_sight.h"
 #include "reference/trace/plane_edges.h"
 
 #include <algorithm>
@@ -36,25 +37,25 @@ Prober::Prober(const Tracer::State& state, Filters filters)
       occluding_(state.from_light, Part::occluding, state.double_sided, &state.masks),
       light_facing_(state.from_light, Part::light_facing, state.double_sided, nullptr),
       light_facing_masked_(state.from_light, Part::light_facing, state.double_sided, &state.masks),
-      planes_(*state.scene, state.eye), own_range_(range_of(state.scene->camera)) {}
+      planes_(*state.scene), own_range_(range_of(state.scene->camera)) {}
 
-PacketRays Prober::packet_rays(const Vectors& directions) const {
+PacketRays Prober::packet_rays(const Vectors& lines) const {
     return {.state = state_,
-            .directions = &directions,
+            .lines = &lines,
             .predicates = Predicates(filters_),
             .filters = filters_,
             .leeway = leeway_};
 }
 
-void Prober::see(const Vectors& directions, std::uint32_t lanes, const PacketMasks& masks,
+void Prober::see(const Vectors& lines, std::uint32_t lanes, const PacketMasks& masks,
                  SeenLanes& seen) {
     leeway_ = &masks;
-    see(directions, lanes, seen);
+    see(lines, lanes, seen);
     leeway_ = nullptr;
 }
 
-void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen) {
-    see_triangle(directions, lanes, own_range_, seen);
+void Prober::see(const Vectors& lines, std::uint32_t lanes, SeenLanes& seen) {
+    see_triangle(lines, lanes, own_range_, seen);
     const std::uint32_t met =
         lanes_where(lanes, [&](std::size_t l) { return seen.triangle[l] != no_triangle; });
     for_lanes(lanes & ~met, [&](std::size_t l) {
@@ -66,12 +67,13 @@ void Prober::see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen
             seen_.copies(seen.triangle[l]) > 1)
             seen.exactness[l] = Exactness::degenerate;
     });
-    planes_.measure(directions, met, seen.triangle, seen.depth, seen.depth_error);
+    planes_.measure(lines, met, seen.triangle, seen.depth, seen.depth_error);
 }
 
-void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const SeenRange& range,
+void Prober::see_triangle(const Vectors& lines, std::uint32_t lanes, const SeenRange& range,
                           SeenLanes& seen) {
-    if (range != range_) {
+    const bool is_parallel = state_->from_eye.parallel;
+    if (range != range_ && !is_parallel) {
         range_ = range;
         const double scale = state_->from_eye.scale;
         limits_.lower_lo =
@@ -81,10 +83,13 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
         limits_.upper_hi = float_above(1 / (range.near * scale));
     }
     clear(packet_, filters_);
-    set_lanes(packet_, lanes, directions, limits_);
+    if (is_parallel)
+        look_along(*state_, lines, lanes, range, packet_);
+    else
+        set_lanes(packet_, lanes, lines, limits_);
     rays_ += static_cast<std::uint64_t>(std::popcount(lanes));
     seen.exactness.fill(Exactness::filtered);
-    PacketRays rays = packet_rays(directions);
+    PacketRays rays = packet_rays(lines);
     NearestArbiter arbiter(rays, range, seen);
     find_nearest(packet_, seen_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -93,25 +98,24 @@ void Prober::see_triangle(const Vectors& directions, std::uint32_t lanes, const 
 }
 
 /// A sign of at least zero is in the cone.
-Decision Prober::ask_cone(const glm::dvec3& direction, std::uint32_t seen) {
+Decision Prober::ask_cone(const glm::dvec3& line, std::uint32_t seen) {
     const RayPoint point{.kind = RayPoint::Kind::surface, .surface = corners(*state_->scene, seen)};
-    const Decision decision = Predicates(filters_).within_cone(
-        {state_->eye, direction, state_->light}, point, *state_->cone);
+    const Decision decision =
+        Predicates(filters_).within_cone(state_->ray(line), point, *state_->cone);
     exact_decisions_ += decision.exactness != Exactness::filtered ? 1 : 0;
     return decision;
 }
 
 /// The segments begin in the planes of what is seen, and only there could triangles in them be met.
-void Prober::set_shadow_rays(const Vectors& directions, std::uint32_t lanes,
-                             const SeenLanes& seen) {
+void Prober::set_shadow_rays(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen) {
     clear(packet_, filters_);
-    lead_to_points(*state_, directions, seen.depth, seen.depth_error, packet_);
+    lead_to_points(*state_, lines, seen.depth, seen.depth_error, packet_);
     packet_.active = lanes;
     for_lanes(lanes,
               [&](std::size_t l) { packet_.skip[l] = state_->places.plane[seen.triangle[l]]; });
 }
 
-void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
+void Prober::light(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen,
                    LitLanes& lighting) {
     lighting.exactness.fill(Exactness::filtered);
     lighting.in_cone.fill(1);
@@ -122,7 +126,7 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
         if (triangle == no_triangle) return;
         const std::uint8_t facing = state_->facing[triangle];
         if (state_->cone) {
-            const Decision decision = ask_cone(directions[l], triangle);
+            const Decision decision = ask_cone(lines[l], triangle);
             lighting.in_cone[l] = decision.sign >= 0 ? 1 : 0;
             lighting.exactness[l] = decision.exactness;
         }
@@ -134,8 +138,8 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
     });
     if (asked == 0) return;
     rays_ += static_cast<std::uint64_t>(std::popcount(asked));
-    set_shadow_rays(directions, asked, seen);
-    PacketRays rays = packet_rays(directions);
+    set_shadow_rays(lines, asked, seen);
+    PacketRays rays = packet_rays(lines);
     AnyArbiter arbiter(rays, seen, lighting);
     find_any(packet_, occluding_, arbiter);
     exact_decisions_ += rays.exact_decisions;
@@ -145,22 +149,22 @@ void Prober::light(const Vectors& directions, std::uint32_t lanes, const SeenLan
     });
 }
 
-void Prober::occluders(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
+void Prober::occluders(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen,
                        Lanes<std::uint32_t>& triangles) {
     const std::uint32_t asked = lanes_where(lanes, [&](std::size_t l) {
         const std::uint32_t triangle = seen.triangle[l];
         return triangle != no_triangle && state_->faces_light(triangle) &&
                state_->receives[triangle] != 0 &&
-               (!state_->cone || ask_cone(directions[l], triangle).sign >= 0);
+               (!state_->cone || ask_cone(lines[l], triangle).sign >= 0);
     });
-    set_shadow_rays(directions, asked, seen);
-    PacketRays rays = packet_rays(directions);
+    set_shadow_rays(lines, asked, seen);
+    PacketRays rays = packet_rays(lines);
     LowestArbiter arbiter(rays, seen);
     find_lowest(packet_, occluding_, arbiter);
     for_lanes(lanes, [&](std::size_t l) { triangles[l] = packet_.hit[l]; });
 }
 
-void Prober::count(const Vectors& directions, std::uint32_t lanes, const Lanes<Point>& points,
+void Prober::count(const Vectors& lines, std::uint32_t lanes, const Lanes<Point>& points,
                    Lanes<std::int32_t>& counts, Masks masks) {
     Lanes<double> depth{};
     Lanes<double> depth_error{};
@@ -170,19 +174,19 @@ void Prober::count(const Vectors& directions, std::uint32_t lanes, const Lanes<P
         own[l] = points[l].skip;
         return points[l].kind == RayPoint::Kind::surface;
     });
-    planes_.measure(directions, at_surface, own, depth, depth_error);
+    planes_.measure(lines, at_surface, own, depth, depth_error);
     clear(packet_, filters_);
-    lead_to_points(*state_, directions, depth, depth_error, packet_);
+    lead_to_points(*state_, lines, depth, depth_error, packet_);
     packet_.active = lanes;
     for_lanes(lanes, [&](std::size_t l) {
         if (own[l] != no_triangle) packet_.skip[l] = state_->places.plane[own[l]];
         if (points[l].kind != RayPoint::Kind::infinity) return;
-        if (const std::optional<LightRay> ray = lead_to_infinity(*state_, directions[l]))
+        if (const std::optional<LightRay> ray = lead_to_infinity(*state_, lines[l]))
             set_lane(packet_, static_cast<int>(l), ray->w, ray->limits, packet_.skip[l]);
         else
             packet_.active &= ~(1U << l);
     });
-    PacketRays rays = packet_rays(directions);
+    PacketRays rays = packet_rays(lines);
     RecordCache& records = masks == Masks::kept ? light_facing_masked_ : light_facing_;
     CountArbiter arbiter(rays, points, records, masks);
     count_all(packet_, records, arbiter);

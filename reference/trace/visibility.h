@@ -39,23 +39,21 @@ class Prober {
 public:
     explicit Prober(const Tracer::State& state, Filters filters = Filters::on);
 
-    /// The nearest triangle within [near, far] along each direction D (view depth 1), and its
-    /// depth.
-    void see(const Vectors& directions, std::uint32_t lanes, SeenLanes& seen);
+    /// The nearest triangle within [near, far] along each line of sight (camera.h), and its depth.
+    void see(const Vectors& lines, std::uint32_t lanes, SeenLanes& seen);
     /// The same as another program may read the masks on the way.
-    void see(const Vectors& directions, std::uint32_t lanes, const PacketMasks& masks,
-             SeenLanes& seen);
+    void see(const Vectors& lines, std::uint32_t lanes, const PacketMasks& masks, SeenLanes& seen);
     /// The triangle alone, within any range.
-    void see_triangle(const Vectors& directions, std::uint32_t lanes, const SeenRange& range,
+    void see_triangle(const Vectors& lines, std::uint32_t lanes, const SeenRange& range,
                       SeenLanes& seen);
 
     /// Whether the light reaches the visible points.
-    void light(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
+    void light(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen,
                LitLanes& lighting);
 
     /// Of the triangles that shadow the visible points those with the lowest numbers; no_triangle
     /// where there is none, or the light is behind the surface, or not asked for.
-    void occluders(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen,
+    void occluders(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen,
                    Lanes<std::uint32_t>& triangles);
 
     /// Counts light-facing triangles strictly between the point of each ray and the light; for a
@@ -69,7 +67,7 @@ public:
         ignored, ///< a triangle counts as a whole
         kept,    ///< only where its mask leaves it standing
     };
-    void count(const Vectors& directions, std::uint32_t lanes, const Lanes<Point>& points,
+    void count(const Vectors& lines, std::uint32_t lanes, const Lanes<Point>& points,
                Lanes<std::int32_t>& counts, Masks masks = Masks::ignored);
 
     std::uint64_t rays() const { return rays_; }
@@ -87,15 +85,15 @@ private:
     RayPacket packet_;
     SeenRange own_range_;     ///< the camera's
     SeenRange range_{-1, -1}; ///< of which `limits_` are
-    HitLimits limits_;
+    HitLimits limits_;        ///< where lines of sight meet in the eye
     std::uint64_t rays_ = 0;
     std::uint64_t exact_decisions_ = 0;
     std::uint64_t undecided_ = 0;
     const PacketMasks* leeway_ = nullptr; ///< of the query under way
 
-    PacketRays packet_rays(const Vectors& directions) const;
-    void set_shadow_rays(const Vectors& directions, std::uint32_t lanes, const SeenLanes& seen);
-    Decision ask_cone(const glm::dvec3& direction, std::uint32_t seen);
+    PacketRays packet_rays(const Vectors& lines) const;
+    void set_shadow_rays(const Vectors& lines, std::uint32_t lanes, const SeenLanes& seen);
+    Decision ask_cone(const glm::dvec3& line, std::uint32_t seen);
 };
 
 } // namespace shadowproof

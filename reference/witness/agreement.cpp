@@ -62,7 +62,7 @@ Agreement ask_witness(const Scene& scene, const GroundTruth& truth, std::uint64_
         const auto i = static_cast<std::size_t>(piece);
         const double x = static_cast<double>(asked[i] % width) + 0.5;
         const double y = static_cast<double>(asked[i] / width) + 0.5;
-        answers[i] = witness.look(ray_direction(scene.camera, x, y));
+        answers[i] = witness.look(line_of_sight(scene.camera, x, y));
         answers[i].hit = {}; // a long rational each
     });
     Agreement agreement{.asked = asked.size()};

@@ -72,7 +72,7 @@ std::optional<bool> reaches(const Scene& scene, const glm::vec3& at, const glm::
     const std::optional<Scene> asked = looking_at(scene, at, light);
     if (!asked) return std::nullopt;
     const Tracer tracer(*asked, 1);
-    const RayTruth truth = trace_ray(tracer, ray_direction(asked->camera, 0.5, 0.5));
+    const RayTruth truth = trace_ray(tracer, line_of_sight(asked->camera, 0.5, 0.5));
     if (truth.triangle + 1 != asked->triangles.size()) return std::nullopt;
     return truth.visibility == Visibility::lit;
 }
@@ -112,9 +112,10 @@ void compare(RelationCheck& check, std::string_view relation, const ChangedScene
 /// The eye and the light change places.
 void check_exchange(RelationCheck& check, const Scene& scene) {
     const Light& light = chosen_light(scene);
-    const auto both = light.kind == Light::Kind::directional
-                          ? std::nullopt
-                          : mutual_visibility(scene, scene.camera.eye, light.position);
+    const bool is_parallel =
+        light.kind == Light::Kind::directional || scene.camera.is_orthographic();
+    const auto both =
+        is_parallel ? std::nullopt : mutual_visibility(scene, scene.camera.eye, light.position);
     (both ? check.tried : check.left_out).emplace_back(exchange);
     if (both && (*both)[0] != (*both)[1])
         note_change(check, fmt::format("{}: the light {} the eye, and {} where both change places",

@@ -118,8 +118,8 @@ bool may_touch(const Plane& t, const glm::dvec3& p, const glm::dvec3& d, double 
 } // namespace
 
 Witness::Witness(const Scene& scene)
-    : eye_(point(scene.camera.eye)), light_(point(chosen_light(scene).position)),
-      near_(scene.camera.near) {
+    : camera_(scene.camera), eye_(point(glm::dvec3(homogeneous_eye(scene.camera)))),
+      light_(point(chosen_light(scene).position)), near_(scene.camera.near) {
     const Light& light = chosen_light(scene);
     if (light.kind == Light::Kind::directional) {
         directional_ = true;
@@ -129,7 +129,6 @@ Witness::Witness(const Scene& scene)
         spot_axis_ = point(light.direction);
         spot_cosine_ = mpq_class(std::cos(light.outer_cone));
     }
-    eye_rounded_ = rounded(eye_);
     light_rounded_ = rounded(light_);
     if (std::isfinite(scene.camera.far)) far_ = mpq_class(scene.camera.far);
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
@@ -159,12 +158,14 @@ Witness::Witness(const Scene& scene)
     }
 }
 
-Point Witness::on_ray(const glm::dvec3& direction, double depth) const {
-    return along(eye_, mpq_class(depth), point(direction));
+Point Witness::on_ray(const glm::dvec3& line, double depth) const {
+    return along(point(start_of(camera_, line)), mpq_class(depth),
+                 point(direction_of(camera_, line)));
 }
 
 int Witness::side_of_eye(std::uint32_t triangle) const {
-    return sgn(dot(planes_[triangle].normal, minus(eye_, planes_[triangle].a)));
+    return sgn(dot(planes_[triangle].normal,
+                   camera_.is_orthographic() ? eye_ : minus(eye_, planes_[triangle].a)));
 }
 
 int Witness::side_of_light(std::uint32_t triangle) const {
@@ -205,24 +206,26 @@ bool Witness::occluded(const Point& hit, std::uint32_t own) const {
     return false;
 }
 
-Answer Witness::look(const glm::dvec3& direction) const {
+Answer Witness::look(const glm::dvec3& line) const {
+    const glm::dvec3& start = start_of(camera_, line);
+    const glm::dvec3& direction = direction_of(camera_, line);
+    const Point from = point(start);
     const Point d = point(direction);
     Answer answer;
     std::optional<mpq_class> nearest;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-        if (!may_touch(planes_[i], eye_rounded_, direction,
-                       std::numeric_limits<double>::infinity()))
+        if (!may_touch(planes_[i], start, direction, std::numeric_limits<double>::infinity()))
             continue;
-        const std::optional<mpq_class> t = meet(planes_[i], eye_, d);
+        const std::optional<mpq_class> t = meet(planes_[i], from, d);
         if (!t || *t < near_ || (far_ && *t > *far_) || (nearest && *t >= *nearest)) continue;
         if (!planes_[i].seen_from_behind && side_of_eye(i) <= 0) continue;
-        const Point met = along(eye_, *t, d);
+        const Point met = along(from, *t, d);
         if (!inside(planes_[i], met) || !stands(planes_[i], met)) continue;
         nearest = t;
         answer.triangle = i;
     }
     if (!nearest) return answer;
-    answer.hit = along(eye_, *nearest, d);
+    answer.hit = along(from, *nearest, d);
     const bool faces = side_of_eye(answer.triangle) * side_of_light(answer.triangle) > 0;
     const bool reached =
         faces && side_of_cone(answer.hit) >= 0 &&
@@ -246,9 +249,11 @@ int Witness::shadow_depth(const Point& q, std::uint32_t skip) const {
     return count;
 }
 
-int Witness::shadow_depth_at_infinity(const glm::dvec3& direction) const {
-    const Point d = point(direction);
-    if (directional_) return shadow_depth(along(eye_, mpq_class(1) << 2000, d), no_triangle);
+int Witness::shadow_depth_at_infinity(const glm::dvec3& line) const {
+    const Point d = point(direction_of(camera_, line));
+    if (directional_)
+        return shadow_depth(along(point(start_of(camera_, line)), mpq_class(1) << 2000, d),
+                            no_triangle);
     const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
     const Point moved{d[0] + e, d[1] + e * e, d[2] + e * e * e};
     int count = 0;

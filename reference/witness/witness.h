@@ -41,16 +41,17 @@ class Witness {
 public:
     explicit Witness(const Scene& scene);
 
-    Answer look(const glm::dvec3& direction) const;
+    /// What a line of sight (camera.h) meets.
+    Answer look(const glm::dvec3& line) const;
 
     /// Light-facing triangles strictly between q and the light; ties broken by really moving the
     /// line's end by (e, e^2, e^3) with e = 2^-400. `skip` does not count.
     int shadow_depth(const Point& q, std::uint32_t skip) const;
-    /// The same for the point at infinity in a direction from a point light; for one 2^2000 away
-    /// along the eye ray where the light is directional.
-    int shadow_depth_at_infinity(const glm::dvec3& direction) const;
+    /// The same for the point at infinity in a line's direction from a point light; for one 2^2000
+    /// away along the line where the light is directional.
+    int shadow_depth_at_infinity(const glm::dvec3& line) const;
 
-    Point on_ray(const glm::dvec3& direction, double depth) const;
+    Point on_ray(const glm::dvec3& line, double depth) const;
     int side_of_eye(std::uint32_t triangle) const;   ///< 1: the front is seen
     int side_of_light(std::uint32_t triangle) const; ///< 1: the front is lit
 
@@ -59,7 +60,8 @@ public:
     int side_of_cone(const Point& p) const;
 
 private:
-    Point eye_;
+    Camera camera_;
+    Point eye_;   ///< its place, or the direction to it
     Point light_; ///< position, or direction to it
     bool directional_ = false;
     std::optional<Point> spot_axis_;
@@ -70,7 +72,6 @@ private:
 
     Point to_light(const Point& p) const;
     bool lies_between(const mpq_class& s) const;
-    glm::dvec3 eye_rounded_{0, 0, 0};
     glm::dvec3 light_rounded_{0, 0, 0};
 
     bool occluded(const Point& hit, std::uint32_t own) const;

@@ -141,7 +141,7 @@ private:
                                    "half of all corners",
                                    name_of(mesh, triangle, k), words_of(place), largest_spread),
                        "move it nearer");
-            if (distance > 0 && distance < nearest)
+            if (!scene_.camera.is_orthographic() && distance > 0 && distance < nearest)
                 refuse(fmt::format("{} is at {}, nearer to the camera than {:.3g} of the distance "
                                    "of half of all corners",
                                    name_of(mesh, triangle, k), words_of(place), smallest_share),
@@ -164,12 +164,11 @@ private:
         for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
             check_axis("the camera", axis);
         // As floats hold them; depths between the planes then are floats, too.
-        if (!(camera.near >= std::numeric_limits<float>::min() &&
-              camera.near <= largest_coordinate))
+        const double least = camera.is_orthographic() ? 0 : std::numeric_limits<float>::min();
+        if (!(camera.near >= least && camera.near <= largest_coordinate))
             refuse(fmt::format("the camera's near plane is at {:.9g}, which is not between {:.3g} "
                                "and {:.3g}",
-                               camera.near * scene_.unit,
-                               std::numeric_limits<float>::min() * scene_.unit,
+                               camera.near * scene_.unit, least * scene_.unit,
                                largest_coordinate * scene_.unit),
                    "move the near plane");
         if (std::isfinite(camera.far) && !(camera.far <= std::numeric_limits<float>::max()))
@@ -178,6 +177,10 @@ private:
                                std::numeric_limits<float>::max() * scene_.unit),
                    "move the far plane nearer, or leave it out");
         const glm::dvec2 half = half_extent(camera);
+        if (camera.is_orthographic()) {
+            check_extent(half);
+            return;
+        }
         if (!(std::isfinite(half.x) && std::isfinite(half.y)))
             refuse(fmt::format("the camera's picture is {:.3g} by {:.3g} at depth 1", 2 * half.x,
                                2 * half.y),
@@ -187,6 +190,18 @@ private:
                                "place nothing in one that is narrower than {:.3g}",
                                2 * half.x, 2 * half.y, 2 * smallest_half_extent),
                    "use a wider field of view");
+    }
+
+    /// Of an orthographic camera's picture.
+    void check_extent(const glm::dvec2& half) const {
+        const double least = std::numeric_limits<float>::min();
+        if (std::min(half.x, half.y) >= least && std::max(half.x, half.y) <= largest_coordinate)
+            return;
+        refuse(fmt::format("the camera's picture is {:.3g} by {:.3g}, and its sides are not "
+                           "between {:.3g} and {:.3g}",
+                           2 * half.x * scene_.unit, 2 * half.y * scene_.unit,
+                           2 * least * scene_.unit, 2 * largest_coordinate * scene_.unit),
+               "use another xmag and ymag");
     }
 
     /// Colours, and the heights and scales of bumps: floats hold products of four of them, and the

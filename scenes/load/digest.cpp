@@ -35,8 +35,9 @@ private:
 
 void add_camera(Hash& hash, const Camera& camera) {
     for (const glm::dvec3& v : {camera.eye, camera.right, camera.up, camera.forward}) hash.add(v);
-    for (const double v : {camera.tan_half_height, camera.near, camera.far}) hash.add(v);
+    for (const double v : {camera.half_height, camera.near, camera.far}) hash.add(v);
     for (const int v : {camera.width, camera.height}) hash.add(v);
+    if (camera.is_orthographic()) hash.add(camera.projection);
 }
 
 void add_light(Hash& hash, const Light& light) {

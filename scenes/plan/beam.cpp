@@ -16,9 +16,9 @@ namespace {
 /// for the rounding of the matrix. Double rounding, 2^-53, vanishes beside it.
 constexpr double transform_error = 4 * 8 * 2 * float_roundoff;
 
-/// Ray directions through the picture's own corners.
-std::array<glm::dvec3, 4> corner_rays(const Camera& camera) {
-    return shadowproof::corner_rays(camera, 0, 0, camera.width, camera.height);
+/// The lines of sight through the picture's own corners.
+std::array<glm::dvec3, 4> corner_lines(const Camera& camera) {
+    return shadowproof::corner_lines(camera, 0, 0, camera.width, camera.height);
 }
 
 double size_of(const glm::dvec3& v) {
@@ -30,8 +30,8 @@ double largest_coordinate(const Scene& scene, double largest, double depth) {
     largest = std::max(largest, size_of(scene.camera.eye));
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     if (light.w != 0) largest = std::max(largest, size_of(light));
-    for (const glm::dvec3& ray : corner_rays(scene.camera))
-        largest = std::max(largest, size_of(scene.camera.eye + depth * ray));
+    for (const glm::dvec3& line : corner_lines(scene.camera))
+        largest = std::max(largest, size_of(point_on(scene.camera, line, depth)));
     return largest;
 }
 
@@ -94,10 +94,10 @@ Beam beam_to(const Scene& scene, std::span<const BodyCorner> corners, double lar
 
 /// The corners of the rectangle, each with the edge to the next.
 std::vector<BodyCorner> rectangle(const Camera& camera, double depth) {
-    const std::array<glm::dvec3, 4> rays = corner_rays(camera);
+    const std::array<glm::dvec3, 4> lines = corner_lines(camera);
     std::vector<BodyCorner> corners;
     for (std::size_t i = 0; i < 4; ++i)
-        corners.push_back({camera.eye + depth * rays[i], {rays[(i + 1) % 4] - rays[i]}});
+        corners.push_back({point_on(camera, lines[i], depth), {lines[(i + 1) % 4] - lines[i]}});
     return corners;
 }
 
@@ -121,7 +121,7 @@ Beam beam_to_rectangle(const Scene& scene, double largest, double depth) {
 
 Beam beam_to_pyramid(const Scene& scene, double largest, double depth) {
     std::vector<BodyCorner> corners = rectangle(scene.camera, depth);
-    const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
+    const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
     corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
     Beam beam = beam_to(scene, corners, largest_coordinate(scene, largest, depth));
     for (std::size_t i = 0; i < 4; ++i)
@@ -154,7 +154,7 @@ bool may_meet(const Beam& beam, const TriangleCorners& corners) {
 }
 
 PictureCone picture_cone(const Scene& scene) {
-    const std::array<glm::dvec3, 4> rays = corner_rays(scene.camera);
+    const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
     PictureCone cone;
     for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye
         cone.inward[i] = glm::normalize(glm::cross(rays[i], rays[(i + 1) % 4]));

@@ -296,7 +296,7 @@ std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips) {
     const Camera& camera = scene.camera;
     const double error = picture_cone(scene).error;
     const double half_step = std::sqrt(2.0) / 32;
-    const double snapping = half_step * 2 * camera.tan_half_height / camera.height;
+    const double snapping = half_step * 2 * camera.half_height / camera.height;
     std::vector<std::uint8_t> certain(scene.triangles.size(), 0);
     for (const Mesh& mesh : scene.meshes) {
         if (scene.materials[mesh.material].mask != no_mask) continue;

@@ -46,6 +46,7 @@ bool volume_meets(const Scene& scene, double depth) {
 bool volume_reaches_infinity(const Scene& scene) {
     const Light& light = chosen_light(scene);
     if (light.kind == Light::Kind::directional) return false;
+    if (scene.camera.is_orthographic()) return true; // one point: that it is in none is not shown
     const PictureCone cone = picture_cone(scene);
     return some_caster(scene, [&](const TriangleCorners& corners) {
         return may_point_into(cone, corners, light.position);

@@ -124,7 +124,7 @@ glm::dvec3 unit_or(const glm::dvec3& vector, const glm::dvec3& otherwise) {
 
 std::optional<std::uint32_t> main_receiver(const Scene& scene) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const glm::dvec4 eye(scene.camera.eye, 1);
+    const glm::dvec4 eye = homogeneous_eye(scene.camera);
     const std::vector<std::uint8_t> receives = receiving_triangles(scene);
     const std::vector<std::uint8_t> both_sides = double_sided_triangles(scene);
     std::optional<std::uint32_t> best;

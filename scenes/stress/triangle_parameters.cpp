@@ -11,9 +11,9 @@ namespace shadowproof {
 
 namespace {
 
-/// The height of the picture over the distance at which something is seen.
+/// The picture's height at the distance at which something is seen.
 double picture_height_at(const Scene& scene, double distance) {
-    return 2 * scene.camera.tan_half_height * distance;
+    return 2 * scene.camera.half_height * (scene.camera.is_orthographic() ? 1 : distance);
 }
 
 double longest_edge(const Scene& scene, std::uint32_t triangle) {

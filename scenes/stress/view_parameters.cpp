@@ -38,6 +38,11 @@ void require_planes(const Camera& camera) {
                     "take a nearer near plane");
 }
 
+/// An orthographic camera's may be where it stands.
+bool has_near_plane(const Scene& scene) {
+    return scene.camera.near > 0;
+}
+
 void take_near_plane(Scene& scene, double value) {
     scene.camera.near = value * size_of(scene);
     require_planes(scene.camera);
@@ -49,12 +54,16 @@ void take_near_over_far(Scene& scene, double value) {
     require_planes(scene.camera);
 }
 
+bool is_perspective(const Scene& scene) {
+    return !scene.camera.is_orthographic();
+}
+
 double field_of_view(const Scene& scene) {
-    return 2 * std::atan(scene.camera.tan_half_height) / radians;
+    return 2 * std::atan(scene.camera.half_height) / radians;
 }
 
 void take_field_of_view(Scene& scene, double degrees) {
-    scene.camera.tan_half_height = std::tan(0.5 * degrees * radians);
+    scene.camera.half_height = std::tan(0.5 * degrees * radians);
 }
 
 double aspect(const Scene& scene) {
@@ -112,7 +121,7 @@ std::optional<Side> nearest_side(const Scene& scene) {
 }
 
 bool has_side(const Scene& scene) {
-    return nearest_side(scene).has_value();
+    return is_perspective(scene) && nearest_side(scene).has_value();
 }
 
 /// The eye goes behind the middle of the edge, as seen from the light, about as far as it is from
@@ -141,21 +150,21 @@ std::vector<StressParameter> view_parameters() {
          .words = "the near plane's depth, in sizes of the scene",
          .low = 1e-7,
          .high = 1,
-         .suits = any_scene,
+         .suits = has_near_plane,
          .own = [](const Scene& scene) { return scene.camera.near / size_of(scene); },
          .take = take_near_plane},
         {.name = "near_over_far",
          .words = "the near plane's depth over the far plane's; 0: no far plane",
          .low = 1e-12,
          .down_to_zero = true,
-         .suits = any_scene,
+         .suits = has_near_plane,
          .own = [](const Scene& scene) { return scene.camera.near / finite_far(scene); },
          .take = take_near_over_far},
         {.name = "field_of_view",
          .words = "from the picture's top to its bottom, in degrees",
          .low = 0.01,
          .high = 179,
-         .suits = any_scene,
+         .suits = is_perspective,
          .own = field_of_view,
          .take = take_field_of_view},
         {.name = "aspect",
@@ -169,7 +178,7 @@ std::vector<StressParameter> view_parameters() {
          .words = "from the middle of what the eye sees, in its own distances",
          .low = 1e-4,
          .high = 1e4,
-         .suits = any_scene,
+         .suits = is_perspective,
          .own = [](const Scene&) { return 1.0; },
          .take = take_eye_distance},
         {.name = "eye_to_side",

@@ -59,7 +59,7 @@ void trace_tile(const Scene& scene, RTCScene world, int left, int top, Image<Vis
         const int x = left + i % tile_side;
         const int y = top + i / tile_side;
         valid[static_cast<std::size_t>(i)] = x < camera.width && y < camera.height ? -1 : 0;
-        const glm::vec3 d(ray_direction(camera, x + 0.5, y + 0.5));
+        const glm::vec3 d(line_of_sight(camera, x + 0.5, y + 0.5));
         rays.ray.org_x[i] = eye.x;
         rays.ray.org_y[i] = eye.y;
         rays.ray.org_z[i] = eye.z;

@@ -176,7 +176,7 @@ std::array<std::uint64_t, 6> pixels_by_face(const tests::TracedScene& traced) {
             if (triangle == no_triangle || !sides_of(traced.tracer, triangle).faces_light())
                 continue;
             const glm::dvec3 point =
-                camera.eye + traced.truth.depth.at(x, y) * ray_direction(camera, x + 0.5, y + 0.5);
+                camera.eye + traced.truth.depth.at(x, y) * line_of_sight(camera, x + 0.5, y + 0.5);
             ++pixels[face_of(point - light)];
         }
     return pixels;

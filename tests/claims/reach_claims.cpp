@@ -90,7 +90,7 @@ Left left_of(const tests::TracedScene& there, const Image<std::int32_t>& faces, 
         for (int x = 0; x < faces.width; ++x) {
             const auto count = static_cast<std::uint64_t>(faces.at(x, y));
             left.all += count;
-            const glm::dvec3 ray = view * ray_direction(camera, x + 0.5, y + 0.5);
+            const glm::dvec3 ray = view * line_of_sight(camera, x + 0.5, y + 0.5);
             const bool in_rectangle =
                 reach.columns.holds(ray.x / -ray.z) && reach.rows.holds(ray.y / -ray.z);
             if (in_rectangle) left.by_scissor += count;

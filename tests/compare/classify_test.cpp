@@ -76,9 +76,9 @@ bool has_outline_or_tie(const TracedScene& scene, const Prediction& prediction,
     const Camera& camera = scene.scene.camera;
     const std::uint32_t seen = scene.truth.triangle.at(x, y);
     RegionLedger region =
-        prediction.volumes().ledger(corner_rays(camera, x - 1, y - 1, x + 2, y + 2));
+        prediction.volumes().ledger(corner_lines(camera, x - 1, y - 1, x + 2, y + 2));
     std::vector<Crossing> here, there;
-    const glm::dvec3 centre = ray_direction(camera, x + 0.5, y + 0.5);
+    const glm::dvec3 centre = line_of_sight(camera, x + 0.5, y + 0.5);
     region.crossings(centre, here);
     const auto ties = [&](double depth, const Crossing& crossing) {
         return std::abs(crossing.depth - depth) <=
@@ -98,7 +98,7 @@ bool has_outline_or_tie(const TracedScene& scene, const Prediction& prediction,
     for (int row = std::max(y - 1, 0); row <= std::min(y + 1, camera.height - 1); ++row)
         for (int column = std::max(x - 1, 0); column <= std::min(x + 1, camera.width - 1);
              ++column) {
-            region.crossings(ray_direction(camera, column + 0.5, row + 0.5), there);
+            region.crossings(line_of_sight(camera, column + 0.5, row + 0.5), there);
             if (scene.truth.triangle.at(column, row) != seen ||
                 prediction.counts().at(column, row) != prediction.counts().at(x, y) ||
                 !std::ranges::equal(here, there, is_same))

@@ -78,7 +78,7 @@ TEST_F(Masks, that_volumes_know_nothing_of_are_named_where_whole_casters_would_b
             if (traced.truth.visibility.at(x, y) != Visibility::lit) continue;
             const bool falls_on_holes =
                 count_let_through(traced.tracer,
-                                  ray_direction(traced.scene.camera, x + 0.5, y + 0.5),
+                                  line_of_sight(traced.scene.camera, x + 0.5, y + 0.5),
                                   traced.truth.triangle.at(x, y)) > 0;
             expected += falls_on_holes ? 1 : 0;
             const auto cause = static_cast<Cause>(volumes.cause.at(x, y));

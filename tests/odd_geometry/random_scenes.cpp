@@ -159,7 +159,7 @@ std::string set_camera(Scene& scene, Dice& dice, const Oddities& oddities) {
     } else {
         look_at(camera, eye.at, anywhere(dice, 1) + glm::dvec3(0.01, 0, 0.02));
     }
-    camera.tan_half_height = dice.between(0.2, 1.5);
+    camera.half_height = dice.between(0.2, 1.5);
     camera.near = dice.one_in(3) ? dice.between(0.5, 3) : dice.between(0.01, 0.3);
     if (dice.one_in(2)) camera.far = camera.near + dice.between(2, 20);
     return fmt::format("the eye {}, near {:.3g}, far {:.3g}", eye.words, camera.near, camera.far);

@@ -32,7 +32,7 @@ void check_against_witness(const TracedScene& traced, Dice& dice) {
     for (int i = 0; i < 4; ++i) {
         const int x = static_cast<int>(dice.below(static_cast<std::uint64_t>(camera.width)));
         const int y = static_cast<int>(dice.below(static_cast<std::uint64_t>(camera.height)));
-        const witness::Answer expected = witness.look(ray_direction(camera, x + 0.5, y + 0.5));
+        const witness::Answer expected = witness.look(line_of_sight(camera, x + 0.5, y + 0.5));
         EXPECT_EQ(traced.truth.triangle.at(x, y), expected.triangle) << "at " << x << ", " << y;
         EXPECT_EQ(traced.truth.visibility.at(x, y), expected.visibility) << "at " << x << ", " << y;
     }

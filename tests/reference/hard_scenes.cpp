@@ -237,16 +237,16 @@ Scene lit_from(Scene scene, const glm::dvec3& place) {
 }
 
 /// The camera, from where it is, at a point, its picture so many times as high as it is far.
-void zoom(Camera& camera, const glm::dvec3& target, double tan_half_height) {
+void zoom(Camera& camera, const glm::dvec3& target, double half_height) {
     camera.forward = glm::normalize(target - camera.eye);
     camera.right = glm::normalize(glm::cross(camera.forward, glm::dvec3(0, 1, 0)));
     camera.up = glm::cross(camera.right, camera.forward);
-    camera.tan_half_height = tan_half_height;
+    camera.half_height = half_height;
 }
 
 /// A slanting triangle over a floor; the picture shows little more than the shadow of the middle of
 /// an edge, so that a light that is misplaced a little moves the shadow out of it.
-Scene shadow_of_an_edge(const glm::dvec3& light, double tan_half_height) {
+Scene shadow_of_an_edge(const glm::dvec3& light, double half_height) {
     const glm::vec3 a(-1, -0.5F, -5);
     const glm::vec3 b(1.5F, 0.75F, -3);
     Scene scene = empty_scene(16);
@@ -256,7 +256,7 @@ Scene shadow_of_an_edge(const glm::dvec3& light, double tan_half_height) {
     scene.lights[0].position = light;
     const glm::dvec3 middle = 0.5 * (glm::dvec3(a) + glm::dvec3(b));
     const glm::dvec3 along = middle - light;
-    zoom(scene.camera, light + (-8 - light.z) / along.z * along, tan_half_height);
+    zoom(scene.camera, light + (-8 - light.z) / along.z * along, half_height);
     return scene;
 }
 
@@ -297,7 +297,7 @@ std::vector<HardScene> far_lit_scenes() {
     for (const double tan : {0x1p-18, 0x1p-20})
         scenes.push_back({"along_far_light_" + std::to_string(static_cast<int>(1 / tan)), [tan] {
                               Scene scene = lit_from(boxes({}, true), {0.5, -0.25, 0x1p20});
-                              scene.camera.tan_half_height = tan;
+                              scene.camera.half_height = tan;
                               return scene;
                           }});
     // Its light is far from all but one triangle, which stands between both, or behind it.
@@ -376,6 +376,26 @@ std::vector<HardScene> hard_scenes() {
                           return under_spot(soup(14, 1, {1e6F, -1e6F, 1e6F}), {-0.8, 0, 0.6},
                                             1.5707963267948966);
                       }});
+    return scenes;
+}
+
+std::vector<HardScene> orthographic_scenes() {
+    std::vector<HardScene> scenes;
+    for (HardScene& hard : hard_scenes()) {
+        const bool sees_all = scenes.size() % 2 == 1;
+        scenes.push_back({std::move(hard.name), [make = std::move(hard.make), sees_all] {
+                              Scene scene = make();
+                              Camera& camera = scene.camera;
+                              // As high as the perspective picture is at a depth of 4 where the
+                              // scene's unit is 1: then vertices lie on lines of sight there, too.
+                              const bool is_between_planes = camera.far == 5;
+                              const double unit = is_between_planes ? 1 : 8 * camera.near;
+                              camera.projection = Projection::orthographic;
+                              camera.half_height = 4 * unit * camera.half_height;
+                              if (sees_all) camera.near = 0;
+                              return scene;
+                          }});
+    }
     return scenes;
 }
 

@@ -21,6 +21,10 @@ inline std::ostream& operator<<(std::ostream& out, const HardScene& scene) {
 }
 
 std::vector<HardScene> hard_scenes();
+/// The same scenes before an orthographic camera: lines of sight through vertices and edges, in
+/// planes of faces and along rays of light among them. Of every other one the near plane is where
+/// the eye is.
+std::vector<HardScene> orthographic_scenes();
 
 /// A camera at the origin looking down -z whose rays have dyadic components: with `size` a power
 /// of two, the ray through pixel (x, y) is ((2x + 1) / size - 1, 1 - (2y + 1) / size, -1).

@@ -39,7 +39,7 @@ Region swept_region(const Tracer::State& state, const glm::dvec3& direction, dou
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool directional = state.light.w == 0;
     const glm::dvec3 light(state.light);
-    const glm::dvec3 e = directional ? light : state.eye - light;
+    const glm::dvec3 e = directional ? light : state.scene->camera.eye - light;
     const glm::dvec3 m = glm::cross(e, direction);
     const double mm = glm::dot(m, m);
     const double reach = 1 / (directional ? state.from_eye : state.from_light).scale;
@@ -59,7 +59,7 @@ Region swept_region(const Tracer::State& state, const glm::dvec3& direction, dou
         return Slab{gradient, -margin, upper + margin};
     };
     const double terms = 6 * largest(e) * largest(direction);
-    return {directional ? state.eye : light,
+    return {directional ? state.scene->camera.eye : light,
             {slab(m, 3 * terms, 0),
              slab(glm::cross(direction, m), 18 * largest(direction) * terms,
                   directional ? infinity : mm),
@@ -124,11 +124,12 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const gl
     for (std::size_t part = 0; part < edges.size(); ++part) {
         const auto [a, b] = edges[part];
         const glm::dvec3 plane = side_plane(state.light, *a, *b);
-        stretch.cut(glm::dot(state.eye - side_point(state.light, *a, *b), plane), slope(plane),
-                    {plane, static_cast<Crossing::Part>(part)});
+        stretch.cut(glm::dot(state.scene->camera.eye - side_point(state.light, *a, *b), plane),
+                    slope(plane), {plane, static_cast<Crossing::Part>(part)});
     }
     const glm::dvec3 away = cap_plane(t);
-    stretch.cut(glm::dot(state.eye - t.a, away), slope(away), {away, Crossing::Part::light_cap});
+    stretch.cut(glm::dot(state.scene->camera.eye - t.a, away), slope(away),
+                {away, Crossing::Part::light_cap});
     return stretch;
 }
 

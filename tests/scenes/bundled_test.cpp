@@ -132,7 +132,7 @@ Census take_census(const Scene& scene) {
     Census census;
     census.eye_depth = shadow_depth(faces, camera.eye, light);
     for (int i = 0; i < grid * grid; ++i) {
-        const glm::dvec3 ray = ray_direction(camera, (i % grid + 0.5) * camera.width / grid,
+        const glm::dvec3 ray = line_of_sight(camera, (i % grid + 0.5) * camera.width / grid,
                                              (i / grid + 0.5) * camera.height / grid);
         const int near = shadow_depth(faces, camera.eye + camera.near * ray, light);
         const int far = shadow_depth(faces, camera.eye + camera.far * ray, light);

@@ -23,7 +23,8 @@ namespace shadowproof {
 SHADOWPROOF_SEND_ALL(DriverInfo, version, renderer, subpixel_bits, depth_bits, stencil_bits)
 SHADOWPROOF_SEND_ALL(Light, name, choice, kind, position, direction, inner_cone, outer_cone, color,
                      intensity, range)
-SHADOWPROOF_SEND_ALL(Camera, eye, right, up, forward, tan_half_height, near, far, width, height)
+SHADOWPROOF_SEND_ALL(Camera, projection, eye, right, up, forward, half_height, near, far, width,
+                     height)
 SHADOWPROOF_SEND_ALL(Mesh, name, first_triangle, triangle_count, material, casts, receives,
                      textured)
 SHADOWPROOF_SEND_ALL(TraceStatistics, milliseconds, build_milliseconds, rays, exact_decisions,

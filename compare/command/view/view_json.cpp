@@ -93,7 +93,7 @@ Json view_json(const Scene& scene, double time, const std::vector<const Conventi
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) matrix.push_back(world_from_camera[column][row]);
     json["camera"] = {{"matrix", matrix},
-                      {"yfov", 2 * std::atan(camera.tan_half_height)},
+                      {"yfov", 2 * std::atan(camera.half_height)},
                       {"znear", camera.near},
                       {"zfar", std::isfinite(camera.far) ? Json(camera.far) : Json(nullptr)}};
     json["light"] = {

@@ -43,7 +43,7 @@ Lies lies_at(const Scene& scene, const ShadingNormals& normals, std::uint32_t tr
              const glm::dvec3& point, const glm::dvec3* bumped) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(light) - light.w * point);
-    const glm::dvec3 half = to_light + glm::normalize(scene.camera.eye - point);
+    const glm::dvec3 half = to_light + way_to_eye(scene.camera, point);
     const double side =
         glm::dot(normals.at(NormalsBy::faces, triangle, point), to_light) < 0 ? -1 : 1;
     Lies lies{};
@@ -73,7 +73,7 @@ public:
             columns_.push_back(points_.size());
             if (triangles.at(x, y) != no_triangle)
                 points_.push_back(
-                    {ray_direction(traced_.scene().camera, x + 0.5, y + 0.5), triangles.at(x, y)});
+                    {line_of_sight(traced_.scene().camera, x + 0.5, y + 0.5), triangles.at(x, y)});
         }
         shadings_.resize(points_.size());
         shader_->shade(points_, shadings_);

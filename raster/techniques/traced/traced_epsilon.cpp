@@ -21,6 +21,7 @@ Technique traced_epsilon_technique() {
             .cost = 5.1,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
+            .sees_in_parallel = true,
             .settings = {"ray-epsilon"},
             .run = run};
 }

@@ -20,6 +20,7 @@ Technique traced_offset_technique() {
             .cost = 5.3,
             .fails_at = {Cause::acne, Cause::leak, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::leak, Cause::missed},
+            .sees_in_parallel = true,
             .settings = {"ray-offset"},
             .run = run};
 }

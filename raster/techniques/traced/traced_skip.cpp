@@ -21,6 +21,7 @@ Technique traced_skip_technique() {
             .cost = 5.2,
             .fails_at = {Cause::acne, Cause::missed, Cause::precision},
             .by_nature = {Cause::acne, Cause::missed},
+            .sees_in_parallel = true,
             .run = run};
 }
 

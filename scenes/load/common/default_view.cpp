@@ -55,7 +55,7 @@ Camera default_camera(const SceneRequest& request, Scene& scene) {
     Camera camera;
     camera.width = request.width;
     camera.height = request.height;
-    camera.tan_half_height = std::tan(std::numbers::pi / 8);
+    camera.half_height = std::tan(std::numbers::pi / 8);
     const glm::dvec2 half = half_extent(camera);
     const double distance = sphere.radius / std::sin(std::atan(std::min(half.x, half.y)));
     camera.eye = sphere.centre + distance * toward_eye;

@@ -74,7 +74,10 @@ void override_view(const ViewOverride& view, Scene& scene) {
         scene.notes.emplace_back("the camera stands where --camera-matrix says");
     }
     if (view.vertical_field_of_view) {
-        scene.camera.tan_half_height = std::tan(*view.vertical_field_of_view / 2);
+        if (scene.camera.is_orthographic())
+            throw Error("--fov", "is for a perspective camera, and this one is orthographic",
+                        "leave it out, or choose another camera with --camera");
+        scene.camera.half_height = std::tan(*view.vertical_field_of_view / 2);
         scene.notes.emplace_back("the field of view is that of --fov");
     }
     if (view.light_position) {

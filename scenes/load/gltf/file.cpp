@@ -136,8 +136,8 @@ json take_look(json& document) {
 void make_digestible(json& document) {
     if (document.contains("cameras"))
         for (json& camera : document["cameras"])
-            if (camera["type"] == "orthographic") // not evaluated
-                camera["orthographic"] = {{"xmag", 1}, {"ymag", 1}, {"zfar", 1}, {"znear", 0}};
+            if (camera["type"] == "orthographic" && !camera.contains("orthographic"))
+                camera["orthographic"] = {{"xmag", 0}, {"ymag", 0}, {"zfar", 1}, {"znear", 0}};
     if (document.contains("animations"))
         for (json& animation : document["animations"])
             for (json& channel : animation["channels"])

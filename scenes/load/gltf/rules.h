@@ -84,6 +84,10 @@ inline constexpr std::array rules{
     Rule{"cameras/*/perspective/aspectRatio", Kind::positive}, // tinygltf uses 0 for none
     Rule{"cameras/*/perspective/znear!", Kind::positive},
     Rule{"cameras/*/perspective/zfar", Kind::positive}, // tinygltf uses 0 for none
+    Rule{"cameras/*/orthographic/xmag!", Kind::number},
+    Rule{"cameras/*/orthographic/ymag!", Kind::number},
+    Rule{"cameras/*/orthographic/znear!", Kind::number},
+    Rule{"cameras/*/orthographic/zfar!", Kind::positive},
     Rule{"materials/*/name"},
     Rule{"materials/*/alphaMode"},
     Rule{"materials/*/alphaCutoff", Kind::number},

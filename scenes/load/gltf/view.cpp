@@ -67,16 +67,15 @@ std::vector<Carrier> find_cameras(const Document& document, const NodeGraph& gra
     return carriers;
 }
 
-/// Pixels: as the request has it, or by the camera's aspect ratio.
-int picture_width(const Place& perspective, double aspect, const SceneRequest& request,
+/// Pixels: as the request has it, or by the camera's aspect ratio, which `place` gives.
+int picture_width(const Place& place, double aspect, const SceneRequest& request,
                   std::vector<std::string>& notes) {
     if (!request.camera_aspect || !(aspect > 0)) return request.width; // 0: there is none
     const double width = std::round(aspect * request.height);
     if (!(width >= 1 && width <= largest_side))
-        (perspective / "aspectRatio")
-            .refuse(fmt::format("{:g} makes a picture of {:g}x{} pixels", aspect, width,
-                                request.height),
-                    "give its size by --size");
+        place.refuse(
+            fmt::format("{:g} makes a picture of {:g}x{} pixels", aspect, width, request.height),
+            "give its size by --size");
     if (width != request.width)
         notes.push_back(fmt::format("{:g}x{} pixels: the camera's aspect ratio is {:.4g} "
                                     "(--size for another picture)",
@@ -89,33 +88,65 @@ int picture_width(const Place& perspective, double aspect, const SceneRequest& r
 void note_aspect(double own, const Camera& camera, Scene& scene) {
     if (!(own > 0) || std::abs(own * camera.height - camera.width) < 1) return;
     scene.notes.push_back(fmt::format(
-        "the camera's aspect ratio is {:.4g}, the picture's {:.4g}: the field of view is kept from "
-        "top to bottom, as glTF says",
-        own, static_cast<double>(camera.width) / camera.height));
+        "the camera's aspect ratio is {:.4g}, the picture's {:.4g}: {} from top to bottom{}", own,
+        static_cast<double>(camera.width) / camera.height,
+        camera.is_orthographic() ? "its ymag is kept" : "the field of view is kept",
+        camera.is_orthographic() ? "" : ", as glTF says"));
+}
+
+void set_far(const Place& place, double far, Camera& camera) {
+    camera.far = far;
+    if (!(camera.far > camera.near))
+        (place / "zfar")
+            .refuse(fmt::format("{} is not above znear {}", camera.far, camera.near),
+                    "move the far plane back, or leave it out");
+}
+
+void read_perspective(const tinygltf::PerspectiveCamera& source, const Place& place,
+                      const SceneRequest& request, Camera& camera, Scene& scene) {
+    if (!(source.yfov > 0 && source.yfov < std::numbers::pi)) // radians
+        (place / "yfov")
+            .refuse(fmt::format("{} is not between 0 and pi", source.yfov), "write radians");
+    camera.width = picture_width(place / "aspectRatio", source.aspectRatio, request, scene.notes);
+    note_aspect(source.aspectRatio, camera, scene);
+    camera.half_height = std::tan(source.yfov / 2);
+    camera.near = source.znear;
+    if (source.zfar > 0) set_far(place, source.zfar, camera); // 0: there is none
+}
+
+void read_orthographic(const tinygltf::OrthographicCamera& source, const Place& place,
+                       const SceneRequest& request, Camera& camera, Scene& scene) {
+    camera.projection = Projection::orthographic;
+    for (const auto& [name, half] : {std::pair("xmag", source.xmag), {"ymag", source.ymag}})
+        if (!(half > 0))
+            (place / name)
+                .refuse(fmt::format("{} is not above 0", half),
+                        "write half of what the picture shows, in units of the scene");
+    if (!(source.znear >= 0))
+        (place / "znear")
+            .refuse(fmt::format("{} is negative", source.znear), "move the camera back instead");
+    const double aspect = source.xmag / source.ymag;
+    camera.width = picture_width(place / "xmag", aspect, request, scene.notes);
+    note_aspect(aspect, camera, scene);
+    camera.half_height = source.ymag;
+    camera.near = source.znear;
+    set_far(place, source.zfar, camera);
+}
+
+bool is_perspective(const Document& document, const Carrier& carrier) {
+    return document.model.cameras[carrier.index].type == "perspective";
 }
 
 Camera read_camera(const Document& document, const NodeGraph& graph, const Carrier& carrier,
                    const SceneRequest& request, Scene& scene) {
     const tinygltf::Camera& source = document.model.cameras[carrier.index];
-    if (source.type != "perspective")
-        carrier.place.refuse("is an orthographic camera, which is not evaluated",
-                             "choose or add a perspective camera");
-    const tinygltf::PerspectiveCamera& perspective = source.perspective;
-    const Place place = carrier.place / "perspective";
-    if (!(perspective.yfov > 0 && perspective.yfov < std::numbers::pi)) // radians
-        (place / "yfov")
-            .refuse(fmt::format("{} is not between 0 and pi", perspective.yfov), "write radians");
     Camera camera;
-    camera.width = picture_width(place, perspective.aspectRatio, request, scene.notes);
     camera.height = request.height;
-    note_aspect(perspective.aspectRatio, camera, scene);
-    camera.tan_half_height = std::tan(perspective.yfov / 2);
-    camera.near = perspective.znear;
-    if (perspective.zfar > 0) camera.far = perspective.zfar; // 0: there is none
-    if (!(camera.far > camera.near))
-        (place / "zfar")
-            .refuse(fmt::format("{} is not above znear {}", camera.far, camera.near),
-                    "move the far plane back, or leave it out");
+    if (is_perspective(document, carrier))
+        read_perspective(source.perspective, carrier.place / "perspective", request, camera, scene);
+    else
+        read_orthographic(source.orthographic, carrier.place / "orthographic", request, camera,
+                          scene);
     const glm::dmat4& world = graph.nodes[carrier.node].world_from_node;
     camera.eye = glm::dvec3(world[3]);
     if (!orient(camera, -glm::dvec3(world[2]), glm::dvec3(world[1])))
@@ -202,14 +233,14 @@ Camera choose_camera(const Document& document, const NodeGraph& graph, const Sce
             cameras[find_named(document.file, "camera", cameras, graph, *request.camera)], request,
             scene);
     if (cameras.empty()) return default_camera(request, scene);
-    const auto first = std::find_if(cameras.begin(), cameras.end(), [&](const Carrier& carrier) {
-        return document.model.cameras[carrier.index].type == "perspective";
-    });
+    const auto first = std::ranges::find_if(
+        cameras, [&](const Carrier& carrier) { return is_perspective(document, carrier); });
     if (first == cameras.end())
         return read_camera(document, graph, cameras.front(), request, scene);
     if (first != cameras.begin())
         scene.notes.push_back(fmt::format(
-            "orthographic cameras are not evaluated: {} is used",
+            "orthographic cameras come first, and fewer techniques draw what they see: {} is used "
+            "(--camera for another)",
             described("camera", static_cast<std::size_t>(first - cameras.begin()), *first)));
     return read_camera(document, graph, *first, request, scene);
 }

@@ -6,10 +6,10 @@
 
 namespace shadowproof::gltf {
 
-/// The perspective camera that the request names, else the first in the scene, else the default
-/// framing (said in scene.notes): the bounding sphere just fits the picture, seen from the front,
-/// right and above with a field of view of 45 degrees, near plane half way to the sphere, no far
-/// plane. Throws Error: no such camera, an orthographic one, a degenerate transform.
+/// The camera that the request names, else the first perspective one in the scene, else the first,
+/// else the default framing (said in scene.notes): the bounding sphere just fits the picture, seen
+/// from the front, right and above with a field of view of 45 degrees, near plane half way to the
+/// sphere, no far plane. Throws Error: no such camera, one without extent, a degenerate transform.
 Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
                      Scene& scene);
 

@@ -266,7 +266,7 @@ protected:
         scene.camera.right = {1, 0, 0};
         scene.camera.up = {0, 1, 0};
         scene.camera.forward = {0, 0, -1};
-        scene.camera.tan_half_height = 0.1;
+        scene.camera.half_height = 0.1;
         scene.lights[0].position = middle + glm::dvec3(-1.3, 1.7, 5);
         const double pixel = 2 * 0.1 * 2 / 64;
         const auto repeats = static_cast<float>(texels / 64 * 0.782 / pixel);

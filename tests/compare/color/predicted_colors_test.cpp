@@ -207,7 +207,7 @@ TEST(Colors, that_are_lit_where_the_claim_is_dark_inside_a_cone_are_unexplained)
         const auto x = static_cast<double>(i % 160);
         const auto y = static_cast<double>(i / 160);
         dark.push_back(i);
-        lit.push_back({ray_direction(scene.scene.camera, x + 0.5, y + 0.5), triangle, true});
+        lit.push_back({line_of_sight(scene.scene.camera, x + 0.5, y + 0.5), triangle, true});
     }
     std::vector<Shading> shadings(lit.size());
     AddedShader(scene.tracer, {}).shade(lit, shadings);

@@ -36,7 +36,7 @@ struct Drawn {
 Drawn large_triangle(Dice& dice) {
     Drawn drawn;
     Camera& camera = drawn.scene.camera;
-    camera.tan_half_height = 0.5;
+    camera.half_height = 0.5;
     camera.width = camera.height = side;
     const double far = std::pow(10, dice.between(0.5, 4));
     const double turn = dice.between(0, 3);
@@ -53,7 +53,7 @@ Drawn large_triangle(Dice& dice) {
     if (dice.one_in(3)) {
         const double hair = std::pow(10, dice.between(-7, -1));
         drawn.scene.positions[2] = glm::vec3(
-            ray_direction(camera, side + hair, dice.between(0, side)) * dice.between(2, 20));
+            line_of_sight(camera, side + hair, dice.between(0, side)) * dice.between(2, 20));
     }
     drawn.scene.triangles = {{0, 1, 2}};
     drawn.scene.lights.emplace_back();
@@ -136,7 +136,7 @@ std::optional<double> interpolated(const std::array<FloatCorner, 3>& corners,
 }
 
 std::optional<double> rasterized(const Drawn& drawn, const glm::vec2& place) {
-    const float half = static_cast<float>(drawn.scene.camera.tan_half_height);
+    const float half = static_cast<float>(drawn.scene.camera.half_height);
     std::vector<FloatCorner> polygon;
     for (int k = 0; k < 3; ++k) {
         const glm::vec3 at(corner(drawn.scene, 0, k));
@@ -159,7 +159,7 @@ Interval values_around(const Drawn& drawn, const glm::dvec2& place, double half,
     for (const double x : {-half, half})
         for (const double y : {-half, half}) {
             const double value =
-                value_along(drawn, ray_direction(drawn.scene.camera, place.x + x, place.y + y));
+                value_along(drawn, line_of_sight(drawn.scene.camera, place.x + x, place.y + y));
             range = {std::min(range.low, value), std::max(range.high, value)};
         }
     const glm::dvec3 sizes = glm::abs(drawn.values);
@@ -182,7 +182,7 @@ TEST(ClippedAttribute, is_that_of_a_place_that_is_told) {
         const std::optional<double> value = rasterized(drawn, place);
         if (!value) continue;
         const Camera& camera = drawn.scene.camera;
-        const glm::dvec3 direction = ray_direction(camera, place.x, place.y);
+        const glm::dvec3 direction = line_of_sight(camera, place.x, place.y);
         const DepthModel model{.near = camera.near, .clamp = true};
         const double reach = lateral_error(
             drawn.scene, model, depth_on_triangle(drawn.scene, 0, direction) * direction);
@@ -207,7 +207,7 @@ TEST(ClippedAttribute, may_be_anything_where_exact_clipping_leaves_no_triangle) 
     Dice dice(1);
     Drawn drawn = large_triangle(dice);
     for (glm::vec3& position : drawn.scene.positions) position.x = 3 - position.z;
-    const CoveredPixel pixel{ray_direction(drawn.scene.camera, 63.5, 32), 0.01, {}};
+    const CoveredPixel pixel{line_of_sight(drawn.scene.camera, 63.5, 32), 0.01, {}};
     EXPECT_TRUE(std::isinf(drawn_attribute(drawn.scene, 0, pixel).share));
     EXPECT_TRUE(std::isinf(attribute_error(drawn.scene, 0, pixel)));
 }

@@ -22,7 +22,7 @@ struct Drawn {
 Drawn random_triangle(Dice& dice) {
     Drawn drawn;
     drawn.scene.camera.eye = {0, 0, 0};
-    drawn.scene.camera.tan_half_height = 0.5;
+    drawn.scene.camera.half_height = 0.5;
     drawn.scene.camera.width = drawn.scene.camera.height = 64;
     for (int k = 0; k < 3; ++k) {
         const double depth = dice.between(2, 20);
@@ -47,12 +47,12 @@ glm::dvec2 value_along(const Scene& scene, const std::array<glm::dvec2, 3>& valu
 QuadRays rays_at(const Scene& scene, const glm::dvec2& place, double half) {
     QuadRays quad;
     const Camera& camera = scene.camera;
-    quad.to_column = ray_direction(camera, 1, 0) - ray_direction(camera, 0, 0);
-    quad.to_row = ray_direction(camera, 0, 1) - ray_direction(camera, 0, 0);
+    quad.to_column = line_of_sight(camera, 1, 0) - line_of_sight(camera, 0, 0);
+    quad.to_row = line_of_sight(camera, 0, 1) - line_of_sight(camera, 0, 0);
     const std::array<glm::dvec2, 4> corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec2 at = place + half * corners[i];
-        quad.rays[i] = ray_direction(camera, at.x, at.y);
+        quad.rays[i] = line_of_sight(camera, at.x, at.y);
     }
     return quad;
 }
@@ -65,7 +65,7 @@ TEST(QuadSteps, of_exact_pixels_are_the_differences_of_their_values) {
         const glm::dvec2 place(dice.between(8, 56), dice.between(8, 56));
         const auto at = [&](double x, double y) {
             return value_along(drawn.scene, drawn.values,
-                               ray_direction(drawn.scene.camera, place.x + x, place.y + y));
+                               line_of_sight(drawn.scene.camera, place.x + x, place.y + y));
         };
         const PlaceSteps steps =
             quad_steps(drawn.scene, 0, drawn.values, rays_at(drawn.scene, place, 0));
@@ -90,10 +90,10 @@ glm::dvec2 value_when_moved(const Drawn& drawn, const std::array<glm::dvec2, 3>&
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3 at = corner(drawn.scene, 0, static_cast<int>(k));
         const glm::dvec2 pixel = project(drawn.scene.camera, at) + moves[k];
-        corners[k] = -at.z * ray_direction(drawn.scene.camera, pixel.x, pixel.y);
+        corners[k] = -at.z * line_of_sight(drawn.scene.camera, pixel.x, pixel.y);
     }
     glm::dvec3 weights = glm::inverse(glm::dmat3(corners[0], corners[1], corners[2])) *
-                         ray_direction(drawn.scene.camera, place.x, place.y);
+                         line_of_sight(drawn.scene.camera, place.x, place.y);
     weights /= weights.x + weights.y + weights.z;
     return weights.x * drawn.values[0] + weights.y * drawn.values[1] + weights.z * drawn.values[2];
 }
@@ -108,7 +108,7 @@ TEST(QuadSteps, of_a_triangle_whose_corners_are_snapped_are_within_their_range) 
         const double reach = dice.between(0.001, 0.05);
         const glm::dvec2 place(dice.between(8, 56), dice.between(8, 56));
         const CoveredPixel pixel{
-            ray_direction(drawn.scene.camera, place.x, place.y), reach, {.near = 0.1}};
+            line_of_sight(drawn.scene.camera, place.x, place.y), reach, {.near = 0.1}};
         QuadRays quad = rays_at(drawn.scene, place, reach);
         const double way = i % 2 == 0 ? 1 : -1; // to the next neighbour, or the one before
         quad.to_column *= way;

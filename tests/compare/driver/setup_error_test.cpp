@@ -20,7 +20,7 @@ protected:
     static Scene drawn(const glm::uvec3& order) {
         Scene scene;
         scene.camera.eye = {0, 0, 5};
-        scene.camera.tan_half_height = 0.3;
+        scene.camera.half_height = 0.3;
         scene.camera.width = scene.camera.height = 640;
         scene.positions = {{1.5002F, 0.1F, 0}, {-1.1F, 0.9F, -2}, {-0.7F, -1.2F, -7}};
         scene.triangles = {order};

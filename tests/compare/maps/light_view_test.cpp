@@ -24,7 +24,7 @@ std::vector<PointOnFace> seen_points(const TracedScene& traced, const LightView&
     for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) {
             if (traced.truth.triangle.at(x, y) == no_triangle) continue;
-            const glm::dvec3 ray = ray_direction(camera, x + 0.5, y + 0.5);
+            const glm::dvec3 ray = line_of_sight(camera, x + 0.5, y + 0.5);
             const glm::dvec3 from_light =
                 camera.eye + traced.truth.depth.at(x, y) * ray - light.origin();
             points.push_back({lookup(light, from_light).texel.face, from_light});

@@ -21,7 +21,7 @@ bool changes_within(const TracedScene& traced, int x, int y, double reach) {
     std::vector<glm::dvec3> rays;
     for (int down = -steps; down <= steps; ++down)
         for (int right = -steps; right <= steps; ++right)
-            rays.push_back(ray_direction(scene.camera, x + 0.5 + reach * right / steps,
+            rays.push_back(line_of_sight(scene.camera, x + 0.5 + reach * right / steps,
                                          y + 0.5 + reach * down / steps));
     const std::uint32_t own = mesh_of(scene, traced.truth().triangle.at(x, y));
     for (const RayTruth& seen : trace_rays(traced.tracer(), rays))

@@ -34,7 +34,7 @@ std::optional<std::int64_t> unmoved_count(const Tracer& tracer, const Prediction
     const Camera& camera = tracer.scene().camera;
     const Neighbourhood around = neighbourhood(camera, {x + 0.5, y + 0.5}, {});
     const Volumes& volumes = prediction.volumes();
-    RegionLedger counted = volumes.ledger(corner_rays(camera, x, y, x + 1, y + 1));
+    RegionLedger counted = volumes.ledger(corner_lines(camera, x, y, x + 1, y + 1));
     const PixelVolumes here{.counted = counted,
                             .casters = volumes.casters(),
                             .far_ends = volumes.far_ends(),
@@ -74,8 +74,8 @@ TEST_P(BandOfScene, reads_what_is_predicted_where_nothing_is_moved) {
             for (int x = 0; x < 67; x += 3) {
                 if (truth.exactness.at(x, y) == Exactness::degenerate) continue;
                 RegionLedger ledger =
-                    prediction.volumes().ledger(corner_rays(scene.camera, x, y, x + 1, y + 1));
-                ledger.crossings(ray_direction(scene.camera, x + 0.5, y + 0.5), crossings);
+                    prediction.volumes().ledger(corner_lines(scene.camera, x, y, x + 1, y + 1));
+                ledger.crossings(line_of_sight(scene.camera, x + 0.5, y + 0.5), crossings);
                 std::erase_if(crossings, [&](const Crossing& crossing) {
                     return crossing.triangle == truth.triangle.at(x, y); // its own cap
                 });

@@ -38,7 +38,7 @@ Scene prism_of_eight() {
         {.name = "eight", .first_triangle = first_triangle, .triangle_count = 12});
     scene.lights[0].position = {4, 3, 1};
     tests::look_at(scene.camera, {4, 3, 5}, {0, 1, 0});
-    scene.camera.tan_half_height = std::tan(0.5 * 0.9);
+    scene.camera.half_height = std::tan(0.5 * 0.9);
     scene.camera.width = 512;
     scene.camera.height = 512;
     return scene;

@@ -31,7 +31,7 @@ Scene at_origin(double near) {
 }
 
 double width_of_pixel(const Camera& camera) {
-    return 2 * camera.tan_half_height / camera.height;
+    return 2 * camera.half_height / camera.height;
 }
 
 TEST(SufficientDepths, of_fixed_point_are_as_many_near_planes_as_pixels_are_wide_quanta) {

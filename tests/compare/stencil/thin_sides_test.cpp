@@ -39,7 +39,7 @@ Scene bumpy_ball(unsigned rings, unsigned sectors) {
     }
     scene.meshes = {{"ball", 0, static_cast<std::uint32_t>(scene.triangles.size()), 0}};
     scene.camera.eye = {0, 0, 4.2};
-    scene.camera.tan_half_height = 0.3;
+    scene.camera.half_height = 0.3;
     scene.camera.near = 0.1;
     scene.camera.width = 640;
     scene.camera.height = 640;

@@ -114,7 +114,7 @@ TEST(NearCap, lies_before_a_surface_that_comes_out_in_front_of_the_near_plane) {
     camera.right = {-0.8393343077018764, 0.0, -0.5436155994033023};
     camera.up = {0.0746628438490103, 0.9905232816627989, -0.11527830772672579};
     camera.forward = {-0.5384639074840485, 0.13734492522099018, 0.8313801728770361};
-    camera.tan_half_height = std::tan(0.45);
+    camera.half_height = std::tan(0.45);
     camera.near = 1.5;
     camera.width = camera.height = 128;
     Gpu gpu(GlPlatform::osmesa);

@@ -260,9 +260,9 @@ TEST(Predicates, a_tie_at_a_plane_is_broken_by_the_first_axis_that_the_plane_is_
     const EyeRay ray{{2, 3, 4}, {0, 0, -1}, {0, 9, 0, 1}};
     const RayPoint eye{.kind = RayPoint::Kind::depth, .depth = 0};
     const auto untied = [&](const glm::dvec3& b, const glm::dvec3& c) {
-        EXPECT_EQ(predicates.side_of_point(ray, eye, {ray.eye, b, c}).sign, 0);
-        const int sign = predicates.side_of_point_untied(ray, eye, {ray.eye, b, c}).sign;
-        EXPECT_EQ(predicates.side_of_point_untied(ray, eye, {ray.eye, c, b}).sign, -sign);
+        EXPECT_EQ(predicates.side_of_point(ray, eye, {ray.start, b, c}).sign, 0);
+        const int sign = predicates.side_of_point_untied(ray, eye, {ray.start, b, c}).sign;
+        EXPECT_EQ(predicates.side_of_point_untied(ray, eye, {ray.start, c, b}).sign, -sign);
         return sign;
     };
     EXPECT_EQ(untied({2, 4, 4}, {2, 3, 5}), 1);  // normal (1, 0, 0)

@@ -236,7 +236,7 @@ TEST(Limitation, counts_without_it_are_those_of_casters_counted_one_by_one) {
                 const std::uint32_t triangle = traced->truth.triangle.at(x, y);
                 if (triangle == no_triangle) continue;
                 ++seen;
-                const glm::dvec3 ray = ray_direction(camera, x + 0.5, y + 0.5);
+                const glm::dvec3 ray = line_of_sight(camera, x + 0.5, y + 0.5);
                 const double depth = traced->truth.depth.at(x, y);
                 const auto at = [&](double t) { return camera.eye + t * ray; };
                 // Just before the surface: a back lies between that and the light.
@@ -249,7 +249,7 @@ TEST(Limitation, counts_without_it_are_those_of_casters_counted_one_by_one) {
                 const int expected = each.expected(depths);
                 wrong += prediction.count_without(each.lifted, x, y) != expected ? 1 : 0;
                 const SurfaceRay surface{ray, depth, triangle,
-                                         corner_rays(camera, x, y, x + 1, y + 1)};
+                                         corner_lines(camera, x, y, x + 1, y + 1)};
                 wrong_on_rays += prediction.count_without(each.lifted, surface) != expected;
             }
         EXPECT_GT(seen, 100);

@@ -24,7 +24,8 @@ void for_regions(const Tracer& tracer, int step, const Visit& visit) {
         for (int x = 0; x < camera.width; x += side * step) {
             const int right = std::min(x + side, camera.width);
             const int bottom = std::min(y + side, camera.height);
-            visit(RegionLedger(tracer, silhouette, corner_rays(camera, x, y, right, bottom)), x, y);
+            visit(RegionLedger(tracer, silhouette, corner_lines(camera, x, y, right, bottom)), x,
+                  y);
         }
 }
 
@@ -49,7 +50,7 @@ TEST_P(RegionLedgerTest, the_crossings_are_those_found_ray_by_ray) {
     for_regions(tracer, 8, [&](RegionLedger region, int x0, int y0) {
         for (int y = y0; y < y0 + side; y += 5)
             for (int x = x0; x < x0 + side; x += 5) {
-                const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
+                const glm::dvec3 direction = line_of_sight(scene.camera, x + 0.5, y + 0.5);
                 region.crossings(direction, found);
                 const std::vector<Crossing> expected = ray_ledger(tracer, direction).crossings;
                 ASSERT_EQ(found.size(), expected.size()) << x << ", " << y;
@@ -71,7 +72,7 @@ TEST_P(RegionLedgerTest, the_crossings_add_up_to_the_exact_counts_at_every_pixel
     for_regions(tracer, 1, [&](RegionLedger region, int x0, int y0) {
         for (int y = y0; y < std::min(y0 + side, scene.camera.height); ++y)
             for (int x = x0; x < std::min(x0 + side, scene.camera.width); ++x) {
-                region.crossings(ray_direction(scene.camera, x + 0.5, y + 0.5), found);
+                region.crossings(line_of_sight(scene.camera, x + 0.5, y + 0.5), found);
                 std::int32_t near = depths.at_eye;
                 std::int32_t far = depths.at_eye;
                 std::int32_t infinity = depths.at_eye;

@@ -38,7 +38,7 @@ TEST(PixelMeans, are_those_of_rays_through_the_middles_of_equal_rectangles) {
             const glm::ivec2 rays(means.rays.at(x, y));
             oblong += rays.x != rays.y ? 1 : 0;
             const RayTruth centre =
-                trace_ray(tracer, ray_direction(scene.camera, x + 0.5, y + 0.5));
+                trace_ray(tracer, line_of_sight(scene.camera, x + 0.5, y + 0.5));
             const auto is_like_centre = [&](const RayTruth& seen) {
                 return centre.triangle != no_triangle &&
                        mesh_of(scene, seen.triangle) == mesh_of(scene, centre.triangle) &&
@@ -49,12 +49,12 @@ TEST(PixelMeans, are_those_of_rays_through_the_middles_of_equal_rectangles) {
             int like_centre = 0;
             for (int j = 0; j < rays.y; ++j)
                 for (int i = 0; i < rays.x; ++i) {
-                    const SeenPoint point{ray_direction(scene.camera, x + (i + 0.5) / rays.x,
+                    const SeenPoint point{line_of_sight(scene.camera, x + (i + 0.5) / rays.x,
                                                         y + (j + 0.5) / rays.y)};
-                    const RayTruth seen = trace_ray(tracer, point.direction);
+                    const RayTruth seen = trace_ray(tracer, point.line);
                     if (seen.triangle == no_triangle) continue;
-                    const std::array points{SeenPoint{point.direction, seen.triangle,
-                                                      seen.visibility == Visibility::lit}};
+                    const std::array points{
+                        SeenPoint{point.line, seen.triangle, seen.visibility == Visibility::lit}};
                     std::array<Shading, 1> shading{};
                     shader.shade(points, shading);
                     sum += shading[0].color();
@@ -108,13 +108,13 @@ TEST(PixelMeans, know_how_many_texels_a_pixel_covers_and_at_which_angle) {
     // Derivatives of the floor's mapping along the pixel's column, from intersections with y = 0 by
     // the camera's rays alone.
     const auto z_at = [&](double row) {
-        const glm::dvec3 way = ray_direction(scene.camera, 256.5, row);
+        const glm::dvec3 way = line_of_sight(scene.camera, 256.5, row);
         return scene.camera.eye.z - scene.camera.eye.y / way.y * way.z;
     };
     const double length = std::abs(z_at(421) - z_at(420)); // along z, in the file's units
     const double texels = length * 64 * 24.3 / (2 * 29.07);
     EXPECT_NEAR(one.texels.at(256, 420), texels, 2e-3 * texels);
-    const glm::dvec3 centre = ray_direction(scene.camera, 256.5, 420.5);
+    const glm::dvec3 centre = line_of_sight(scene.camera, 256.5, 420.5);
     EXPECT_NEAR(one.cosine.at(256, 420), -glm::normalize(centre).y, 1e-5);
     EXPECT_EQ(one.texels.at(256, 421), 0); // no other pixel
 }

@@ -289,7 +289,7 @@ double difference_by(const Scene& scene, witness::Fault fault) {
         for (int x = 0; x < side; ++x) {
             if (truth.triangle.at(x, y) == no_triangle) continue;
             const glm::dvec3 expected = witness::color_at(
-                scene, ray_direction(scene.camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
+                scene, line_of_sight(scene.camera, x + 0.5, y + 0.5), truth.triangle.at(x, y),
                 truth.visibility.at(x, y) == Visibility::lit, fault);
             const glm::dvec3 off =
                 glm::abs(glm::clamp(expected, 0.0, 1.0) - glm::clamp(shaded.at(x, y), 0.0, 1.0));
@@ -455,7 +455,7 @@ TEST(supersampling, is_the_mean_of_rays_through_the_middles_of_equal_squares) {
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i) {
                     const auto shading = shade_ray(
-                        tracer, ray_direction(scene.camera, x + (i + 0.5) / n, y + (j + 0.5) / n));
+                        tracer, line_of_sight(scene.camera, x + (i + 0.5) / n, y + (j + 0.5) / n));
                     if (!shading) continue;
                     sum += shading->color();
                     ++seen;

@@ -171,7 +171,7 @@ TEST(AnyRays, from_the_eye_they_say_what_the_truth_says) {
         const GroundTruth truth = trace(tracer);
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x) {
-                const AnyRay ray{scene.camera.eye, ray_direction(scene.camera, x + 0.5, y + 0.5)};
+                const AnyRay ray{scene.camera.eye, line_of_sight(scene.camera, x + 0.5, y + 0.5)};
                 const std::uint32_t seen = truth.triangle.at(x, y);
                 if (seen == no_triangle) continue;
                 bool lit = faces_light(tracer, seen) && within_cone(tracer, ray, seen);

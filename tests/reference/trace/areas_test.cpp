@@ -31,7 +31,7 @@ std::vector<Camera> cameras(const Camera& eye, int size) {
             camera.forward = sign * at(0);
             camera.right = at(1);
             camera.up = -sign * at(2);
-            camera.tan_half_height = 1;
+            camera.half_height = 1;
             camera.width = camera.height = size;
             all.push_back(camera);
         }
@@ -39,7 +39,7 @@ std::vector<Camera> cameras(const Camera& eye, int size) {
     turned.forward = {0.36, -0.48, -0.8};
     turned.right = {0.8, 0.6, 0};
     turned.up = {0.48, -0.64, 0.6};
-    turned.tan_half_height = 0.7;
+    turned.half_height = 0.7;
     turned.width = size + 37;
     turned.height = size - 5;
     all.push_back(turned);
@@ -59,7 +59,7 @@ Told told(const Tracer& tracer, const SeenRange& range, const Camera& camera) {
     for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) {
             areas.ask(x, y);
-            rays.push_back(ray_direction(camera, x + 0.5, y + 0.5));
+            rays.push_back(line_of_sight(camera, x + 0.5, y + 0.5));
         }
     Areas::divide(std::span(&areas, 1), std::span(&camera, 1), tracer);
     std::vector<std::uint32_t> seen(rays.size());

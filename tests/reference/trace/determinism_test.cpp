@@ -119,12 +119,15 @@ TEST(Exactness, an_ordinary_scene_is_decided_by_floats_nearly_everywhere) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, DeterminismTest, testing::ValuesIn(hard_scenes()),
-                         [](const testing::TestParamInfo<HardScene>& scene) {
-                             std::string name = scene.param.name;
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+std::string test_name(const testing::TestParamInfo<HardScene>& scene) {
+    std::string name = scene.param.name;
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, DeterminismTest, testing::ValuesIn(hard_scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Orthographic, DeterminismTest, testing::ValuesIn(orthographic_scenes()),
+                         test_name);
 
 } // namespace
 } // namespace shadowproof

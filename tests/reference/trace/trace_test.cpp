@@ -26,7 +26,7 @@ TEST_P(HardSceneTest, not_one_pixel_differs_from_brute_force_over_rationals) {
     for (int y = 0; y < scene.camera.height; ++y)
         for (int x = 0; x < scene.camera.width; ++x) {
             const witness::Answer expected =
-                witness.look(ray_direction(scene.camera, x + 0.5, y + 0.5));
+                witness.look(line_of_sight(scene.camera, x + 0.5, y + 0.5));
             ASSERT_EQ(truth.triangle.at(x, y), expected.triangle) << "at " << x << ", " << y;
             ASSERT_EQ(truth.visibility.at(x, y), expected.visibility) << "at " << x << ", " << y;
         }
@@ -42,6 +42,19 @@ TEST(FarLight, leaves_no_more_undecided_than_one_near_by) {
         scene.lights[0].position = factor * place;
         const TraceStatistics statistics = trace(Tracer(scene)).statistics;
         EXPECT_LT(statistics.undecided, statistics.rays / 50) << factor;
+    }
+}
+
+/// An orthographic camera's lines of sight are as easy to decide.
+TEST(Orthographic, leaves_no_more_undecided_than_perspective) {
+    Scene scene = load_scene("overlapping", {});
+    scene.camera.width = scene.camera.height = 64;
+    scene.camera.projection = Projection::orthographic;
+    for (const double half_height : {0.01, 1.0, 5.0}) {
+        scene.camera.half_height = half_height;
+        const TraceStatistics statistics = trace(Tracer(scene)).statistics;
+        EXPECT_GT(statistics.lit + statistics.shadowed, 1000U) << half_height;
+        EXPECT_LT(statistics.undecided, statistics.rays / 50) << half_height;
     }
 }
 
@@ -81,14 +94,15 @@ TEST_P(HardSceneTest, the_occluder_is_the_lowest_numbered_triangle_that_stands_b
     const GroundTruth truth = trace(tracer);
     for (int y = 0; y < scene.camera.height; ++y)
         for (int x = 0; x < scene.camera.width; ++x) {
-            const AnyRay ray{scene.camera.eye, ray_direction(scene.camera, x + 0.5, y + 0.5)};
+            const glm::dvec3 line = line_of_sight(scene.camera, x + 0.5, y + 0.5);
+            const AnyRay ray{start_of(scene.camera, line), direction_of(scene.camera, line)};
             const std::uint32_t seen = truth.triangle.at(x, y);
             std::uint32_t lowest = no_triangle;
             if (seen != no_triangle && faces_light(tracer, seen) &&
                 receives_shadows(tracer, seen) && within_cone(tracer, ray, seen))
                 for (std::uint32_t i = 0; i < scene.triangles.size() && lowest == no_triangle; ++i)
                     if (stands_between(tracer, ray, seen, i)) lowest = i;
-            ASSERT_EQ(occluder_of(tracer, ray.direction), lowest) << x << ", " << y;
+            ASSERT_EQ(occluder_of(tracer, line), lowest) << x << ", " << y;
         }
 }
 
@@ -96,13 +110,14 @@ TEST_P(HardSceneTest, shadow_depths_equal_those_of_brute_force_with_a_really_mov
     const Scene scene = GetParam().make();
     const Tracer tracer(scene);
     const GroundTruth truth = trace(tracer);
-    const double far = 6 * scene.camera.near / 0.125;
+    const double far = 1.5 * scene.camera.half_height + 6 * scene.camera.near / 0.125;
     const ShadowDepths depths = count_shadow_depths(tracer, truth, far);
     const witness::Witness witness(scene);
-    EXPECT_EQ(depths.at_eye, witness.shadow_depth(witness.on_ray({0, 0, -1}, 0), no_triangle));
+    EXPECT_EQ(depths.at_eye,
+              witness.shadow_depth(witness.on_ray(eye_line(scene.camera), 0), no_triangle));
     for (int y = 0; y < scene.camera.height; ++y)
         for (int x = 0; x < scene.camera.width; ++x) {
-            const glm::dvec3 d = ray_direction(scene.camera, x + 0.5, y + 0.5);
+            const glm::dvec3 d = line_of_sight(scene.camera, x + 0.5, y + 0.5);
             const auto at = [&](double depth) {
                 return witness.shadow_depth(witness.on_ray(d, depth), no_triangle);
             };
@@ -132,7 +147,7 @@ TEST_P(HardSceneTest, what_a_spots_cone_holds_equals_brute_force_and_is_asked_of
     int outside = 0;
     for (int y = 0; y < scene.camera.height; ++y)
         for (int x = 0; x < scene.camera.width; ++x) {
-            const glm::dvec3 direction = ray_direction(scene.camera, x + 0.5, y + 0.5);
+            const glm::dvec3 direction = line_of_sight(scene.camera, x + 0.5, y + 0.5);
             const witness::Answer expected = witness.look(direction);
             const bool in_cone =
                 expected.triangle != no_triangle && witness.side_of_cone(expected.hit) >= 0;
@@ -145,6 +160,16 @@ TEST_P(HardSceneTest, what_a_spots_cone_holds_equals_brute_force_and_is_asked_of
     EXPECT_GT(outside, 10);
 }
 
+/// How high a perspective picture is, by half, at the depth of half of the vertices.
+double height_at_middle(const Scene& scene) {
+    std::vector<double> depths;
+    for (const glm::dvec3 position : scene.positions)
+        depths.push_back(view_depth(scene.camera, position));
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::ranges::nth_element(depths, middle);
+    return std::max(*middle, scene.camera.near) * scene.camera.half_height;
+}
+
 /// Pixels of a bundled scene whose right neighbour has another class: there floats are wrong first.
 std::vector<std::pair<int, int>> pixels_at_boundaries(const GroundTruth& truth) {
     std::vector<std::pair<int, int>> pixels;
@@ -155,11 +180,15 @@ std::vector<std::pair<int, int>> pixels_at_boundaries(const GroundTruth& truth) 
     return pixels;
 }
 
-TEST(BundledScenes, pixels_at_boundaries_equal_brute_force_over_rationals) {
+class BoundariesOfBundledScenes : public testing::TestWithParam<Projection> {};
+
+TEST_P(BoundariesOfBundledScenes, equal_brute_force_over_rationals) {
     constexpr std::uint32_t seed = 20260102;
     std::mt19937 random(seed);
     for (const BundledScene& bundled : bundled_scenes()) {
-        const Scene scene = load_scene(std::string(bundled.name), {});
+        Scene scene = load_scene(std::string(bundled.name), {});
+        scene.camera.projection = GetParam();
+        scene.camera.half_height = height_at_middle(scene);
         const GroundTruth truth = trace(Tracer(scene));
         const witness::Witness witness(scene);
         std::vector<std::pair<int, int>> pixels = pixels_at_boundaries(truth);
@@ -167,7 +196,7 @@ TEST(BundledScenes, pixels_at_boundaries_equal_brute_force_over_rationals) {
         pixels.resize(std::min<std::size_t>(pixels.size(), 25));
         for (const auto& [x, y] : pixels) {
             const witness::Answer expected =
-                witness.look(ray_direction(scene.camera, x + 0.5, y + 0.5));
+                witness.look(line_of_sight(scene.camera, x + 0.5, y + 0.5));
             EXPECT_EQ(truth.triangle.at(x, y), expected.triangle)
                 << bundled.name << " at " << x << ", " << y << ", seed " << seed;
             EXPECT_EQ(truth.visibility.at(x, y), expected.visibility)
@@ -176,13 +205,17 @@ TEST(BundledScenes, pixels_at_boundaries_equal_brute_force_over_rationals) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Reference, HardSceneTest, testing::ValuesIn(hard_scenes()),
-                         [](const testing::TestParamInfo<HardScene>& scene) {
-                             std::string name = scene.param.name;
-                             for (char& c : name)
-                                 if (c == '-') c = '_';
-                             return name;
-                         });
+std::string test_name(const testing::TestParamInfo<HardScene>& scene) {
+    std::string name = scene.param.name;
+    std::ranges::replace(name, '-', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, BoundariesOfBundledScenes,
+                         testing::Values(Projection::perspective, Projection::orthographic));
+INSTANTIATE_TEST_SUITE_P(Reference, HardSceneTest, testing::ValuesIn(hard_scenes()), test_name);
+INSTANTIATE_TEST_SUITE_P(Orthographic, HardSceneTest, testing::ValuesIn(orthographic_scenes()),
+                         test_name);
 
 } // namespace
 } // namespace shadowproof

@@ -30,7 +30,7 @@ Scene scene_seen_by(const glm::dvec3& eye, const glm::dvec3& forward, double far
     Scene scene;
     scene.camera.eye = eye;
     orient(scene.camera, forward, {0, 1, 0});
-    scene.camera.tan_half_height = 0.4;
+    scene.camera.half_height = 0.4;
     scene.camera.near = 0.25;
     scene.camera.far = far;
     scene.camera.width = 300;

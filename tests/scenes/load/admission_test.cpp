@@ -114,12 +114,12 @@ TEST(Admission, the_camera_and_every_light_are_admitted_like_vertices) {
     expect_says(refusal_after([](Scene& s) { s.camera.near = 1e-40; }), "near plane");
     expect_says(refusal_after([](Scene& s) { s.camera.near = NAN; }), "near plane");
     expect_says(refusal_after([](Scene& s) { s.camera.far = 1e39; }), "far plane");
-    expect_says(refusal_after([](Scene& s) { s.camera.tan_half_height = 1e-20; }), "field of view");
-    expect_says(refusal_after([](Scene& s) { s.camera.tan_half_height = 2.9e-7; }),
+    expect_says(refusal_after([](Scene& s) { s.camera.half_height = 1e-20; }), "field of view");
+    expect_says(refusal_after([](Scene& s) { s.camera.half_height = 2.9e-7; }),
                 "floats place nothing");
-    EXPECT_EQ(refusal_after([](Scene& s) { s.camera.tan_half_height = 3e-7; }), "");
+    EXPECT_EQ(refusal_after([](Scene& s) { s.camera.half_height = 3e-7; }), "");
     const auto narrow = [](Scene& s) {
-        s.camera.tan_half_height = 5e-7;
+        s.camera.half_height = 5e-7;
         s.camera.width = s.camera.height / 2;
     };
     expect_says(refusal_after(narrow), "floats place nothing");

@@ -42,7 +42,7 @@ TEST(camera, the_first_perspective_one_is_taken_and_the_orthographic_one_said) {
     const Scene scene = load(furnished());
     EXPECT_EQ(scene.camera.eye, glm::dvec3(0, 0, 6));
     EXPECT_EQ(scene.camera.forward, glm::dvec3(0, 0, -1));
-    EXPECT_DOUBLE_EQ(scene.camera.tan_half_height, std::tan(0.75));
+    EXPECT_DOUBLE_EQ(scene.camera.half_height, std::tan(0.75));
     EXPECT_TRUE(std::isinf(scene.camera.far));
     EXPECT_TRUE(says(scene, "orthographic"));
 }

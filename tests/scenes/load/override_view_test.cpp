@@ -36,7 +36,7 @@ TEST(override_view, puts_camera_light_and_field_of_view_where_they_are_given) {
     EXPECT_EQ(scene.camera.forward, glm::dvec3(1, 0, 0));
     EXPECT_EQ(scene.camera.up, glm::dvec3(0, 1, 0));
     EXPECT_EQ(scene.camera.right, glm::dvec3(0, 0, 1));
-    EXPECT_EQ(scene.camera.tan_half_height, std::tan(0.25));
+    EXPECT_EQ(scene.camera.half_height, std::tan(0.25));
     EXPECT_EQ(scene.lights[0].position, glm::dvec3(7, 8, 9));
     EXPECT_TRUE(says(scene, "--camera-matrix"));
     EXPECT_TRUE(says(scene, "--light-position"));

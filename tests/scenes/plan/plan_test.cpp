@@ -131,7 +131,7 @@ TEST(plan, nothing_that_random_rays_find_was_ruled_out) {
         ruled_out += !plan.volume_meets_near + !plan.volume_meets_far + !plan.dark_cap;
         for (int ray = 0; ray < 40; ++ray) {
             const glm::dvec3 direction =
-                ray_direction(scene.camera, 512 * unit(random), 512 * unit(random));
+                line_of_sight(scene.camera, 512 * unit(random), 512 * unit(random));
             const bool near = crosses(direction, light, scene);
             const bool far = crosses(10.0 * direction, light, scene);
             const bool infinity = crosses(light, light + 1e6 * direction, scene);
@@ -178,7 +178,7 @@ TEST(plan, nothing_that_random_rays_to_a_sun_find_was_ruled_out) {
         ruled_out += !plan.volume_meets_near + !plan.volume_meets_far;
         for (int ray = 0; ray < 40; ++ray) {
             const glm::dvec3 direction =
-                ray_direction(scene.camera, 512 * unit(random), 512 * unit(random));
+                line_of_sight(scene.camera, 512 * unit(random), 512 * unit(random));
             const bool near = crosses(direction, direction + 1e3 * to_light, scene);
             const bool far = crosses(10.0 * direction, 10.0 * direction + 1e3 * to_light, scene);
             found += near + far;

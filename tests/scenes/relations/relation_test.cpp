@@ -109,8 +109,8 @@ TEST(Relation, a_mirrored_scene_keeps_its_fronts_and_its_rays_are_mirrored) {
         ASSERT_LE(glm::length(there - glm::dvec3(-normal.x, normal.y, normal.z)),
                   1e-14 * glm::length(normal));
     }
-    const glm::dvec3 ray = ray_direction(scene.camera, 7.5, 3.5);
-    EXPECT_EQ(ray_direction(mirrored.camera, 7.5, 3.5), glm::dvec3(-ray.x, ray.y, ray.z));
+    const glm::dvec3 ray = line_of_sight(scene.camera, 7.5, 3.5);
+    EXPECT_EQ(line_of_sight(mirrored.camera, 7.5, 3.5), glm::dvec3(-ray.x, ray.y, ray.z));
 }
 
 TEST(Relation, what_is_moved_is_moved_exactly_or_not_at_all) {

@@ -206,7 +206,7 @@ TEST(StressParameters, small_triangles_are_as_small_as_asked_and_leave_no_gaps) 
     EXPECT_NEAR(area_of(split), area_of(scene), 1e-5 * area_of(scene));
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
         const std::uint32_t small = 7 * i; // the others are around it
-        const double pixel = 2 * scene.camera.tan_half_height *
+        const double pixel = 2 * scene.camera.half_height *
                              glm::distance(corner(split, small, 0), scene.camera.eye) /
                              scene.camera.height;
         double longest = 0;
@@ -224,7 +224,7 @@ TEST(StressParameters, a_receiver_grows_in_its_plane_and_nothing_else_does) {
     const Scene large = stressed(scene, {"receiver_size", 1e4});
     for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(large.positions[i], scene.positions[i]);
     for (std::size_t i = 8; i < 12; ++i) EXPECT_EQ(large.positions[i].y, 0);
-    const double height = 2 * scene.camera.tan_half_height * size_of(scene); // of the picture
+    const double height = 2 * scene.camera.half_height * size_of(scene); // of the picture
     EXPECT_NEAR(glm::distance(large.positions[8], large.positions[10]) / height, 1e4, 1);
 }
 
@@ -264,7 +264,7 @@ TEST(StressParameters, views_change_as_asked) {
     const Scene wide = stressed(scene, {"aspect", 16});
     EXPECT_EQ(wide.camera.width, 256);
     EXPECT_EQ(wide.camera.height, 16);
-    EXPECT_NEAR(stressed(scene, {"field_of_view", 90}).camera.tan_half_height, 1, 1e-12);
+    EXPECT_NEAR(stressed(scene, {"field_of_view", 90}).camera.half_height, 1, 1e-12);
     EXPECT_NEAR(stressed(scene, {"near_plane", 1e-5}).camera.near, 1e-5 * size_of(scene), 1e-15);
     EXPECT_TRUE(std::isinf(stressed(scene, {"near_over_far", 0}).camera.far));
     const Scene closer = stressed(scene, {"eye_distance", 0.5});

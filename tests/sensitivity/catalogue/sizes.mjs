@@ -19,7 +19,7 @@ const texels = '2^-24 of each number: roundings of floats; it shows at borders o
 const step = '2^-24: a step of 24 bits';
 export const faults = [
   { name: 'viewport_shift', unit: 'pixels', largest: -1, aim: -6, own: snapping, ...shift('AMOUNT', '0') },
-  { name: 'field_of_view', unit: 'of its tangent', largest: -4, aim: -10, own: border, ...camera('c.tan_half_height *= 1 + AMOUNT') },
+  { name: 'field_of_view', unit: 'of its tangent', largest: -4, aim: -10, own: border, ...camera('c.half_height *= 1 + AMOUNT') },
   { name: 'camera_roll', unit: 'radians', largest: -4, aim: -10, own: border, ...other('const glm::dvec3 r = s.camera.right; s.camera.right = glm::normalize(r + AMOUNT * s.camera.up); s.camera.up = glm::normalize(s.camera.up - AMOUNT * r)') },
   { name: 'near_plane', unit: 'of its depth', largest: -4, aim: -10, own: floats, ...camera('c.near *= 1 + AMOUNT') },
   { name: 'depth_bias', unit: 'of the range of depths', largest: -10, aim: -16, own: '2^-21 of a depth: its eight roundings', file: passes, right: bias, wrong: `${bias} for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += static_cast<float>(AMOUNT) * transform.clip_from_relative[k][3];` },

@@ -10,8 +10,8 @@ const cross = (a, b) => [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0],
                          a[0] * b[1] - b[0] * a[1]];
 
 function rayDirection({ width, height, camera }, x, y) {
-  const across = camera.tan_half_height * width / height * (2 * (x + 0.5) / width - 1);
-  const upward = camera.tan_half_height * (1 - 2 * (y + 0.5) / height);
+  const across = camera.half_height * width / height * (2 * (x + 0.5) / width - 1);
+  const upward = camera.half_height * (1 - 2 * (y + 0.5) / height);
   return [0, 1, 2].map((i) =>
     (camera.forward[i] + across * camera.right[i]) + upward * camera.up[i]);
 }
