@@ -29,6 +29,7 @@ Joined::Joined(const Technique& lighting, const Technique& shadowing, double cos
     technique_.needs_bump_maps = lighting.needs_bump_maps;
     technique_.needs_environment = lighting.needs_environment;
     technique_.filters_bumps = lighting.filters_bumps;
+    technique_.sees_in_parallel = lighting.sees_in_parallel && shadowing.sees_in_parallel;
     technique_.squares_thrice = lighting.squares_thrice;
     technique_.lighting = lighting.lighting;
     // What lighting fails at itself; the rest is what it finds its own shadows by.

@@ -1,5 +1,6 @@
 #include "scenes/camera.h"
 
+#include <cassert>
 #include <glm/geometric.hpp>
 
 namespace shadowproof {
@@ -64,23 +65,34 @@ glm::dmat4 view_from_world(const Camera& camera) {
 
 namespace {
 
-/// The part all projections share: x and y scales, and w = -z of view space.
-glm::dmat4 perspective(const Camera& camera) {
+/// The part all projections share: x and y scales, and w: -z of view space, or 1.
+glm::dmat4 clip_without_depth(const Camera& camera) {
     const glm::dvec2 half = half_extent(camera);
     glm::dmat4 clip(0.0);
     clip[0][0] = 1 / half.x;
     clip[1][1] = 1 / half.y;
-    clip[2][3] = -1;
+    if (camera.is_orthographic())
+        clip[3][3] = 1;
+    else
+        clip[2][3] = -1;
     return clip;
+}
+
+/// Of a perspective camera.
+glm::dmat4 perspective(const Camera& camera) {
+    assert(!camera.is_orthographic());
+    return clip_without_depth(camera);
 }
 
 } // namespace
 
 glm::dmat4 clip_from_view_finite(const Camera& camera, double far) {
     const double near = camera.near;
-    glm::dmat4 clip = perspective(camera);
-    clip[2][2] = -(far + near) / (far - near);
-    clip[3][2] = -2 * far * near / (far - near);
+    glm::dmat4 clip = clip_without_depth(camera);
+    const double middle = -(far + near) / (far - near);
+    const bool is_parallel = camera.is_orthographic();
+    clip[2][2] = is_parallel ? -2 / (far - near) : middle;
+    clip[3][2] = is_parallel ? middle : -2 * far * near / (far - near);
     return clip;
 }
 
@@ -99,9 +111,9 @@ glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera) {
 
 glm::dmat4 clip_from_view_finite_reversed(const Camera& camera, double far) {
     const double near = camera.near;
-    glm::dmat4 clip = perspective(camera);
-    clip[2][2] = near / (far - near);
-    clip[3][2] = far * near / (far - near);
+    glm::dmat4 clip = clip_without_depth(camera);
+    clip[2][2] = (camera.is_orthographic() ? 1 : near) / (far - near);
+    clip[3][2] = far * (camera.is_orthographic() ? 1 : near) / (far - near);
     return clip;
 }
 

@@ -88,6 +88,11 @@ double view_depth(const Camera& camera, const glm::dvec3& point);
 /// (view depth > 0, or any where the camera is orthographic).
 glm::dvec2 project(const Camera& camera, const glm::dvec3& point);
 
+/// Picture point, likewise, of a line of sight: the inverse of line_of_sight.
+inline glm::dvec2 place_of(const Camera& camera, const glm::dvec3& line) {
+    return project(camera, point_on(camera, line, 1));
+}
+
 /// How many pixels a length across the view covers at a view depth.
 double pixels_of_length(const Camera& camera, double depth);
 
@@ -96,8 +101,8 @@ double pixels_of_length(const Camera& camera, double depth);
 glm::dmat3 view_from_eye_relative(const Camera& camera);
 glm::dmat4 view_from_world(const Camera& camera);
 
-/// OpenGL projections of a perspective camera; window depth grows away from the eye except in the
-/// last.
+/// OpenGL projections; window depth grows away from the eye except in the last two. Infinite ones
+/// are a perspective camera's alone: parallel lines of sight have no such form.
 glm::dmat4 clip_from_view_finite(const Camera& camera, double far); ///< z in [-w, w]
 glm::dmat4 clip_from_view_infinite(const Camera& camera);           ///< z in [-w, w]
 glm::dmat4 clip_from_view_infinite_reversed(const Camera& camera);  ///< z in [0, w], 1 at near

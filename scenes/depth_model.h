@@ -12,7 +12,8 @@ struct DepthModel {
     Projection projection = Projection::finite;
     double near = 0.1;
     double far = std::numeric_limits<double>::infinity(); ///< of the projection, where finite
-    bool floating = false;                                ///< D32F; otherwise 24-bit fixed point
+    bool parallel = false;     ///< of an orthographic camera: window depth is linear in view depth
+    bool floating = false;     ///< D32F; otherwise 24-bit fixed point
     bool eye_relative = false; ///< the eye is subtracted from vertices before the matrix is applied
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
     double front = 0;          ///< window depth of the near plane; smaller ones are reserved

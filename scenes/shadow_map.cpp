@@ -148,6 +148,7 @@ Camera map_camera(const Light& light, const MapModel& model, std::size_t face) {
     camera.up = up;
     camera.forward = forward;
     if (model.shape == MapModel::Shape::sun) {
+        camera.projection = Projection::orthographic;
         camera.eye = model.eye;
         camera.half_height = model.half_side;
     } else {

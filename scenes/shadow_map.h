@@ -206,8 +206,8 @@ void fit_sun(MapModel& model, const Scene& scene);
 
 /// The camera that draws a face: at the light, square. For a cube it looks along an axis, and its
 /// rows and columns are those of OpenGL's face, from the last row up (cube_map.h). For a spot it
-/// looks along the light's axis and holds the whole cone. For a sun it looks along the light, in
-/// parallel: half its height is `half_height` at any depth.
+/// looks along the light's axis and holds the whole cone. For a sun it is orthographic, and looks
+/// along the light.
 Camera map_camera(const Light& light, const MapModel& model, std::size_t face);
 
 /// Where a point, relative to the eye of a face's camera, lies in its picture: in texels from the

@@ -21,16 +21,21 @@ using Polygon = std::vector<Corner>;
 // coordinates: the difference, its product and the sum round, by v of at most the larger corner's
 // size each, as t is between 0 and 1. An error of t itself moves the corner along the edge. The
 // corners' own errors weigh as they do.
-Corner between(const Corner& from, const Corner& to, double t, double standard_near) {
+Corner between(const Corner& from, const Corner& to, double t, const Drawing& drawing) {
+    const double near = drawing.standard_near;
     const auto numerator = [&](const Corner& corner) {
-        return standard_near > 0 ? std::abs(corner.at.z - 2 * standard_near * corner.at.w) : 0.0;
+        return near > 0 ? std::abs(corner.at.z - 2 * near * corner.at.w) : 0.0;
     };
     Corner made;
     made.at = from.at + t * (to.at - from.at);
     const glm::dvec3 larger = glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
     made.error = (1 - t) * from.error + t * to.error + 3 * v * larger;
+    made.error.z += 3 * v * drawing.parallel_far * std::max(from.at.w, to.at.w); // z's constant
     made.numerator_error = (1 - t) * from.numerator_error + t * to.numerator_error +
                            3 * v * std::max(numerator(from), numerator(to));
+    // Of equal w there is no difference.
+    made.w_error = (1 - t) * from.w_error + t * to.w_error +
+                   (from.at.w == to.at.w ? 0 : 3 * v * std::max(from.at.w, to.at.w));
     made.made_by_clipping = true;
     made.weights = from.weights + t * (to.weights - from.weights);
     return made;
@@ -40,11 +45,16 @@ Corner between(const Corner& from, const Corner& to, double t, double standard_n
 // v of their terms each, which are those of forward and, but in reversed depth, twice the near
 // plane: their sum or difference moves the near plane by no more than forward's own error and 6 v
 // of the plane's depth. The far plane is where z and w are equal: where standard depth is, they are
-// so nearly alike everywhere that the same error moves it by (far - near) / near as much.
+// so nearly alike everywhere that the same error moves it by (far - near) / near as much. Parallel
+// depth's numerator has a constant term of up to the far plane's depth, and both planes are as far
+// off.
 double near_error(const Corner& corner, const Drawing& drawing) {
+    if (drawing.parallel_range > 0)
+        return corner.error.z + 6 * v * drawing.parallel_far * corner.at.w;
     return corner.error.z + 6 * v * drawing.near * corner.at.w;
 }
 double far_error(const Corner& corner, const Drawing& drawing) {
+    if (drawing.parallel_range > 0) return near_error(corner, drawing);
     const double n = drawing.standard_near;
     if (n > 0)
         return (corner.error.z + 6 * v * n * corner.at.w) * std::max((drawing.far - n) / n, 1.0);
@@ -54,28 +64,43 @@ double far_error(const Corner& corner, const Drawing& drawing) {
 // Reversed window depth is the near plane over the depth, and as far off as that. Standard depth is
 // half the quotient of numerator and depth, and the inverse depth is what is left of it to 1, over
 // the near plane: both are rounded, each by itself, so that what moves a point along its ray in
-// reversed depth moves it by depth / near as much here. Where floats may put the corner into the
-// eye or behind it, as only those of faces that pass the eye that closely, it may be anywhere in
-// the picture.
-PicturePoint pictured(const Camera& camera, const Corner& corner, double standard_near) {
+// reversed depth moves it by depth / near as much here. Parallel depth is a multiple of the
+// numerator, and w is 1 but for what is made of corners at infinity. Where floats may put the
+// corner into the eye or behind it, as only those of faces that pass the eye that closely, it may
+// be anywhere in the picture.
+PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing& drawing) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec4& at = corner.at;
-    PicturePoint point{.place = {(at.x / at.z / half.x + 1) * 0.5 * camera.width,
-                                 (1 - at.y / at.z / half.y) * 0.5 * camera.height},
-                       .inverse_depth = at.w / at.z,
+    const double divisor = camera.is_orthographic() ? at.w : at.z;
+    PicturePoint point{.place = {(at.x / divisor / half.x + 1) * 0.5 * camera.width,
+                                 (1 - at.y / divisor / half.y) * 0.5 * camera.height},
+                       .key = (camera.is_orthographic() ? at.z : at.w) / divisor,
+                       .inverse_w = (camera.is_orthographic() ? 1 : at.w) / divisor,
                        .made_by_clipping = corner.made_by_clipping,
                        .weights = corner.weights};
     const double pixels = std::max({std::abs(point.place.x), std::abs(point.place.y),
                                     double(camera.width), double(camera.height)});
     const double scale = 0.5 * camera.height / camera.half_height;
+    const double standard_near = drawing.standard_near;
+    if (camera.is_orthographic()) {
+        const double share = corner.w_error / at.w;
+        point.place_error = std::max(corner.error.x, corner.error.y) / at.w * scale +
+                            share * pixels + 3 * v * pixels;
+        point.w_error = (share + v) * point.inverse_w;
+        point.depth_error = near_error(corner, drawing) / at.w +
+                            share * (std::abs(point.key) + drawing.parallel_far) +
+                            window_depth_roundings * v * drawing.parallel_range;
+        if (!(at.w > corner.w_error)) point.place_error = std::numeric_limits<double>::infinity();
+        return point;
+    }
     const double depth_error = corner.error.z / at.z;
     point.place_error = std::max(corner.error.x, corner.error.y) / at.z * scale +
                         depth_error * pixels + 3 * v * pixels;
     const double transform =
         standard_near > 0 ? 0.5 * (corner.numerator_error + corner.error.z) / at.z / standard_near
-                          : depth_error * point.inverse_depth;
-    point.w_error = (depth_error + v) * point.inverse_depth;
-    point.depth_error = transform + window_depth_roundings * v * point.inverse_depth;
+                          : depth_error * point.key;
+    point.w_error = (depth_error + v) * point.inverse_w;
+    point.depth_error = transform + window_depth_roundings * v * point.key;
     if (!(at.z > corner.error.z)) point.place_error = std::numeric_limits<double>::infinity();
     return point;
 }
@@ -115,7 +140,7 @@ std::vector<ViewCorner> clipped(const std::vector<ViewCorner>& polygon,
         const double other = function(to);
         if (one >= 0) kept.push_back(from);
         if ((one < 0) != (other < 0))
-            kept.push_back(between(from, to, one / (one - other), drawing.standard_near));
+            kept.push_back(between(from, to, one / (one - other), drawing));
     }
     return kept;
 }
@@ -133,8 +158,10 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
     for (const int axis : {0, 1})
         for (const double side : {-1.0, 1.0})
             clip([&](const Corner& c) {
-                return side * c.at[axis] + half[axis] * c.at.z +
-                       sign * (c.error[axis] + half[axis] * c.error.z);
+                const double w = camera.is_orthographic() ? c.at.w : c.at.z;
+                const double w_error = camera.is_orthographic() ? c.w_error : c.error.z;
+                return side * c.at[axis] + half[axis] * w +
+                       sign * (c.error[axis] + half[axis] * w_error);
             });
     clip([&](const Corner& c) {
         return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
@@ -144,8 +171,7 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
             return drawing.far * c.at.w - c.at.z + sign * far_error(c, drawing);
         });
     std::vector<PicturePoint> points;
-    for (const Corner& corner : polygon)
-        points.push_back(pictured(camera, corner, drawing.standard_near));
+    for (const Corner& corner : polygon) points.push_back(pictured(camera, corner, drawing));
     return points;
 }
 
@@ -153,7 +179,9 @@ Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
     return {.near = model.clamp ? 0 : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
-            .standard_near = model.reversed() ? 0 : model.near};
+            .standard_near = model.reversed() || model.parallel ? 0 : model.near,
+            .parallel_far = model.parallel ? model.far : 0,
+            .parallel_range = model.parallel ? model.far - model.near : 0};
 }
 
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,

@@ -21,21 +21,27 @@ struct Drawing {
     double near = 0; ///< depths of planes that clip; 0 where depths are clamped instead
     double far = std::numeric_limits<double>::infinity();
     double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
-    /// The projection's near plane where window depth rises with depth; 0 where it is reversed.
+    /// The projection's near plane where window depth rises with depth; 0 where it is reversed, or
+    /// parallel.
     double standard_near = 0;
+    /// Of a parallel projection: its far plane, and from its near one to there.
+    double parallel_far = 0;
+    double parallel_range = 0;
 };
 
 /// `far`: the far plane of what is drawn; infinite if none clips.
 Drawing drawing_of(const Scene& scene, const DepthModel& model, double far);
 
-/// A point of the picture, in pixels, and its inverse view depth, which is linear over the picture,
-/// as window depth is.
+/// A point of the picture, in pixels, and its depth's key, which is linear over the picture, as
+/// window depth is: the inverse view depth or, where lines of sight are parallel, the view depth.
 struct PicturePoint {
     glm::dvec2 place{0, 0};
-    double inverse_depth = 0;
+    double key = 0;
+    double inverse_w = 1;   ///< with which attributes are interpolated; also linear
     double place_error = 0; ///< of the float transform, as lateral_error has it, and of clipping
-    double depth_error = 0; ///< of both and the window's roundings, as depth_error has it
-    double w_error = 0;     ///< the same of 1 / w, with which attributes are interpolated
+    double depth_error =
+        0;              ///< of the key: of both and the window's roundings, as depth_error has it
+    double w_error = 0; ///< of inverse_w
     bool made_by_clipping = false;
     /// Of the triangle's corners: what is linear over it has their values, so weighed, here.
     glm::dvec3 weights{0, 0, 0};
@@ -47,6 +53,7 @@ struct ViewCorner {
     glm::dvec4 at{0, 0, 0, 0};
     glm::dvec3 error{0, 0, 0};  ///< of right, up and forward
     double numerator_error = 0; ///< of standard window depth's numerator, forward - 2 near w
+    double w_error = 0;
     bool made_by_clipping = false;
     glm::dvec3 weights{0, 0, 0}; ///< as PicturePoint has them
 };

@@ -29,7 +29,7 @@ bool may_be_displaced(const Scene& scene, std::uint32_t triangle, const CoveredP
     const bool is_coarse = std::ranges::any_of(polygon, [&](const PicturePoint& corner) {
         return corner.made_by_clipping && !(corner.place_error <= pixel.reach);
     });
-    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(scene.camera, pixel.line);
     return is_coarse && !certainly_holds(polygon, place, pixel.reach);
 }
 

@@ -135,15 +135,21 @@ double spread(const Neighbourhood& around) {
     return largest;
 }
 
-bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction,
-               double error) {
-    const glm::dvec3 a = corner(scene, triangle, 0) - scene.camera.eye;
-    const glm::dvec3 b = corner(scene, triangle, 1) - scene.camera.eye;
-    const glm::dvec3 c = corner(scene, triangle, 2) - scene.camera.eye;
-    const double facing = glm::dot(a, glm::cross(b, c)) < 0 ? -1 : 1;
+bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line, double error) {
+    const Camera& camera = scene.camera;
+    const glm::dvec3& start = start_of(camera, line);
+    const glm::dvec3& direction = direction_of(camera, line);
+    const bool is_parallel = camera.is_orthographic();
+    const glm::dvec3 a = corner(scene, triangle, 0) - start;
+    const glm::dvec3 b = corner(scene, triangle, 1) - start;
+    const glm::dvec3 c = corner(scene, triangle, 2) - start;
+    const double side =
+        is_parallel ? glm::dot(direction, glm::cross(b - a, c - a)) : glm::dot(a, glm::cross(b, c));
+    const double facing = side < 0 ? -1 : 1;
     const auto inside = [&](const glm::dvec3& from, const glm::dvec3& to) {
         const glm::dvec3 plane = facing * glm::cross(from, to);
-        const glm::dvec3 size = glm::abs(plane);
+        // What the line changes by, where it is off: its start moves against the edge.
+        const glm::dvec3 size = glm::abs(is_parallel ? glm::cross(direction, to - from) : plane);
         return glm::dot(direction, plane) >= -error * (size.x + size.y + size.z);
     };
     return inside(a, b) && inside(b, c) && inside(c, a);

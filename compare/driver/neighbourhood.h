@@ -42,12 +42,11 @@ std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<gl
 /// Largest difference of a ray's component from the centre's.
 double spread(const Neighbourhood& around);
 
-/// Whether the triangle may cover the picture point of `direction` with corners moved by up to
-/// `error` a component of a direction. An edge seen from the eye spans a plane; the point lies on
+/// Whether the triangle may cover the picture point of a line of sight with corners moved by up to
+/// `error` a component of such a line. An edge seen from the eye spans a plane; the point lies on
 /// its inner side, or no further out than its ends can move: |plane|_1 error. Corners behind the
 /// eye are no special case, because nothing is divided.
-bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction,
-               double error);
+bool may_cover(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line, double error);
 
 /// Whether what lies behind triangles may be seen through a gap between them at a pixel, though
 /// none of its rays passes. Triangles that share edges move together: no gap opens where such a

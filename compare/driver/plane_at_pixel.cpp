@@ -11,16 +11,22 @@
 
 namespace shadowproof {
 
-glm::dvec3 plane_before_eye(const Scene& scene, std::uint32_t triangle) {
+SeenPlane plane_before_eye(const Scene& scene, std::uint32_t triangle) {
     const auto [a, b, c] = from_short_edge(
         {corner(scene, triangle, 0), corner(scene, triangle, 1), corner(scene, triangle, 2)});
     const glm::dvec3 normal = glm::cross(b - a, c - a);
-    return normal / glm::dot(a - scene.camera.eye, normal);
+    const Camera& camera = scene.camera;
+    if (!camera.is_orthographic()) return {normal / glm::dot(a - camera.eye, normal), 0};
+    const double along = glm::dot(camera.forward, normal); // t = (a - S) . n / (forward . n)
+    return {-normal / along, glm::dot(a, normal) / along};
 }
 
 WindowDepth window_depth_of(const DepthModel& model) {
     const double n = model.near;
     const double f = model.far;
+    if (model.parallel)
+        return model.reversed() ? WindowDepth{f / (f - n), -1 / (f - n)}
+                                : WindowDepth{-n / (f - n), 1 / (f - n)};
     WindowDepth depth{1, -n};
     switch (model.projection) {
     case DepthModel::Projection::finite:
@@ -35,7 +41,7 @@ WindowDepth window_depth_of(const DepthModel& model) {
         depth = {0, n};
         break;
     }
-    return {model.front + (1 - model.front) * depth.at_infinity, (1 - model.front) * depth.slope};
+    return {model.front + (1 - model.front) * depth.at_zero, (1 - model.front) * depth.slope};
 }
 
 DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Drawing& drawing,
@@ -58,8 +64,8 @@ PlaneAtPixel::PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, 
 
 double PlaneAtPixel::slope() const {
     const Camera& camera = picture_.scene.camera;
-    return picture_.pixel.x * std::abs(glm::dot(camera.right, plane_)) +
-           picture_.pixel.y * std::abs(glm::dot(camera.up, plane_));
+    return picture_.pixel.x * std::abs(glm::dot(camera.right, plane_.gradient)) +
+           picture_.pixel.y * std::abs(glm::dot(camera.up, plane_.gradient));
 }
 
 double PlaneAtPixel::least_error(double window_depth) const {
@@ -67,12 +73,17 @@ double PlaneAtPixel::least_error(double window_depth) const {
     return picture_.snapped_by * slope() + size * picture_.depth_rounds;
 }
 
-double PlaneAtPixel::error() const {
+double PlaneAtPixel::depth() const {
     const double far = picture_.far;
-    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far) : far;
+    if (picture_.model.parallel) return std::clamp(key_, picture_.model.near, far);
+    return key_ > 0 ? std::min(1 / key_, far) : far;
+}
+
+double PlaneAtPixel::error() const {
+    const double squared = picture_.model.parallel ? 1 : depth() * depth();
     const CoveredPixel pixel{centre_, lateral(), picture_.drawing};
     return error_of_place() + setup_error(picture_.scene, triangle_, pixel) +
-           0.5 * stored_depth_error(picture_.model, depth) / (depth * depth);
+           0.5 * stored_depth_error(picture_.model, depth()) / squared;
 }
 
 double PlaneAtPixel::spread() const {
@@ -80,15 +91,13 @@ double PlaneAtPixel::spread() const {
 }
 
 double PlaneAtPixel::lateral() const {
-    const double far = picture_.far;
-    const double depth = inverse_ > 0 ? std::min(1 / inverse_, far) : far;
     return lateral_error(picture_.scene, picture_.model,
-                         picture_.scene.camera.eye + depth * centre_);
+                         point_on(picture_.scene.camera, centre_, depth()));
 }
 
 bool PlaneAtPixel::is_depth(double read) const {
     const WindowDepth& window = picture_.window;
-    const double off = std::abs(read - window.at(inverse_)) / std::abs(window.slope);
+    const double off = std::abs(read - window.at(key_)) / std::abs(window.slope);
     return off <= least_error(read) || off <= error();
 }
 

@@ -1,5 +1,6 @@
-// The plane of a triangle at a pixel: the inverse view depth there, window depths made of it, and
-// how far off a rasterizer may make them.
+// The plane of a triangle at a pixel: its depth's key there, window depths made of it, and how far
+// off a rasterizer may make them. The key is what window depth is linear in: the inverse view depth
+// or, where lines of sight are parallel, the view depth.
 #pragma once
 
 #include "compare/driver/clipped_polygon.h"
@@ -14,18 +15,24 @@
 
 namespace shadowproof {
 
-/// Window depth is `at_infinity` + `slope` times the inverse view depth.
+/// Window depth is `at_zero` + `slope` times the key.
 struct WindowDepth {
-    double at_infinity = 0;
+    double at_zero = 0;
     double slope = 0;
 
-    double at(double inverse_depth) const { return at_infinity + slope * inverse_depth; }
+    double at(double key) const { return at_zero + slope * key; }
 };
 WindowDepth window_depth_of(const DepthModel& model);
 
-/// A triangle's plane: the inverse view depth along a ray of direction D is D . plane. Not finite
-/// where the eye lies in it.
-glm::dvec3 plane_before_eye(const Scene& scene, std::uint32_t triangle);
+/// A triangle's plane as the eye sees it: its key along a line of sight is line . gradient +
+/// at_zero. Not finite where the eye, or the direction to it, lies in the plane.
+struct SeenPlane {
+    glm::dvec3 gradient{0, 0, 0};
+    double at_zero = 0; ///< 0 in perspective
+
+    double at(const glm::dvec3& line) const { return glm::dot(line, gradient) + at_zero; }
+};
+SeenPlane plane_before_eye(const Scene& scene, std::uint32_t triangle);
 
 /// A picture whose depths are drawn: what all planes at all of its pixels share. Keeps a reference
 /// to the scene.
@@ -35,9 +42,9 @@ struct DepthPicture {
     Drawing drawing; ///< how its triangles are clipped
     double far = 0;  ///< the depth beyond which nothing is seen
     WindowDepth window;
-    glm::dvec2 pixel{0, 0};  ///< its sides at depth 1
+    glm::dvec2 pixel{0, 0};  ///< its sides, as half_extent has them
     double snapped_by = 0;   ///< half a step of the snapping grid, pixels
-    double depth_rounds = 0; ///< the roundings of a window depth of 1, as inverse view depth
+    double depth_rounds = 0; ///< the roundings of a window depth of 1, as key
 };
 
 DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Drawing& drawing,
@@ -47,31 +54,35 @@ DepthPicture depth_picture(const Scene& scene, const DepthModel& model, const Dr
 class PlaneAtPixel {
 public:
     PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, int x, int y);
-    /// `plane`: the triangle's, plane_before_eye's. `centre`: the direction of the pixel's centre.
-    PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, const glm::dvec3& plane,
+    /// `plane`: the triangle's, plane_before_eye's. `centre`: the line of sight of the pixel's
+    /// centre.
+    PlaneAtPixel(const DepthPicture& picture, std::uint32_t triangle, const SeenPlane& plane,
                  const glm::dvec3& centre)
         : picture_(picture), triangle_(triangle), centre_(centre), plane_(plane),
-          inverse_(glm::dot(centre_, plane_)) {}
+          key_(plane.at(centre)) {}
 
-    /// False if the eye lies in the plane: the triangle has no area in the picture, and any depth
+    /// False if the plane is seen edge-on: the triangle has no area in the picture, and any depth
     /// may come out.
     bool has_depth() const {
-        return std::isfinite(inverse_) && std::isfinite(plane_.x + plane_.y + plane_.z);
+        const glm::dvec3& gradient = plane_.gradient;
+        return std::isfinite(key_) && std::isfinite(gradient.x + gradient.y + gradient.z);
     }
-    double inverse_depth() const { return inverse_; }
+    double key() const { return key_; }
+    /// View depth, at most the picture's far one.
+    double depth() const;
     /// Of the pixel's centre.
-    const glm::dvec3& direction() const { return centre_; }
+    const glm::dvec3& line() const { return centre_; }
 
     /// A quick lower bound of error(), which nearly always suffices: half a step of the snapping
     /// grid and the roundings of a depth.
     double least_error(double window_depth) const;
-    /// Of the inverse depth, where the triangle is drawn aside: moving the pixel's centre changes
-    /// it by the slope.
+    /// Of the key, where the triangle is drawn aside: moving the pixel's centre changes it by the
+    /// slope.
     double error_of_place() const { return lateral() * slope(); }
     /// The same, plus the errors of set-up and of window depth's roundings. depth_error is for two
     /// depths that are compared; this is one depth.
     double error() const;
-    /// Largest error of a direction's component at the picture's corners.
+    /// Largest error of a line of sight's component at the picture's corners.
     double spread() const;
     /// How far aside the triangle may be drawn, in pixels.
     double lateral() const;
@@ -83,10 +94,10 @@ private:
     const DepthPicture& picture_;
     std::uint32_t triangle_;
     glm::dvec3 centre_;
-    glm::dvec3 plane_;
-    double inverse_;
+    SeenPlane plane_;
+    double key_;
 
-    double slope() const; ///< change of the inverse depth, the largest over a pixel's step
+    double slope() const; ///< change of the key, the largest over a pixel's step
 };
 
 } // namespace shadowproof

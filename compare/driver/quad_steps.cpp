@@ -79,7 +79,7 @@ Step step_of(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& s
 double drawn_stretch(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
     const auto fan = set_up(scene.camera, {at(0), at(1), at(2)}, pixel.drawing);
-    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(scene.camera, pixel.line);
     double covering = 0;
     double any = 0;
     for (const std::array<PicturePoint, 3>& drawn : fan) {

@@ -59,21 +59,21 @@ double error_from(const PicturePoint& first, const PicturePoint& second, const P
            (1 - share);
 }
 
-/// Of the inverse depths' plane.
+/// Of the keys' plane.
 Plane plane_of_depths(const PicturePoint& first, const PicturePoint& second,
                       const PicturePoint& third) {
     const glm::dvec2 d01 = first.place - second.place;
     const glm::dvec2 d20 = third.place - first.place;
-    const double z01 = first.inverse_depth - second.inverse_depth;
-    const double z20 = third.inverse_depth - first.inverse_depth;
+    const double z01 = first.key - second.key;
+    const double z20 = third.key - first.key;
     const double area = std::abs(cross(d01, d20));
     return {z01, z20,
             glm::abs(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area};
 }
 
-/// The steepest plane of a value over depth, q r, whose value q is nowhere larger than 1 and
-/// differs by at most `variation` between the corners of what was clipped: by that times half the
-/// sum of the differences of their weights. q0 r0 - q1 r1 = q0 (r0 - r1) + (q0 - q1) r1.
+/// The steepest plane of a value over w, q r with r the inverse w, whose value q is nowhere larger
+/// than 1 and differs by at most `variation` between the corners of what was clipped: by that times
+/// half the sum of the differences of their weights. q0 r0 - q1 r1 = q0 (r0 - r1) + (q0 - q1) r1.
 /// `steepest`: of its slopes, as others tell; its rises are no more than these allow.
 Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
                      const PicturePoint& third, double variation, const glm::dvec2& steepest) {
@@ -82,9 +82,9 @@ Plane steepest_plane(const PicturePoint& first, const PicturePoint& second,
     const auto rise = [&](const PicturePoint& a, const PicturePoint& b, const glm::dvec2& way) {
         const glm::dvec3 apart = glm::abs(a.weights - b.weights);
         const double share = 0.5 * (apart.x + apart.y + apart.z);
-        return std::min({a.inverse_depth + b.inverse_depth,
-                         std::abs(a.inverse_depth - b.inverse_depth) +
-                             share * variation * std::min(a.inverse_depth, b.inverse_depth),
+        return std::min({a.inverse_w + b.inverse_w,
+                         std::abs(a.inverse_w - b.inverse_w) +
+                             share * variation * std::min(a.inverse_w, b.inverse_w),
                          glm::dot(steepest, way)});
     };
     const double z01 = rise(first, second, d01);
@@ -139,8 +139,8 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
     if (!(area > 0)) return std::numeric_limits<double>::infinity();
     const glm::dvec2 d01 = a.place - b.place;
     const glm::dvec2 d20 = c.place - a.place;
-    const double z01 = a.inverse_depth - b.inverse_depth;
-    const double z20 = c.inverse_depth - a.inverse_depth;
+    const double z01 = a.key - b.key;
+    const double z20 = c.key - a.key;
     const double slope =
         glm::length(glm::dvec2(z01 * d20.y - z20 * d01.y, z20 * d01.x - z01 * d20.x)) / area;
     double corners = 0;
@@ -166,7 +166,7 @@ enum class MadePlaces : std::uint8_t {
     are_told_apart, ///< DrawnAttribute::aside
 };
 
-/// For a value over depth whose value is nowhere larger than 1: corners are off by their quotient's
+/// For a value over w whose value is nowhere larger than 1: corners are off by their quotient's
 /// and product's roundings, and those of the shader that made them, 8 v in all.
 ///
 /// A corner made by clipping gets its value as it gets its place: three roundings more. Its place
@@ -186,9 +186,9 @@ double attribute_error_of(const PictureTriangle& triangle, const glm::dvec2& pix
         const double of_place =
             made == MadePlaces::are_errors_of_values ? slope * corner.place_error : 0;
         if (corner.made_by_clipping)
-            clipping += weights[i] * (3 * v * corner.inverse_depth + corner.w_error + of_place);
+            clipping += weights[i] * (3 * v * corner.inverse_w + corner.w_error + of_place);
     }
-    const double largest = std::max({a.inverse_depth, b.inverse_depth, c.inverse_depth});
+    const double largest = std::max({a.inverse_w, b.inverse_w, c.inverse_w});
     return 8 * v * largest + clipping +
            std::max({error_from(a, b, c, pixel, planes[0]), error_from(b, c, a, pixel, planes[1]),
                      error_from(c, a, b, pixel, planes[2])});
@@ -235,10 +235,10 @@ double clipping_aside(const PictureTriangle& triangle, const Weights& weights) {
     return aside;
 }
 
-/// The error of a value q = p / r, where p is the value over depth and r the inverse depth, both
-/// off by up to `error`: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
-double error_of_quotient(double error, double depth) {
-    const double share = error * depth; // of the inverse depth
+/// The error of a value q = p / r, where p is the value over w and r the inverse w, both off by up
+/// to `error`: q is off by (e + |q| e) / (r - e), where |q| is 1 at most.
+double error_of_quotient(double error, double w) {
+    const double share = error * w; // of the inverse w
     return share < 1 ? 2 * share / (1 - share) : std::numeric_limits<double>::infinity();
 }
 
@@ -246,7 +246,7 @@ double error_of_quotient(double error, double depth) {
 template <class ErrorOf>
 double largest_error(const Camera& camera, const std::vector<PictureTriangle>& triangles,
                      const CoveredPixel& pixel, const ErrorOf& error_of) {
-    const glm::dvec2 place = project(camera, camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(camera, pixel.line);
     double covering = -1;
     double any = 0;
     for (const PictureTriangle& triangle : triangles) {
@@ -266,10 +266,12 @@ double largest_error(const Camera& camera, const std::vector<PictureTriangle>& t
                          });
 }
 
-/// The largest view depth of a triangle's plane in a square of the picture; infinite where the
-/// plane's horizon crosses it, and where it is no number.
-double farthest_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec2& middle,
-                      double half) {
+/// The largest w of a triangle's plane in a square of the picture, which is its view depth, and
+/// infinite where the plane's horizon crosses it, and where it is no number; 1 where lines of sight
+/// are parallel.
+double largest_w(const Scene& scene, std::uint32_t triangle, const glm::dvec2& middle,
+                 double half) {
+    if (scene.camera.is_orthographic()) return 1;
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
@@ -361,7 +363,7 @@ bool may_have_no_area(const PictureTriangle& triangle) {
 }
 
 bool may_be_flipped(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
-    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(scene.camera, pixel.line);
     return std::ranges::any_of(set_up(scene, triangle, pixel), [&](const PictureTriangle& part) {
         return may_hold({part.begin(), part.end()}, place, std::numbers::sqrt2 * pixel.reach) &&
                may_be_flipped(part, pixel.reach);
@@ -391,10 +393,11 @@ double attribute_error(const Scene& scene, std::uint32_t triangle, const Covered
                                       weights_of(one, place, pixel.reach),
                                       MadePlaces::are_errors_of_values);
         });
+    if (scene.camera.is_orthographic()) return error_of_quotient(error, 1);
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 across =
         glm::cross(corner(scene, triangle, 1) - a, corner(scene, triangle, 2) - a);
-    const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.direction, a, across));
+    const double depth = std::abs(depth_on_plane(scene.camera.eye, pixel.line, a, across));
     return error_of_quotient(error, depth);
 }
 
@@ -403,7 +406,7 @@ DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
     constexpr double variation = 2;
     const std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
     const glm::dvec2 steepest = steepest_slope(fan, variation);
-    const glm::dvec2 place = project(scene.camera, scene.camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(scene.camera, pixel.line);
     DrawnAttribute covering;
     DrawnAttribute any;
     bool covers = false;
@@ -422,8 +425,8 @@ DrawnAttribute drawn_attribute(const Scene& scene, std::uint32_t triangle,
         covers = true;
     }
     const DrawnAttribute found = covers ? covering : any;
-    const double depth = farthest_depth(scene, triangle, place, pixel.reach + found.aside);
-    const double share = error_of_quotient(found.share, depth);
+    const double w = largest_w(scene, triangle, place, pixel.reach + found.aside);
+    const double share = error_of_quotient(found.share, w);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (fan.empty() || !std::isfinite(share) || !std::isfinite(found.aside))
         return {infinity, infinity};

@@ -16,12 +16,12 @@ namespace shadowproof {
 
 /// A pixel that a face covers.
 struct CoveredPixel {
-    glm::dvec3 direction{0, 0, 0}; ///< of its centre's ray
-    double reach = 0;              ///< pixels by which a face may be drawn aside
+    glm::dvec3 line{0, 0, 0}; ///< of sight, of its centre
+    double reach = 0;         ///< pixels by which a face may be drawn aside
     Drawing drawing;
 };
 
-/// Error of the inverse of a triangle's view depth at a pixel. Infinite where the triangle is seen
+/// Error of a triangle's key (PicturePoint) at a pixel. Infinite where the triangle is seen
 /// edge-on, as then any slope may come out.
 double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
 
@@ -30,8 +30,8 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& face, const CoveredPixel& pixel);
 
-/// The same for a triangle of the picture, whose `inverse_depth` may be any value that is linear
-/// over it, at a place that it may cover when it is drawn `reach` pixels aside.
+/// The same for a triangle of the picture, whose `key` may be any value that is linear over it, at
+/// a place that it may cover when it is drawn `reach` pixels aside.
 double setup_error(const std::array<PicturePoint, 3>& triangle, const glm::dvec2& place,
                    double reach);
 

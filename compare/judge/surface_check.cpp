@@ -16,17 +16,25 @@ bool is_on_grid(float depth) {
     return std::abs(steps - std::round(steps)) <= half_place;
 }
 
-} // namespace
-
-double window_depth(const DepthModel& model, double inverse_depth) {
-    return window_depth_of(model).at(inverse_depth);
+// The product of the triangle's normal with the direction is the side that is seen, and changes by
+// that of an edge with a corner's move against another.
+bool may_be_drawn_in_parallel(const Scene& scene, std::uint32_t triangle, double error) {
+    const glm::dvec3 a = corner(scene, triangle, 0);
+    const glm::dvec3 e = corner(scene, triangle, 1) - a;
+    const glm::dvec3 f = corner(scene, triangle, 2) - a;
+    const double moved = 2 * std::sqrt(3.0) * error;
+    return std::abs(glm::dot(scene.camera.forward, glm::cross(e, f))) <=
+           moved * (glm::length(e) + glm::length(f) + moved);
 }
+
+} // namespace
 
 // The sign of the determinant of the corners relative to the eye is the side that is seen. A corner
 // at depth t that moves by t times the error changes it by no more than its share.
 bool may_be_drawn(const Tracer& tracer, std::uint32_t triangle, double error) {
     if (sides_of(tracer, triangle).visible) return true;
     const Scene& scene = tracer.scene();
+    if (scene.camera.is_orthographic()) return may_be_drawn_in_parallel(scene, triangle, error);
     const glm::dvec3 a = corner(scene, triangle, 0) - scene.camera.eye;
     const glm::dvec3 b = corner(scene, triangle, 1) - scene.camera.eye;
     const glm::dvec3 c = corner(scene, triangle, 2) - scene.camera.eye;
@@ -47,12 +55,13 @@ namespace {
 
 /// Surfaces are clipped at the near and far plane, whether or not volumes are.
 bool is_within_planes(const Camera& camera, const PlaneAtPixel& plane) {
-    const double nearest = 1 / camera.near;
-    const double farthest = 1 / camera.far; // 0 where that is infinite
-    const double inverse = plane.inverse_depth();
-    if (inverse <= nearest && inverse >= farthest) return true;
+    const bool is_parallel = camera.is_orthographic();
+    const double most = is_parallel ? camera.far : 1 / camera.near;
+    const double least = is_parallel ? camera.near : 1 / camera.far; // 0 where that is infinite
+    const double key = plane.key();
+    if (key <= most && key >= least) return true;
     const double error = plane.error();
-    return inverse - error <= nearest && inverse + error >= farthest;
+    return key - error <= most && key + error >= least;
 }
 
 } // namespace

@@ -10,11 +10,8 @@
 
 namespace shadowproof {
 
-/// Window depth at an inverse view depth.
-double window_depth(const DepthModel& model, double inverse_depth);
-
 /// Whether the eye may see a side of the triangle that is drawn, with corners moved by up to
-/// `error` a component of a direction: snapping may flip a triangle that is seen edge-on.
+/// `error` a component of a line of sight: snapping may flip a triangle that is seen edge-on.
 bool may_be_drawn(const Tracer& tracer, std::uint32_t triangle, double error);
 
 /// Checks what a pixel's own triangle decides. Whether another triangle hides it is decided by the

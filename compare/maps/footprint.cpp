@@ -15,10 +15,8 @@ struct LightRay {
 /// Through a place in the face's picture, in texels.
 LightRay ray_through(const LightView& light, std::size_t face, const glm::dvec2& place) {
     const Camera& camera = light.camera(face);
-    if (light.model().shape != MapModel::Shape::sun)
-        return {camera.eye, line_of_sight(camera, place.x, place.y)};
-    const glm::dvec2 aside = (2.0 / light.model().size * place - 1.0) * light.model().half_side;
-    return {camera.eye + aside.x * camera.right - aside.y * camera.up, camera.forward};
+    const glm::dvec3 line = line_of_sight(camera, place.x, place.y);
+    return {start_of(camera, line), direction_of(camera, line)};
 }
 
 } // namespace
@@ -46,9 +44,7 @@ glm::dvec2 footprint(const LightView& light, const Scene& scene, const Texel& te
 }
 
 double width_at(const LightView& light, const Texel& texel, double depth) {
-    const bool is_parallel = light.model().shape == MapModel::Shape::sun;
-    const double half = light.camera(texel.face).half_height * (is_parallel ? 1 : depth);
-    return 2 * half / light.model().size;
+    return 1 / pixels_of_length(light.camera(texel.face), depth);
 }
 
 } // namespace shadowproof

@@ -41,8 +41,9 @@ MapCentres::Asked MapCentres::asked_at(PixelPlace p) const {
     const Scene& scene = claim_.traced.scene();
     Asked asked;
     asked.asks = true;
-    asked.from_light =
-        scene.camera.eye - light_.origin() + truth.depth.at(p.x, p.y) * direction_at(p);
+    const glm::dvec3 line = line_at(p);
+    asked.from_light = start_of(scene.camera, line) - light_.origin() +
+                       truth.depth.at(p.x, p.y) * direction_of(scene.camera, line);
     asked.lookup = lookup(light_, asked.from_light);
     return asked;
 }

@@ -37,7 +37,7 @@ public:
     std::optional<PixelLookup> lookup_at(PixelPlace p) const;
 
     /// Of the pixel's centre (line_of_sight).
-    glm::dvec3 direction_at(PixelPlace p) const {
+    glm::dvec3 line_at(PixelPlace p) const {
         return columns_[static_cast<std::size_t>(p.x)] + rows_[static_cast<std::size_t>(p.y)];
     }
     /// Whether the triangle receives shadows.
@@ -60,7 +60,7 @@ private:
     const LightView& light_;
     std::vector<std::uint8_t> receives_;
     std::vector<std::uint8_t> asks_;  ///< by triangle: receives shadows and faces the light
-    std::vector<glm::dvec3> columns_; ///< directions of pixels' centres: the sum of a column's
+    std::vector<glm::dvec3> columns_; ///< lines of sight of pixels' centres: the sum of a column's
     std::vector<glm::dvec3> rows_;    ///< and a row's
     TexelSet asked_;                  ///< by pixels' centres
     std::vector<Texel> texels_;       ///< its list

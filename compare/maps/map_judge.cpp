@@ -42,7 +42,7 @@ public:
     std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override {
         std::vector<BandRadius> radii;
         for (const PixelPlace& p : places) {
-            const double error = lateral(centres_.direction_at(p), depth_at(p));
+            const double error = lateral(centres_.line_at(p), depth_at(p));
             radii.push_back({error, error});
         }
         return radii;
@@ -128,9 +128,9 @@ private:
     double depth_at(PixelPlace p) const {
         return std::min(claim_.traced.truth().depth.at(p.x, p.y), claim_.traced.far());
     }
-    double lateral(const glm::dvec3& direction, double depth) const {
+    double lateral(const glm::dvec3& line, double depth) const {
         const Scene& scene = claim_.traced.scene();
-        return lateral_error(scene, claim_.frame.depth_model, scene.camera.eye + depth * direction);
+        return lateral_error(scene, claim_.frame.depth_model, point_on(scene.camera, line, depth));
     }
 
     /// The point of a triangle's plane at the pixel as the light pass has it: interpolated over the
@@ -138,11 +138,11 @@ private:
     UncertainPoint drawn_point(PixelPlace p, std::uint32_t triangle) const {
         const Scene& scene = claim_.traced.scene();
         const Camera& camera = scene.camera;
-        const glm::dvec3 to_eye = camera.eye - light_.origin();
         const auto at = [&](double x, double y) {
-            const glm::dvec3 direction = line_of_sight(camera, x, y);
-            const double depth = depth_on_triangle(scene, triangle, direction);
-            return to_eye + (depth > 0 ? depth : claim_.traced.far()) * direction;
+            const glm::dvec3 line = line_of_sight(camera, x, y);
+            const double depth = depth_on_triangle(scene, triangle, line);
+            return start_of(camera, line) - light_.origin() +
+                   (depth > 0 ? depth : claim_.traced.far()) * direction_of(camera, line);
         };
         // Seen nearly edge-on, the plane may be anywhere; the triangle is not.
         const glm::dvec3 centre = at(p.x + 0.5, p.y + 0.5);
@@ -156,8 +156,8 @@ private:
         const double on_plane = view_depth(camera, centre + light_.origin());
         const double depth = std::clamp(on_plane, nearest, farthest);
         UncertainPoint point;
-        point.from_light = centre + (depth - on_plane) * centres_.direction_at(p);
-        const double reach = lateral(centres_.direction_at(p), depth);
+        point.from_light = centre + (depth - on_plane) * direction_of(camera, centres_.line_at(p));
+        const double reach = lateral(centres_.line_at(p), depth);
         for (const double x : {-reach, reach})
             for (const double y : {-reach, reach})
                 point.error = glm::max(
@@ -165,7 +165,7 @@ private:
         const Drawing drawing =
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
         point.error += interpolated_place_error(
-            scene, triangle, {centres_.direction_at(p), reach, drawing}, light_.origin());
+            scene, triangle, {centres_.line_at(p), reach, drawing}, light_.origin());
         point.error = glm::min(point.error, glm::dvec3(1e30)); // infinity times zero is no number
         return point;
     }
@@ -231,7 +231,7 @@ private:
                        std::span<const RayTruth> truth) const {
         const Scene& scene = claim_.traced.scene();
         const CoveredPixel pixel{
-            centres_.direction_at(p), around.reach,
+            centres_.line_at(p), around.reach,
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
         return std::ranges::all_of(
             truth, [&](const RayTruth& t) { return may_be_displaced(scene, t.triangle, pixel); });

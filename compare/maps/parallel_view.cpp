@@ -187,7 +187,7 @@ MaskError ParallelView::mask_error(const Texel& texel, std::uint32_t caster) con
         std::array<PicturePoint, 3> corners{polygon[0], polygon[1], polygon[2]};
         double largest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            corners[k].inverse_depth = at[k][axis];
+            corners[k].key = at[k][axis];
             corners[k].depth_error = 0;
             largest = std::max(largest, std::abs(at[k][axis]));
         }

@@ -182,8 +182,8 @@ PlaneAtPixel PerspectiveView::plane(const Texel& texel, std::uint32_t caster) co
 }
 
 double PerspectiveView::value(const PlaneAtPixel& plane) const {
-    const double depth = 1 / plane.inverse_depth();
-    return model().value == MapValue::depth ? depth : depth * glm::length(plane.direction());
+    const double depth = 1 / plane.key();
+    return model().value == MapValue::depth ? depth : depth * glm::length(plane.line());
 }
 
 std::uint32_t PerspectiveView::caster_of(std::uint32_t triangle) const {
@@ -214,7 +214,7 @@ double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const 
     const PlaneAtPixel at = plane(texel, caster);
     if (!at.has_depth()) return infinity;
     const WindowDepth& window = pictures_[texel.face].window;
-    return window.at(at.inverse_depth()) + std::abs(window.slope) * at.error() + half_step() +
+    return window.at(at.key()) + std::abs(window.slope) * at.error() + half_step() +
            offset(texel, caster).most;
 }
 
@@ -222,7 +222,7 @@ double PerspectiveView::deepest(const Texel& texel, std::uint32_t caster) const 
 bool PerspectiveView::may_store_moved(const PlaneAtPixel& at, const Texel& texel,
                                       std::uint32_t caster) const {
     const WindowDepth& window = pictures_[texel.face].window;
-    const double depth = window.at(at.inverse_depth());
+    const double depth = window.at(at.key());
     const double off = std::abs(window.slope) * at.error() + half_step() + v;
     const PolygonOffset moved = offset(texel, caster);
     return stored(texel) >= std::min(depth + moved.least, 1.0) - off &&
@@ -238,11 +238,11 @@ bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
                                      std::uint32_t caster) const {
     const auto read = static_cast<int>(std::lround(stored(texel) * (ramp_steps - 1)));
     const auto within = [&](double error_of_inverse, double interpolated) {
-        const double inverse = at.inverse_depth();
+        const double inverse = at.key();
         const double high =
             inverse > error_of_inverse ? 1 / (inverse - error_of_inverse) : infinity;
         const double low = 1 / (inverse + error_of_inverse);
-        const glm::dvec3 size = glm::abs(at.direction());
+        const glm::dvec3 size = glm::abs(at.line());
         const double rotated = 4 * v * (size.x + size.y + size.z) / inverse;
         const auto step = [&](double depth, double sign) {
             const double place = place_on_ramp(model(), depth + sign * (rotated + interpolated));
@@ -252,7 +252,7 @@ bool PerspectiveView::may_store_step(const PlaneAtPixel& at, const Texel& texel,
     };
     if (within(0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(), pictures_[texel.face].drawing};
+    const CoveredPixel pixel{at.line(), at.lateral(), pictures_[texel.face].drawing};
     return within(at.error_of_place(),
                   std::sqrt(3.0) *
                       interpolated_place_error(scene, caster, pixel, scene.camera.eye));
@@ -271,14 +271,14 @@ bool PerspectiveView::may_store(const PlaneAtPixel& at, const Texel& texel,
         if (at.is_depth(read)) return true;
         if (model().format != MapFormat::d16) return false; // is_depth knows the others
         const WindowDepth& window = pictures_[texel.face].window;
-        return std::abs(read - window.at(at.inverse_depth())) <=
+        return std::abs(read - window.at(at.key())) <=
                half_step() + std::abs(window.slope) * at.error();
     }
-    const double inverse = at.inverse_depth();
+    const double inverse = at.key();
     const double far = model().far;
     // Most are off by roundings alone, which their squares tell without a root and a quotient:
     // where those differ by 15 v, the distances do by no more than 8.
-    const double squared = glm::dot(at.direction(), at.direction());
+    const double squared = glm::dot(at.line(), at.line());
     const double on_ray = read * far * inverse;
     if (inverse > 0 && std::abs(on_ray * on_ray - squared) <= 15 * v * squared) return true;
     const double length = std::sqrt(squared);
@@ -294,7 +294,7 @@ bool PerspectiveView::may_store(const PlaneAtPixel& at, const Texel& texel,
     };
     if (off_by(0, 0, 0)) return true;
     const Scene& scene = faces_[texel.face];
-    const CoveredPixel pixel{at.direction(), at.lateral(), pictures_[texel.face].drawing};
+    const CoveredPixel pixel{at.line(), at.lateral(), pictures_[texel.face].drawing};
     const double interpolated =
         std::sqrt(3.0) * interpolated_place_error(scene, caster, pixel, scene.camera.eye);
     return off_by(at.error_of_place(), std::sqrt(2.0) * at.spread(), interpolated);
@@ -421,14 +421,13 @@ std::optional<std::uint32_t> PerspectiveView::shown_around(const Texel& texel) c
     // Distances are compared as they are stored, so that window depth's roundings do not count.
     const auto nearest_at_texel = [&](std::uint32_t caster) {
         const PlaneAtPixel at = plane(texel, caster);
-        return at.inverse_depth() +
-               (model().value == MapValue::depth ? at.error() : at.error_of_place());
+        return at.key() + (model().value == MapValue::depth ? at.error() : at.error_of_place());
     };
     // What clipping draws beside the caster's plane has some depth between its corners'.
     const auto nearest_corner = [&](std::uint32_t caster) {
         double nearest = nearest_at_texel(caster);
         for (const PicturePoint& point : pictured(texel.face, caster))
-            nearest = std::max(nearest, point.inverse_depth + point.depth_error);
+            nearest = std::max(nearest, point.key + point.depth_error);
         return nearest;
     };
     const double reach_of_ray = spread(around);

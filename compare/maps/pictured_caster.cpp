@@ -43,7 +43,7 @@ ViewCorner clip_corner(const Camera& camera, const glm::dvec3& point) {
 PicturePoint pictured(const Camera& camera, const ViewCorner& corner) {
     const double half = 0.5 * camera.width;
     PicturePoint point{.place = {(1 + corner.at.x) * half, (1 - corner.at.y) * half},
-                       .inverse_depth = 0.5 * corner.at.z + 0.5,
+                       .key = 0.5 * corner.at.z + 0.5,
                        .made_by_clipping = corner.made_by_clipping};
     const double pixels =
         std::max({std::abs(point.place.x), std::abs(point.place.y), 1.0 * camera.width});

@@ -14,7 +14,7 @@
 namespace shadowproof {
 
 /// The convex polygon that clipping leaves of a triangle, as it is drawn into a sun's map. The
-/// member `inverse_depth` of its points is their window depth, which is what is linear over a
+/// member `key` of its points is their window depth, which is what is linear over a
 /// picture in parallel projection, and `depth_error` is that of it. Empty where nothing is left.
 std::vector<PicturePoint> pictured_in_parallel(const Scene& scene, const Camera& camera,
                                                std::uint32_t triangle);

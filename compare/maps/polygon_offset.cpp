@@ -43,8 +43,8 @@ PolygonOffset offset_of_slope(const PicturePoint& a, const PicturePoint& b, cons
     const double deeper = 2 * std::max({a.depth_error, b.depth_error, c.depth_error});
     const glm::dvec2 d01 = a.place - b.place;
     const glm::dvec2 d20 = c.place - a.place;
-    const double z01 = a.inverse_depth - b.inverse_depth;
-    const double z20 = c.inverse_depth - a.inverse_depth;
+    const double z01 = a.key - b.key;
+    const double z20 = c.key - a.key;
     const Determinant area = determinant(d01.x, d01.y, d20.x, d20.y, moved, moved);
     const Determinant x = determinant(z01, d01.y, z20, d20.y, 0, 0);
     const Determinant y = determinant(z01, d01.x, z20, d20.x, 0, 0);
@@ -111,7 +111,7 @@ PolygonOffset resolved(const std::vector<PicturePoint>& polygon, const MapModel&
     std::vector<double> depths;
     double error = 0;
     for (const PicturePoint& point : polygon) {
-        depths.push_back(window.at_zero + window.slope * point.inverse_depth);
+        depths.push_back(window.at_zero + window.slope * point.key);
         error = std::max(error, std::abs(window.slope) * point.depth_error);
     }
     std::ranges::sort(depths);

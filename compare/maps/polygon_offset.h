@@ -17,7 +17,7 @@ struct PolygonOffset {
     double most = 0; ///< infinite where it is seen edge-on, as far as can be told
 };
 
-/// How a point's inverse_depth gives its window depth.
+/// How a point's key gives its window depth.
 struct WindowScale {
     double at_zero = 0;
     double slope = 1;

@@ -69,7 +69,7 @@ Slivers::Number Slivers::at(const CoveredPixel& pixel) const {
     std::call_once(found_, [&] { slivers_ = find(); });
     Number number;
     if (slivers_.empty()) return number;
-    const glm::dvec2 place = project(scene_.camera, scene_.camera.eye + pixel.direction);
+    const glm::dvec2 place = place_of(scene_.camera, pixel.line);
     for (const Sliver& sliver : slivers_)
         if (std::ranges::any_of(sliver.parts, [&](const Triangle& part) {
                 return may_hold({part.begin(), part.end()}, place,

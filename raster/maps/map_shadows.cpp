@@ -16,10 +16,23 @@ namespace shadowproof {
 namespace {
 
 DepthModel eye_depth_model(const Scene& scene) {
+    if (scene.camera.is_orthographic())
+        return {.projection = DepthModel::Projection::finite_reversed,
+                .near = scene.camera.near,
+                .far = finite_far(scene),
+                .parallel = true,
+                .floating = true,
+                .eye_relative = true};
     return {.projection = DepthModel::Projection::infinite_reversed,
             .near = scene.camera.near,
             .floating = true,
             .eye_relative = true};
+}
+
+/// What the projection does not clip by itself.
+VisibleDepths visible_depths(const Camera& camera) {
+    if (camera.is_orthographic()) return {};
+    return {static_cast<float>(camera.near), static_cast<float>(camera.far)};
 }
 
 /// Sets how the light pass asks the map.
@@ -160,7 +173,7 @@ struct Frames {
         : gl(gpu.gl()), scene(drawn), depth_model(eye_depth_model(drawn)),
           target(make_target(gl, drawn.camera, depth_model.floating)),
           others(recipe.lighting ? under_lights_before(drawn) : std::vector<Scene>{}),
-          visible{static_cast<float>(drawn.camera.near), static_cast<float>(drawn.camera.far)} {
+          visible(visible_depths(drawn.camera)) {
         const auto add = [&](const Scene& under) {
             lights.push_back(
                 std::make_unique<MappedLight>(gl, under, model_of(recipe, plan, under), recipe));

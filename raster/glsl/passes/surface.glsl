@@ -1,6 +1,7 @@
 // What is kept of a visible surface: shadowed until the light pass lights it.
 
-layout(location = 6) uniform vec2 visible_depths; // view depths; what lies outside is not drawn
+// View depths; what lies outside is not drawn. Where lines of sight are parallel, none is known here.
+layout(location = 6) uniform vec2 visible_depths;
 layout(location = 7) uniform uint first_triangle; // of this draw call
 
 layout(location = 0) out float claim;

@@ -22,6 +22,7 @@ Technique cube_map_geometry_shader_technique() {
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::point, Light::Kind::spot},
+            .sees_in_parallel = true,
             .settings = map_settings(),
             .map = map};
 }

@@ -25,6 +25,7 @@ Technique cube_map_pcf_technique() {
             .fails_at = joined(map_failings(), {Cause::filter, Cause::seam}),
             .by_nature = joined(map_failings_by_nature(), {Cause::filter, Cause::seam}),
             .lights = {Light::Kind::point, Light::Kind::spot},
+            .sees_in_parallel = true,
             .settings = joined<std::string_view>(map_settings(),
                                                  {"map-filter", "map-average", "map-edges"}),
             .map = map};

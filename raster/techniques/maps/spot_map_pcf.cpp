@@ -26,6 +26,7 @@ Technique spot_map_pcf_technique() {
             .fails_at = joined(map_failings(), {Cause::filter}),
             .by_nature = joined(map_failings_by_nature(), {Cause::filter}),
             .lights = {Light::Kind::spot},
+            .sees_in_parallel = true,
             .settings = joined<std::string_view>(map_settings(), {"map-filter", "map-average"}),
             .map = map};
 }

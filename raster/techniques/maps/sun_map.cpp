@@ -22,6 +22,7 @@ Technique sun_map_technique() {
             .fails_at = map_failings(),
             .by_nature = map_failings_by_nature(),
             .lights = {Light::Kind::directional},
+            .sees_in_parallel = true,
             .settings = without(map_settings(), {"map-value"}), // nothing has a distance from it
             .map = map};
 }
