@@ -183,10 +183,15 @@ def add_camera(manager, view):
     node.setPosition(*m[12:15])
     x, y, z, w = view["engines"]["ogre"]["camera"]["rotation"]
     node.setOrientation(Ogre.Quaternion(w, x, y, z))
-    camera.setFOVy(Ogre.Radian(view["camera"]["yfov"]))
-    camera.setAspectRatio(view["width"] / view["height"])
+    extent = view["camera"]["extent"]
+    if extent:
+        camera.setProjectionType(Ogre.PT_ORTHOGRAPHIC)
+        camera.setOrthoWindow(extent["width"], extent["height"])
+    else:
+        camera.setFOVy(Ogre.Radian(view["camera"]["yfov"]))
+        camera.setAspectRatio(view["width"] / view["height"])
     camera.setNearClipDistance(view["camera"]["znear"])
-    camera.setFarClipDistance(0)  # infinite
+    camera.setFarClipDistance(view["camera"]["zfar"] if extent else 0)  # 0: infinite
     return camera
 
 

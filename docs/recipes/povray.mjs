@@ -92,7 +92,7 @@ function surfaces() {
     for (const primitive of node.getMesh()?.listPrimitives() ?? []) {
       const doubleSided = primitive.getMaterial()?.getDoubleSided() ?? false;
       for (const [a, b, c] of trianglesOf(primitive, matrix)) {
-        const isFront = dot(cross(less(b, a), less(c, a)), less(eye, a)) > 0;
+        const isFront = dot(cross(less(b, a), less(c, a)), wayToEye(a)) > 0;
         (doubleSided || isFront ? seen : hidden).push([a, b, c]);
       }
     }
@@ -112,14 +112,16 @@ function lightSource({ kind, position, direction, outer_cone_degrees: cone }) {
     radius ${cone} falloff ${cone} tightness 0 }`;
 }
 
-function camera({ matrix, yfov }) {
-  const height = 2 * Math.tan(yfov / 2);
-  return `camera { perspective location ${vector(eye)}
+function camera({ matrix, yfov, extent }) {
+  const height = extent ? inUnits([0, extent.height, 0])[1] : 2 * Math.tan(yfov / 2);
+  return `camera { ${extent ? 'orthographic' : 'perspective'} location ${vector(eye)}
     right ${vector(scaled(column(matrix, 0), height * view.width / view.height))}
     up ${vector(scaled(column(matrix, 1), height))} direction ${vector(scaled(column(matrix, 2), -1))} }`;
 }
 
 const eye = inUnits(column(view.camera.matrix, 3));
+const back = column(view.camera.matrix, 2);
+const wayToEye = point => (view.camera.extent ? back : less(eye, point));
 const still = `#version 3.7; global_settings { assumed_gamma 1 } background { rgb 0 }
 #declare White = texture { pigment { rgb 1 } finish { ambient 0.1 diffuse 0.6 } }
 ${camera(view.camera)}

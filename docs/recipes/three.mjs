@@ -74,9 +74,12 @@ async function render({ view, shadow, ownMaterials, file }) {
   scene.add(light, new THREE.AmbientLight(0xffffff, 0.3));
   // As `shadowproof export-view` has it in engines.three.code.
   const own = view.engines.three;
-  const camera = new THREE.PerspectiveCamera(own.camera.field_of_view.vertical_degrees,
-                                             view.width / view.height, own.camera.near,
-                                             own.camera.far);
+  const { field_of_view, extent, near, far } = own.camera;
+  const camera = extent
+    ? new THREE.OrthographicCamera(-extent.width / 2, extent.width / 2, extent.height / 2,
+                                   -extent.height / 2, near, far)
+    : new THREE.PerspectiveCamera(field_of_view.vertical_degrees, view.width / view.height, near,
+                                  far);
   camera.position.fromArray(own.camera.position);
   camera.quaternion.fromArray(own.camera.rotation);
   light.position.fromArray(own.light.position);

@@ -34,10 +34,14 @@ bool turns(const Scene& scene) {
 }
 
 Lines three(const Scene& scene, const EngineView& view) {
-    Lines lines{fmt::format("camera = new THREE.PerspectiveCamera({}, {}, {}, {});",
-                            glm::degrees(view.vertical_field_of_view), aspect(scene), view.near,
-                            *view.far),
-                fmt::format("camera.position.set({});", joined(view.position)),
+    const std::string made =
+        view.extent ? fmt::format("camera = new THREE.OrthographicCamera({}, {}, {}, {}, {}, {});",
+                                  -view.extent->x / 2, view.extent->x / 2, view.extent->y / 2,
+                                  -view.extent->y / 2, view.near, *view.far)
+                    : fmt::format("camera = new THREE.PerspectiveCamera({}, {}, {}, {});",
+                                  glm::degrees(view.vertical_field_of_view), aspect(scene),
+                                  view.near, *view.far);
+    Lines lines{made, fmt::format("camera.position.set({});", joined(view.position)),
                 fmt::format("camera.quaternion.set({});", joined(view.rotation)),
                 fmt::format("light.position.set({});", joined(view.light_position))};
     if (turns(scene))
@@ -53,8 +57,14 @@ Lines babylon(const Scene& scene, const EngineView& view) {
                     joined(view.position)),
         fmt::format("camera.rotationQuaternion = new BABYLON.Quaternion({});",
                     joined(view.rotation)),
-        fmt::format("camera.fov = {}; camera.minZ = {}; camera.maxZ = {};",
-                    view.vertical_field_of_view, view.near, *view.far),
+        view.extent
+            ? fmt::format("camera.mode = BABYLON.Camera.ORTHOGRAPHIC_CAMERA; camera.orthoLeft = "
+                          "{}; camera.orthoRight = {}; camera.orthoBottom = {}; camera.orthoTop = "
+                          "{};",
+                          -view.extent->x / 2, view.extent->x / 2, -view.extent->y / 2,
+                          view.extent->y / 2)
+            : fmt::format("camera.fov = {};", view.vertical_field_of_view),
+        fmt::format("camera.minZ = {}; camera.maxZ = {};", view.near, *view.far),
         "scene.activeCamera = camera;",
         fmt::format("light.position = new BABYLON.Vector3({});", joined(view.light_position))};
     if (turns(scene))
@@ -68,11 +78,14 @@ Lines godot(const Scene& scene, const EngineView& view) {
         return fmt::format("Transform3D(Basis(Quaternion({})), Vector3({}))", joined(rotation),
                            joined(position));
     };
-    Lines lines{"camera.global_transform = " + transform(view.rotation, view.position),
-                "camera.keep_aspect = Camera3D.KEEP_HEIGHT",
-                fmt::format("camera.fov = {}", glm::degrees(view.vertical_field_of_view)),
-                fmt::format("camera.near = {}", view.near),
-                fmt::format("camera.far = {}", *view.far)};
+    Lines lines{
+        "camera.global_transform = " + transform(view.rotation, view.position),
+        "camera.keep_aspect = Camera3D.KEEP_HEIGHT",
+        view.extent ? fmt::format("camera.projection = Camera3D.PROJECTION_ORTHOGONAL; camera.size "
+                                  "= {}",
+                                  view.extent->y)
+                    : fmt::format("camera.fov = {}", glm::degrees(view.vertical_field_of_view)),
+        fmt::format("camera.near = {}", view.near), fmt::format("camera.far = {}", *view.far)};
     lines.push_back(
         turns(scene)
             ? "light.global_transform = " + transform(view.light_rotation, view.light_position)
@@ -92,7 +105,9 @@ Lines blender(const Scene& scene, const EngineView& view) {
     Lines lines{
         "camera.matrix_world = " + blender_matrix(view.world_from_camera),
         "camera.data.sensor_fit = 'VERTICAL'",
-        fmt::format("camera.data.angle = {}", view.vertical_field_of_view),
+        view.extent ? fmt::format("camera.data.type = 'ORTHO'; camera.data.ortho_scale = {}",
+                                  view.extent->y)
+                    : fmt::format("camera.data.angle = {}", view.vertical_field_of_view),
         fmt::format("camera.data.clip_start = {}; camera.data.clip_end = {}", view.near, *view.far),
         fmt::format("bpy.context.scene.render.resolution_x = {}", scene.camera.width),
         fmt::format("bpy.context.scene.render.resolution_y = {}", scene.camera.height)};
@@ -108,8 +123,12 @@ Lines ogre(const Scene& scene, const EngineView& view) {
     };
     Lines lines{fmt::format("cameraNode->setPosition({});", joined(view.position)),
                 fmt::format("cameraNode->setOrientation({});", orientation(view.rotation)),
-                fmt::format("camera->setFOVy(Ogre::Radian({}));", view.vertical_field_of_view),
-                fmt::format("camera->setAspectRatio({});", aspect(scene)),
+                view.extent
+                    ? fmt::format("camera->setProjectionType(Ogre::PT_ORTHOGRAPHIC); "
+                                  "camera->setOrthoWindow({}, {});",
+                                  view.extent->x, view.extent->y)
+                    : fmt::format("camera->setFOVy(Ogre::Radian({})); camera->setAspectRatio({});",
+                                  view.vertical_field_of_view, aspect(scene)),
                 fmt::format("camera->setNearClipDistance({});", view.near),
                 fmt::format("camera->setFarClipDistance({});", view.far.value_or(0)),
                 fmt::format("lightNode->setPosition({});", joined(view.light_position))};
@@ -126,7 +145,11 @@ Lines unity(const Scene& scene, const EngineView& view) {
                            what, joined(at, "f"), joined(rotation, "f"));
     };
     Lines lines{pose("camera", view.position, view.rotation),
-                fmt::format("camera.fieldOfView = {}f;", glm::degrees(view.vertical_field_of_view)),
+                view.extent ? fmt::format("camera.orthographic = true; camera.orthographicSize = "
+                                          "{}f;",
+                                          view.extent->y / 2)
+                            : fmt::format("camera.fieldOfView = {}f;",
+                                          glm::degrees(view.vertical_field_of_view)),
                 fmt::format("camera.aspect = {}f;", aspect(scene)),
                 fmt::format("camera.nearClipPlane = {}f; camera.farClipPlane = {}f;", view.near,
                             *view.far)};
@@ -143,7 +166,11 @@ Lines unreal(const Scene& scene, const EngineView& view) {
     };
     Lines lines{
         pose("camera", view.position, view.rotation),
-        fmt::format("camera->SetFieldOfView({});", glm::degrees(view.horizontal_field_of_view)),
+        view.extent ? fmt::format("camera->SetProjectionMode(ECameraProjectionMode::Orthographic); "
+                                  "camera->SetOrthoWidth({});",
+                                  view.extent->x)
+                    : fmt::format("camera->SetFieldOfView({});",
+                                  glm::degrees(view.horizontal_field_of_view)),
         fmt::format("camera->SetAspectRatio({}); camera->SetConstraintAspectRatio(true);",
                     aspect(scene)),
         fmt::format("GEngine->Exec(GetWorld(), TEXT(\"r.SetNearClipPlane {}\"));", view.near)};

@@ -43,6 +43,23 @@ double farthest_depth(const Scene& scene) {
 ///   [-1, 1]: a = (f + n) / (f - n), b = -2 f n / (f - n);   without far plane 1, -2 n
 ///   [ 0, 1]: a = f / (f - n),       b = -f n / (f - n);     1, -n
 ///   [ 1, 0]: a = -n / (f - n),      b = f n / (f - n);      0, n
+/// Where lines of sight are parallel w is 1, and that is linear in depth:
+///   [-1, 1]: a = 2 / (f - n),       b = -(f + n) / (f - n)
+///   [ 0, 1]: a = 1 / (f - n),       b = -n / (f - n)
+///   [ 1, 0]: a = -1 / (f - n),      b = f / (f - n)
+glm::dvec2 parallel_depth_row(NdcDepth range, double near, double far) {
+    const double span = far - near;
+    switch (range) {
+    case NdcDepth::minus_one_to_one:
+        return glm::dvec2(2, -(far + near)) / span;
+    case NdcDepth::zero_to_one:
+        return glm::dvec2(1, -near) / span;
+    case NdcDepth::one_to_zero:
+        break;
+    }
+    return glm::dvec2(-1, far) / span;
+}
+
 glm::dvec2 depth_row(NdcDepth range, double near, const std::optional<double>& far) {
     const double n = near;
     const double span = far ? *far - n : 1;
@@ -59,14 +76,15 @@ glm::dvec2 depth_row(NdcDepth range, double near, const std::optional<double>& f
 
 /// From right, up, depth, 1 to clip space.
 glm::dmat4 clip_from_frame(const Camera& camera, const EngineView& view, NdcDepth range) {
-    const glm::dvec2 half = half_extent(camera);
-    const glm::dvec2 depth = depth_row(range, view.near, view.far);
+    const glm::dvec2 half = view.extent ? 0.5 * *view.extent : half_extent(camera);
+    const glm::dvec2 depth = view.extent ? parallel_depth_row(range, view.near, *view.far)
+                                         : depth_row(range, view.near, view.far);
     glm::dmat4 clip(0.0);
     clip[0][0] = 1 / half.x;
     clip[1][1] = 1 / half.y;
     clip[2][2] = depth.x;
     clip[3][2] = depth.y;
-    clip[2][3] = 1;
+    clip[view.extent ? 3 : 2][3] = 1;
     return clip;
 }
 
@@ -89,12 +107,16 @@ EngineView view_in(const Convention& convention, const Scene& scene) {
     view.rotation = glm::quat_cast(rotation);
     view.world_from_camera = glm::dmat4(rotation);
     view.world_from_camera[3] = glm::dvec4(view.position, 1);
-    view.vertical_field_of_view = 2 * std::atan(half_extent(camera).y);
-    view.horizontal_field_of_view = 2 * std::atan(half_extent(camera).x);
+    if (camera.is_orthographic()) {
+        view.extent = 2 * units * half_extent(camera);
+    } else {
+        view.vertical_field_of_view = 2 * std::atan(half_extent(camera).y);
+        view.horizontal_field_of_view = 2 * std::atan(half_extent(camera).x);
+    }
     view.near = units * camera.near;
     if (std::isfinite(camera.far)) {
         view.far = units * camera.far;
-    } else if (!convention.infinite_far) {
+    } else if (!convention.infinite_far || camera.is_orthographic()) {
         view.far = units * 2 * farthest_depth(scene);
         view.far_is_made_up = true;
     }

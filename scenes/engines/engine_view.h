@@ -6,6 +6,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <optional>
 
 namespace shadowproof {
@@ -18,8 +19,10 @@ struct EngineView {
     glm::dmat4 clip_from_view{1}; ///< x and y to the right and up
     glm::dvec3 position{0, 0, 0};
     glm::dquat rotation{1, 0, 0, 0};     ///< of the camera's node
-    double vertical_field_of_view = 0;   ///< radians
-    double horizontal_field_of_view = 0; ///< radians
+    double vertical_field_of_view = 0;   ///< radians; 0 where the camera is orthographic
+    double horizontal_field_of_view = 0; ///< radians; likewise
+    std::optional<glm::dvec2> extent{};  ///< of an orthographic camera: the picture's width and
+                                         ///< height, in the engine's units
     double near = 0;
     std::optional<double> far{}; ///< none: there is no far plane
     bool far_is_made_up = false; ///< the scene has no far plane, but the engine needs one

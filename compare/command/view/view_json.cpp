@@ -45,6 +45,14 @@ std::string_view name_of(NdcDepth range) {
     return "1 to 0";
 }
 
+/// Null of an orthographic camera, which has an extent instead.
+Json field_of_view_json(const Convention& convention, const EngineView& view) {
+    if (view.extent) return nullptr;
+    return {{"engine_takes", convention.horizontal_field_of_view ? "horizontal" : "vertical"},
+            {"vertical_degrees", glm::degrees(view.vertical_field_of_view)},
+            {"horizontal_degrees", glm::degrees(view.horizontal_field_of_view)}};
+}
+
 Json as_json(const Convention& convention, const Scene& scene) {
     const EngineView view = view_in(convention, scene);
     const bool is_point = chosen_light(scene).kind == Light::Kind::point;
@@ -52,20 +60,19 @@ Json as_json(const Convention& convention, const Scene& scene) {
               {"axes", convention.axes},
               {"units", convention.units},
               {"world_from_gltf", rows(view.world_from_gltf)}};
-    json["camera"] = {
-        {"position", numbers(view.position)},
-        {"rotation", numbers(view.rotation)},
-        {"field_of_view",
-         {{"engine_takes", convention.horizontal_field_of_view ? "horizontal" : "vertical"},
-          {"vertical_degrees", glm::degrees(view.vertical_field_of_view)},
-          {"horizontal_degrees", glm::degrees(view.horizontal_field_of_view)}}},
-        {"near", view.near},
-        {"far", length_or_null(view.far)},
-        {"far_is_made_up", view.far_is_made_up},
-        {"depth", name_of(convention.depth_range)},
-        {"world_from_camera", rows(view.world_from_camera)},
-        {"view_from_world", rows(view.view_from_world)},
-        {"clip_from_view", rows(view.clip_from_view)}};
+    json["camera"] = {{"position", numbers(view.position)},
+                      {"rotation", numbers(view.rotation)},
+                      {"field_of_view", field_of_view_json(convention, view)},
+                      {"extent", view.extent
+                                     ? Json{{"width", view.extent->x}, {"height", view.extent->y}}
+                                     : Json(nullptr)},
+                      {"near", view.near},
+                      {"far", length_or_null(view.far)},
+                      {"far_is_made_up", view.far_is_made_up},
+                      {"depth", name_of(convention.depth_range)},
+                      {"world_from_camera", rows(view.world_from_camera)},
+                      {"view_from_world", rows(view.view_from_world)},
+                      {"clip_from_view", rows(view.clip_from_view)}};
     if (convention.name == "unreal")
         json["camera"]["pitch_yaw_roll"] = numbers(unreal_rotator(view.rotation));
     json["light"] = {{"position", numbers(view.light_position)},
@@ -92,8 +99,14 @@ Json view_json(const Scene& scene, double time, const std::vector<const Conventi
     Json matrix = Json::array();
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) matrix.push_back(world_from_camera[column][row]);
+    const bool is_parallel = camera.is_orthographic();
+    const Json yfov = is_parallel ? Json(nullptr) : Json(2 * std::atan(camera.half_height));
+    const glm::dvec2 half = half_extent(camera);
+    const Json extent =
+        is_parallel ? Json{{"width", 2 * half.x}, {"height", 2 * half.y}} : Json(nullptr);
     json["camera"] = {{"matrix", matrix},
-                      {"yfov", 2 * std::atan(camera.half_height)},
+                      {"yfov", yfov},
+                      {"extent", extent},
                       {"znear", camera.near},
                       {"zfar", std::isfinite(camera.far) ? Json(camera.far) : Json(nullptr)}};
     json["light"] = {
