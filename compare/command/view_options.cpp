@@ -77,10 +77,25 @@ void add_view_flags(CLI::App& command, ViewOverride& view) {
             },
             "Vertical field of view in degrees, in place of the file's")
         ->type_name("DEGREES");
+    command
+        .add_option_function<std::string>(
+            "--ortho",
+            [&view](const std::string& text) {
+                const std::optional<double> height = parse_number(text);
+                if (!height || !(*height > 0))
+                    throw CLI::ValidationError(
+                        "--ortho", "'" + text + "' is no length above 0; give one, as 10");
+                view.orthographic_height = *height;
+            },
+            "An orthographic camera in place of the file's, whose picture is so high in the file's "
+            "units")
+        ->type_name("HEIGHT")
+        ->excludes("--fov");
 }
 
 bool is_given(const ViewOverride& view) {
-    return view.camera_matrix || view.light_position || view.vertical_field_of_view;
+    return view.camera_matrix || view.light_position || view.vertical_field_of_view ||
+           view.orthographic_height;
 }
 
 std::vector<std::string> settings(const ViewOverride& view) {
@@ -96,6 +111,7 @@ std::vector<std::string> settings(const ViewOverride& view) {
     }
     if (view.vertical_field_of_view)
         add("--fov", fmt::format("{}", *view.vertical_field_of_view / std::numbers::pi * 180));
+    if (view.orthographic_height) add("--ortho", fmt::format("{}", *view.orthographic_height));
     return words;
 }
 

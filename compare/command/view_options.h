@@ -1,4 +1,5 @@
-// The flags that put another view in place of the file's: --camera-matrix, --light-position, --fov.
+// The flags that put another view in place of the file's: --camera-matrix, --light-position, --fov,
+// --ortho.
 #pragma once
 
 #include "scenes/load/common/scene_request.h"

@@ -19,7 +19,9 @@ double finite_far(const Scene& scene) {
     double deepest = 0;
     for (const glm::dvec3 position : scene.positions)
         deepest = std::max(deepest, view_depth(scene.camera, position));
-    return std::max(1.5 * deepest, 2 * scene.camera.near);
+    const double far = std::max(1.5 * deepest, 2 * scene.camera.near);
+    // An orthographic camera's near plane may be where it stands, and all be behind it.
+    return far > scene.camera.near ? far : scene.camera.near + scene.camera.half_height;
 }
 
 namespace {

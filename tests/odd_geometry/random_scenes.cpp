@@ -162,6 +162,12 @@ std::string set_camera(Scene& scene, Dice& dice, const Oddities& oddities) {
     camera.half_height = dice.between(0.2, 1.5);
     camera.near = dice.one_in(3) ? dice.between(0.5, 3) : dice.between(0.01, 0.3);
     if (dice.one_in(2)) camera.far = camera.near + dice.between(2, 20);
+    if (oddities.orthographic) {
+        camera.projection = Projection::orthographic;
+        camera.half_height = dice.between(0.2, 6);
+        if (dice.one_in(3)) camera.near = 0;
+        if (dice.one_in(4)) camera.eye -= dice.between(5, 50) * camera.forward;
+    }
     return fmt::format("the eye {}, near {:.3g}, far {:.3g}", eye.words, camera.near, camera.far);
 }
 

@@ -11,8 +11,9 @@ namespace shadowproof::tests {
 struct Oddities {
     bool eyes_on_casters = false; ///< on vertices, edges and faces, or an ulp from there
     bool bodies_on_quarters =
-        false;     ///< as soups are: the light may lie in the planes of many faces
-    int scale = 1; ///< of the picture: so many times 24x20 pixels
+        false;                 ///< as soups are: the light may lie in the planes of many faces
+    bool orthographic = false; ///< lines of sight are parallel
+    int scale = 1;             ///< of the picture: so many times 24x20 pixels
 };
 
 /// Its name says in words what it is. It declares nothing.

@@ -18,6 +18,9 @@ namespace {
 constexpr Oddities from_casters{.eyes_on_casters = true};
 constexpr Oddities on_quarters{.eyes_on_casters = true, .bodies_on_quarters = true};
 constexpr Oddities larger{.scale = 6};
+constexpr Oddities in_parallel{
+    .eyes_on_casters = true, .bodies_on_quarters = true, .orthographic = true};
+constexpr Oddities larger_in_parallel{.orthographic = true, .scale = 6};
 
 void try_random_scenes(const Oddities& oddities, std::uint64_t count) {
     Gpu gpu(GlPlatform::osmesa);
@@ -60,6 +63,15 @@ TEST(OddGeometry, random_bodies_on_quarters_are_refused_or_explained_to_the_last
 /// More pixels meet more of what is rare.
 TEST(OddGeometry, random_scenes_in_larger_pictures_are_refused_or_explained_to_the_last_pixel) {
     try_random_scenes(larger, 60);
+}
+
+/// Lines of sight through vertices, along edges and in planes of faces.
+TEST(OddGeometry, random_scenes_seen_in_parallel_are_refused_or_explained_to_the_last_pixel) {
+    try_random_scenes(in_parallel, 400);
+}
+
+TEST(OddGeometry, random_scenes_in_larger_parallel_pictures_are_explained_to_the_last_pixel) {
+    try_random_scenes(larger_in_parallel, 60);
 }
 
 Scene scene_of_seed(std::uint64_t seed, const Oddities& oddities) {

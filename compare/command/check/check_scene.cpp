@@ -148,7 +148,7 @@ void require_aligned(const TracedScene& traced, const SceneInputs& inputs, std::
         if (const auto words = misalignment(traced, picture, shows))
             throw Error(file, *words,
                         "render it from the scene's camera, or tell where it was seen from by "
-                        "--camera-matrix and --fov; --no-alignment judges it as it is");
+                        "--camera-matrix, --fov and --ortho; --no-alignment judges it as it is");
     };
     const Twins& twins = pictures.twins;
     require(inputs.pictures[i], pictures.pictures[i], Shows::shadows);

@@ -80,6 +80,11 @@ void override_view(const ViewOverride& view, Scene& scene) {
         scene.camera.half_height = std::tan(*view.vertical_field_of_view / 2);
         scene.notes.emplace_back("the field of view is that of --fov");
     }
+    if (view.orthographic_height) {
+        scene.camera.projection = Projection::orthographic;
+        scene.camera.half_height = 0.5 * *view.orthographic_height;
+        scene.notes.emplace_back("the camera is orthographic, as high as --ortho says");
+    }
     if (view.light_position) {
         place_light(*view.light_position, scene);
         scene.notes.emplace_back("the light stands where --light-position says");

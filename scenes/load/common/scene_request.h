@@ -18,6 +18,8 @@ struct ViewOverride {
     std::optional<std::array<double, 16>> camera_matrix{};
     std::optional<glm::dvec3> light_position{};     ///< of the light that is judged; file's units
     std::optional<double> vertical_field_of_view{}; ///< radians, between 0 and pi
+    std::optional<double> orthographic_height{};    ///< of an orthographic camera's picture, in the
+                                                    ///< file's units, above 0; not with the other
 };
 
 /// What to take from a file that offers several.

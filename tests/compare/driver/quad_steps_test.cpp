@@ -119,7 +119,7 @@ TEST(QuadSteps, of_a_triangle_whose_corners_are_snapped_are_within_their_range) 
         const glm::dvec3 weights = [&] {
             const glm::dmat3 corners(corner(drawn.scene, 0, 0), corner(drawn.scene, 0, 1),
                                      corner(drawn.scene, 0, 2));
-            return glm::inverse(corners) * pixel.direction;
+            return glm::inverse(corners) * pixel.line;
         }();
         if (weights.x < 0 || weights.y < 0 || weights.z < 0) continue; // not on the triangle
         std::array<glm::dvec2, 3> moves{};

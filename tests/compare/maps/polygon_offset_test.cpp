@@ -25,7 +25,7 @@ using tests::TracedScene;
 /// A triangle whose depth rises by 1/100 a texel to the right, and by 2/100 downwards.
 std::vector<PicturePoint> tilted() {
     const auto at = [](double x, double y) {
-        return PicturePoint{.place = {x, y}, .inverse_depth = 0.1 + 0.01 * x + 0.02 * y};
+        return PicturePoint{.place = {x, y}, .key = 0.1 + 0.01 * x + 0.02 * y};
     };
     return {at(0, 0), at(16, 0), at(0, 16)};
 }
@@ -57,7 +57,7 @@ TEST(OffsetUnits, are_steps_of_the_format_and_of_floats_those_at_the_largest_dep
     }
     // Next to a power of two either exponent may be taken.
     std::vector<PicturePoint> border = tilted();
-    border[2].inverse_depth = 0.5;
+    border[2].key = 0.5;
     border[2].depth_error = 1e-7;
     EXPECT_EQ(offset_of(border, 1, MapFormat::d32f).own, 0x1p-24);
     EXPECT_LT(offset_of(border, 1, MapFormat::d32f).least, 0x1.01p-25);
@@ -91,7 +91,7 @@ TEST(SlopeOffset, is_that_of_the_triangle_which_covers_the_texel) {
     // a tenth of a texel high at most, and its slope is told from a depth over this height.
     const auto at = [](double x, double y) {
         return PicturePoint{
-            .place = {x, y}, .inverse_depth = 0.1 + 0.01 * y, .depth_error = 0x1p-20};
+            .place = {x, y}, .key = 0.1 + 0.01 * y, .depth_error = 0x1p-20};
     };
     const std::vector<PicturePoint> polygon{at(0, 10), at(40, 0), at(40, 20), at(0, 10.1)};
     const PolygonOffset large = slope_offset(polygon, 1, 1, 0, {30, 10});

@@ -247,7 +247,7 @@ TEST_F(TracedPixelFault, a_shadow_ray_that_went_through_an_occluder_is_caught) {
 TEST_F(TracedPixelFault, an_eye_ray_that_went_through_a_surface_is_caught) {
     const auto [x, y] = where([](const TracedPixel& p) { return p.seen != p.none; });
     frame.claim.at(x, y) = Visibility::background;
-    frame.rays->pixels.at(x, y) = {.direction = frame.rays->pixels.at(x, y).direction};
+    frame.rays->pixels.at(x, y) = {.line = frame.rays->pixels.at(x, y).line};
     expect_caught(x, y);
 }
 

@@ -57,11 +57,18 @@ glm::dvec2 pixel_of(const Scene& scene, const EngineView& view, const glm::dvec3
             (1 - clip.y / clip.w) / 2 * scene.camera.height};
 }
 
+Scene in_parallel(Scene scene) {
+    scene.camera.projection = Projection::orthographic;
+    scene.camera.half_height = 3;
+    return scene;
+}
+
 TEST(engine_view, every_convention_shows_a_point_at_the_same_pixel) {
     Coordinates coordinates;
     for (int i = 0; i < 50; ++i) {
-        const Scene scene =
+        Scene scene =
             scene_seen_by(10.0 * coordinates.next(), coordinates.next(), i % 2 == 0 ? none : 80);
+        if (i % 4 >= 2) scene = in_parallel(scene);
         const Camera& camera = scene.camera;
         const glm::dvec3 off = 0.5 * coordinates.next();
         const glm::dvec3 point =
@@ -102,6 +109,27 @@ TEST(engine_view, depths_span_the_range_that_is_named) {
             EXPECT_NEAR(depth(view, last), reversed ? 0 : 1, 1e-9) << convention.name;
             EXPECT_EQ(view.far_is_made_up, std::isinf(far) && view.far.has_value());
         }
+    }
+}
+
+TEST(engine_view, of_an_orthographic_camera_depth_is_linear_and_its_extent_is_the_engines) {
+    const Scene scene = in_parallel(scene_seen_by({1, 2, 9}, {-0.2, -0.3, -1}, 80));
+    const Camera& camera = scene.camera;
+    for (const Convention& convention : conventions()) {
+        const EngineView view = view_in(convention, scene);
+        const auto depth = [&](double at) {
+            const glm::dvec4 clip = clip_point(view, camera.eye + at * camera.forward);
+            return clip.z / clip.w;
+        };
+        ASSERT_TRUE(view.extent);
+        EXPECT_EQ(*view.extent, convention.units * glm::dvec2(9, 6));
+        EXPECT_NEAR(depth(0.5 * (camera.near + 80)), 0.5 * (depth(camera.near) + depth(80)), 1e-12);
+        EXPECT_NEAR(depth(80), convention.depth_range == NdcDepth::one_to_zero ? 0 : 1, 1e-12);
+        std::string code;
+        for (const std::string& line : engine_code(convention, scene, view)) code += line;
+        EXPECT_TRUE(code.find("rtho") != std::string::npos ||
+                    code.find("ORTHO") != std::string::npos)
+            << code;
     }
 }
 

@@ -14,7 +14,9 @@ using nlohmann::json;
 json furnished() {
     json gltf = triangle_gltf();
     gltf["cameras"] =
-        json::array({{{"type", "orthographic"}, {"name", "plan"}},
+        json::array({{{"type", "orthographic"},
+                      {"name", "plan"},
+                      {"orthographic", {{"xmag", 6}, {"ymag", 4}, {"znear", 0}, {"zfar", 30}}}},
                      {{"type", "perspective"},
                       {"name", "wide"},
                       {"perspective", {{"yfov", 1.5}, {"znear", 1}}}},
@@ -47,6 +49,38 @@ TEST(camera, the_first_perspective_one_is_taken_and_the_orthographic_one_said) {
     EXPECT_TRUE(says(scene, "orthographic"));
 }
 
+TEST(camera, an_orthographic_one_is_read_and_taken_where_there_is_no_other) {
+    SceneRequest request;
+    request.camera = "plan";
+    request.camera_aspect = true;
+    json gltf = furnished();
+    const Camera camera = load(gltf, request).camera;
+    EXPECT_TRUE(camera.is_orthographic());
+    EXPECT_EQ(camera.eye, glm::dvec3(0, 0, 5));
+    EXPECT_EQ(camera.half_height, 4);
+    EXPECT_EQ(camera.width, 768);
+    EXPECT_EQ(camera.near, 0);
+    EXPECT_EQ(camera.far, 30);
+    for (int other = 2; other < 4; ++other) gltf["nodes"][other].erase("camera");
+    EXPECT_TRUE(load(gltf).camera.is_orthographic());
+    EXPECT_TRUE(says(load(gltf), "its ymag is kept"));
+}
+
+TEST(camera, an_orthographic_one_without_extent_or_with_planes_askew_is_refused) {
+    const auto refused = [](const char* member, double value) {
+        json gltf = furnished();
+        gltf["cameras"][0]["orthographic"][member] = value;
+        SceneRequest request;
+        request.camera = "plan";
+        return refusal(gltf, request);
+    };
+    EXPECT_NE(refused("xmag", 0).find("/cameras/0/orthographic/xmag: 0 is not above 0"),
+              std::string::npos);
+    EXPECT_NE(refused("ymag", -4).find("/ymag: -4 is not above 0"), std::string::npos);
+    EXPECT_NE(refused("znear", -1).find("/znear: -1 is negative"), std::string::npos);
+    EXPECT_NE(refused("znear", 30).find("/zfar: 30 is not above znear 30"), std::string::npos);
+}
+
 TEST(camera, whose_aspect_ratio_is_not_the_pictures_is_said) {
     const auto says_of = [](double aspect, int width, int height) {
         json gltf = furnished();
@@ -68,8 +102,6 @@ TEST(camera, one_is_chosen_by_name_or_number) {
     EXPECT_EQ(load(furnished(), request).camera.far, 80);
     request.camera = "2";
     EXPECT_EQ(load(furnished(), request).camera.near, 0.25);
-    request.camera = "plan";
-    EXPECT_NE(refusal(furnished(), request).find("orthographic"), std::string::npos);
     request.camera = "3";
     EXPECT_NE(refusal(furnished(), request).find("has no camera \"3\""), std::string::npos);
     EXPECT_NE(refusal(triangle_gltf(), request).find("there is no camera"), std::string::npos);

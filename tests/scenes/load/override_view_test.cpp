@@ -43,6 +43,15 @@ TEST(override_view, puts_camera_light_and_field_of_view_where_they_are_given) {
     EXPECT_TRUE(says(scene, "--fov"));
 }
 
+TEST(override_view, makes_the_camera_orthographic_and_then_has_no_field_of_view) {
+    const Scene scene = overridden({.orthographic_height = 7});
+    EXPECT_TRUE(scene.camera.is_orthographic());
+    EXPECT_EQ(scene.camera.half_height, 3.5);
+    EXPECT_TRUE(says(scene, "--ortho"));
+    Scene again = scene;
+    EXPECT_THROW(override_view({.vertical_field_of_view = 0.5}, again), Error);
+}
+
 TEST(override_view, leaves_what_is_not_given) {
     const Scene scene = overridden({});
     const Scene file = load(triangle_gltf());

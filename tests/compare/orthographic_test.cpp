@@ -1,0 +1,167 @@
+// What an orthographic camera sees, drawn and traced: explained to the last pixel, while pictures
+// of a camera that stands or looks a little otherwise, and depths a little beyond rounding, are
+// not.
+#include "compare/verdict.h"
+#include "tests/compare/traced_scene.h"
+#include "tests/scenes/bundled_names.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <string>
+
+namespace shadowproof {
+namespace {
+
+using tests::compared;
+using tests::TracedScene;
+
+/// A bundled scene, seen by an orthographic camera where its own stands.
+Scene in_parallel(const std::string& name, double half_height = 4) {
+    Scene scene = tests::load_named(name);
+    scene.camera.projection = Projection::orthographic;
+    scene.camera.half_height = half_height / scene.unit;
+    scene.camera.width = 150;
+    scene.camera.height = 100;
+    return scene;
+}
+
+bool is_explained(const Comparison& comparison) {
+    return comparison.summary.unexplained.empty() && comparison.evidence.unexplained == 0 &&
+           tests::pixels_of(comparison, Cause::unexplained) == 0;
+}
+
+class Orthographic : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Bundled, Orthographic, testing::ValuesIn(tests::bundled_names()),
+                         [](const auto& tested) {
+                             std::string name = tested.param;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
+
+TEST_P(Orthographic, pictures_by_all_techniques_that_draw_them_are_explained) {
+    const TracedScene traced(in_parallel(GetParam()));
+    Gpu gpu(GlPlatform::osmesa);
+    int tried = 0;
+    for (const Technique& technique : all_techniques()) {
+        if (!can_draw(technique, traced.scene)) continue;
+        ++tried;
+        const Comparison comparison = compared(traced, technique, gpu);
+        EXPECT_TRUE(is_explained(comparison)) << technique.name << ": " << comparison.summary.words;
+        const Verdict verdict =
+            judge(traced.scene, technique.fails_at, technique.by_nature, comparison);
+        EXPECT_TRUE(verdict == Verdict::agrees || verdict == Verdict::fails_as_predicted)
+            << technique.name << ": " << name_of(verdict);
+    }
+    EXPECT_GE(tried, 4);
+}
+
+/// A frame of a scene that differs a little, judged by the scene.
+Comparison of_another(const TracedScene& traced, const char* technique,
+                      const std::function<void(Camera&)>& change) {
+    Scene other = traced.scene;
+    change(other.camera);
+    Gpu gpu(GlPlatform::osmesa);
+    Frame frame = render(*find_technique(technique), other, make_plan(other), gpu);
+    // What is said to have been drawn is the scene's own.
+    if (frame.rays) {
+        frame.rays->eye = traced.scene.camera.eye;
+        frame.rays->forward = traced.scene.camera.forward;
+    }
+    return compared(traced, frame);
+}
+
+TEST(OrthographicFaults, of_a_camera_that_is_a_little_off_are_caught) {
+    const TracedScene traced(in_parallel("ordinary"));
+    const double pixel = 2 * 4.0 / 100;
+    for (const char* technique : {"cube_map_six_pass", "traced_skip"}) {
+        SCOPED_TRACE(technique);
+        EXPECT_TRUE(is_explained(of_another(traced, technique, [](Camera&) {})));
+        EXPECT_FALSE(is_explained(of_another(
+            traced, technique, [&](Camera& camera) { camera.eye += pixel / 32 * camera.right; })));
+        EXPECT_FALSE(is_explained(
+            of_another(traced, technique, [](Camera& camera) { camera.half_height *= 1.002; })));
+        EXPECT_FALSE(is_explained(of_another(traced, technique, [](Camera& camera) {
+            camera.forward = glm::normalize(camera.forward + 1e-3 * camera.right);
+        })));
+        EXPECT_FALSE(is_explained(of_another(traced, technique, [](Camera& camera) {
+            camera.projection = Projection::perspective;
+            camera.half_height = 0.4;
+        })));
+    }
+}
+
+/// A floor straight before the camera: depth is the same everywhere, and off by roundings alone.
+TEST(OrthographicFaults, of_depth_beyond_its_roundings_are_caught) {
+    Scene scene = in_parallel("ordinary");
+    Camera& camera = scene.camera;
+    camera.eye = {0, 20, 0};
+    camera.forward = {0, -1, 0};
+    camera.right = {1, 0, 0};
+    camera.up = {0, 0, -1};
+    camera.near = 1;
+    camera.far = 33;
+    const TracedScene traced(std::move(scene));
+    Gpu gpu(GlPlatform::osmesa);
+    const Technique& technique = *find_technique("cube_map_six_pass");
+    const Frame frame = render(technique, traced.scene, traced.plan, gpu);
+    ASSERT_TRUE(is_explained(compared(traced, frame)));
+    const auto floor = std::ranges::find_if(frame.triangle.pixels, [&](std::uint32_t triangle) {
+        return triangle != no_triangle &&
+               traced.scene.meshes[mesh_of(traced.scene, triangle)].name == "floor";
+    });
+    ASSERT_NE(floor, frame.triangle.pixels.end());
+    const auto pixel = static_cast<std::size_t>(floor - frame.triangle.pixels.begin());
+    const auto with_depth = [&](double by) {
+        Frame other = frame;
+        float& depth = other.depth.pixels[pixel];
+        depth = static_cast<float>(depth + by);
+        return is_explained(compared(traced, other));
+    };
+    EXPECT_TRUE(with_depth(std::ldexp(1, -23)));
+    EXPECT_FALSE(with_depth(std::ldexp(1, -18)));
+    EXPECT_FALSE(with_depth(-std::ldexp(1, -18)));
+}
+
+TEST(OrthographicFaults, of_surfaces_beyond_the_planes_and_from_behind_are_caught) {
+    const TracedScene traced(in_parallel("ordinary"));
+    const auto with_planes = [&](double near, double far) {
+        return is_explained(of_another(traced, "cube_map_six_pass", [&](Camera& camera) {
+            camera.near = near;
+            camera.far = far;
+        }));
+    };
+    const Camera& own = traced.scene.camera;
+    double nearest = 1e30;
+    double deepest = 0;
+    for (const double depth : traced.truth.depth.pixels)
+        if (std::isfinite(depth)) {
+            nearest = std::min(nearest, depth);
+            deepest = std::max(deepest, depth);
+        }
+    ASSERT_GT(deepest, nearest + 1);
+    EXPECT_FALSE(with_planes(0.5 * (nearest + deepest), own.far));
+    EXPECT_FALSE(with_planes(own.near, 0.5 * (nearest + deepest)));
+}
+
+TEST(OrthographicFaults, of_rays_from_another_place_are_caught) {
+    const TracedScene traced(in_parallel("ordinary"));
+    Gpu gpu(GlPlatform::osmesa);
+    const Frame frame = render(*find_technique("traced_skip"), traced.scene, traced.plan, gpu);
+    ASSERT_TRUE(is_explained(compared(traced, frame)));
+    Frame other = frame;
+    other.rays->forward.x += 1e-3F;
+    EXPECT_FALSE(is_explained(compared(traced, other)));
+    other = frame;
+    other.rays->is_parallel = false;
+    EXPECT_FALSE(is_explained(compared(traced, other)));
+    other = frame;
+    for (TracedPixel& pixel : other.rays->pixels.pixels) pixel.line.y += 1e-4F;
+    EXPECT_FALSE(is_explained(compared(traced, other)));
+}
+
+} // namespace
+} // namespace shadowproof
