@@ -94,6 +94,7 @@ std::string as_text() {
                            : "scenes with bump maps and no environment");
         if (!technique.lights.empty())
             add("lights", fmt::format("{}", fmt::join(kinds_of_light(technique), ", ")));
+        if (technique.sees_in_parallel) add("cameras", "perspective, orthographic");
         if (!technique.settings.empty())
             add("flags", fmt::format("--{}", fmt::join(technique.settings, ", --")));
         if (technique.depth_model != nullptr)
@@ -127,6 +128,7 @@ Json as_json() {
                                       {"needs_bump_maps", technique.needs_bump_maps},
                                       {"needs_environment", technique.needs_environment},
                                       {"lights", kinds_of_light(technique)},
+                                      {"orthographic", technique.sees_in_parallel},
                                       {"flags", technique.settings},
                                       {"precise", precise_json(technique)},
                                       {"cost", technique.cost},

@@ -80,6 +80,27 @@ test('a camera that is turned is told by how much, and about what', () => {
   assert.ok(Math.abs(found - 2.1) < 0.05, `${found}`);
 });
 
+test('an orthographic picture that is moved, turned, larger or of a field of view is told from a right one', () => {
+  const ortho = ['--ortho', '7'];
+  const right = truthOf('ordinary', ortho);
+  assert.equal(checked('ordinary', (x, y) => shade[right.at(x, y)], ...ortho).code, 0);
+  const last = size - 1;
+  refused(checked('ordinary', (x, y) => shade[right.at(last - x, y)], ...ortho), /is mirrored left to right; /);
+  const larger = truthOf('ordinary', ['--ortho', '7.35']);
+  const run = checked('ordinary', (x, y) => shade[larger.at(x, y)], ...ortho);
+  refused(run, /shows [\d.]+ from top to bottom, the scene's camera 7[;\n]/);
+  assert.ok(Math.abs(numberIn(run, /shows ([\d.]+) from top/) - 7.35) < 0.02 * 7.35);
+  // To the right by 0.2, along the first column of the camera's matrix.
+  const { camera: { matrix } } = JSON.parse(shadowproof(['export-view', 'ordinary', ...ortho]).out);
+  const aside = matrix.map((m, i) => i >= 12 && i < 15 ? m + 0.2 * matrix[i - 12] : m);
+  const moved = truthOf('ordinary', [...ortho, '--camera-matrix', aside.join()]);
+  const told = checked('ordinary', (x, y) => shade[moved.at(x, y)], ...ortho);
+  refused(told, /its camera is [\d.]+ too far to the right/);
+  assert.ok(Math.abs(numberIn(told, /camera is ([\d.]+) too far/) - 0.2) < 0.01);
+  const seen = truthOf('ordinary');
+  refused(checked('ordinary', (x, y) => shade[seen.at(x, y)], ...ortho), /mine\.png: /);
+});
+
 const flags = (technique) => technique === 'cube_map_six_pass' ? ['--map-size', '64'] : [];
 for (const [scene, technique] of [
   ['ordinary', 'cube_map_six_pass'], ['near_plane', 'zpass'], ['far_plane', 'zfail'],

@@ -29,6 +29,14 @@ for (const scene of ['ordinary', 'sun', 'spot', 'near_plane', 'eye_inside', 'nes
     }
   });
 
+for (const scene of ['ordinary', 'sun', 'spot', 'nested'])
+  test(`POV-Ray agrees on ${scene}, seen by an orthographic camera`, () => {
+    const { cell, out } = checked([scene, '--ortho', '8', '--name', 'povray', '--renderer',
+                                   `${process.execPath} '${script}' {scene} {view} {out} {unlit}`]);
+    assert.equal(cell.differing, 0, out);
+    assert.ok(cell.undecidable < 0.01 * cell.pixels, out);
+  });
+
 test('where its light is moved by a hundredth of the way, that is told', () => {
   const view = JSON.parse(shadowproof(['export-view', 'ordinary']).out);
   const by = [0.1, 0, 0.02];

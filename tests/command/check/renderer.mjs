@@ -9,7 +9,9 @@ const { width, height, camera, light } = JSON.parse(readFileSync(viewFile, 'utf8
 
 function render(position, file) {
   const run = spawnSync(process.env.SHADOWPROOF, ['render', scene, '--size', `${width}x${height}`,
-    '--camera-matrix', camera.matrix.join(), '--fov', String(camera.yfov * 180 / Math.PI),
+    '--camera-matrix', camera.matrix.join(),
+    ...(camera.extent ? ['--ortho', String(camera.extent.height)]
+      : ['--fov', String(camera.yfov * 180 / Math.PI)]),
     ...(light.kind === 'directional' ? [] : ['--light-position', position.join()]),
     '-o', file, '-q'], { encoding: 'utf8' });
   if (run.status !== 0) throw new Error(run.stderr);

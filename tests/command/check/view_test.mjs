@@ -56,6 +56,22 @@ test("the file's own view, given as numbers, is the same picture; another one is
     assert.ok(!given.equals(pictureOf('other', 'ordinary', ...other)), other.join(' '));
 });
 
+test('an orthographic view, given as numbers, is the same picture; another one is not', () => {
+  const parallel = ['--ortho', '7.5'];
+  const { camera, light, engines } = viewOf('ordinary', ...size, ...parallel);
+  assert.equal(camera.yfov, null);
+  assert.equal(camera.extent.height, 7.5);
+  assert.equal(engines.three.camera.field_of_view, null);
+  assert.match(engines.three.code.join('\n'), /THREE\.OrthographicCamera\(-[\d.]+, [\d.]+, 3\.75, -3\.75, /);
+  const own = ['--camera-matrix', camera.matrix.join(), '--light-position', light.position.join(),
+               '--ortho', String(camera.extent.height)];
+  const given = pictureOf('given', 'ordinary', ...own);
+  assert.ok(given.equals(pictureOf('own', 'ordinary', ...parallel)));
+  for (const other of [['--ortho', '7.6'], [], [...parallel, '--camera-matrix',
+                       camera.matrix.map((m, i) => m + 0.1 * (i === 12)).join()]])
+    assert.ok(!given.equals(pictureOf('other', 'ordinary', ...other)), other.join(' '));
+});
+
 test('the command that reproduces a cell has the view', () => {
   const run = shadowproof(['verify', 'near_plane', '--technique', 'zpass', ...size, '--fov', '35',
                            '--light-position', '-3.4,8.8,-0.7', '--gate', 'differences']);
@@ -70,6 +86,8 @@ test('what places no camera or light is refused by name', () => {
     assert.match(run.err, words);
   };
   refused(2, /--fov: '180' is no angle between 0 and 180 degrees; give one, as 45/, '--fov', '180');
+  refused(2, /--ortho: '-3' is no length above 0; give one, as 10/, '--ortho', '-3');
+  refused(2, /--ortho excludes --fov|--fov excludes --ortho/, '--ortho', '3', '--fov', '40');
   refused(2, /--light-position: '1,2' is not 3 numbers/, '--light-position', '1,2');
   refused(2, /--camera-matrix: '1 0 x' is not 16 numbers/, '--camera-matrix', '1 0 x');
   refused(3, /--light-position: cannot move the light .* directional/, '--light-position', '1,2,3');
