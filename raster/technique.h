@@ -43,7 +43,7 @@ struct Technique {
     DepthModel (*depth_model)(const Scene& scene) = nullptr;
     bool squares_thrice = false;          ///< its highlights have the exponent 8 alone
     std::vector<Light::Kind> lights = {}; ///< it is for these alone; empty: for all
-    bool sees_in_parallel = false; ///< it draws what orthographic cameras see, too
+    bool sees_in_parallel = false;        ///< it draws what orthographic cameras see, too
     /// The flags that affect it, but not all techniques; without their dashes.
     std::vector<std::string_view> settings = {};
     /// How it counts, if it is one of stencil shadow volumes.

@@ -16,7 +16,9 @@ struct DepthModel {
     bool floating = false;     ///< D32F; otherwise 24-bit fixed point
     bool eye_relative = false; ///< the eye is subtracted from vertices before the matrix is applied
     int subpixel_bits = 8;     ///< GL_SUBPIXEL_BITS
-    double front = 0;          ///< window depth of the near plane; smaller ones are reserved
+    double front = 0;          ///< the least window depth that is drawn; smaller ones are reserved:
+                               ///< for what lies before the near plane or, where depth is
+                               ///< reversed, for what is cleared
     bool clamp = false;        ///< GL_DEPTH_CLAMP: what lies past the near and far planes is kept
 
     /// Window depth decreases away from the eye, from 1 at the near plane to 0.

@@ -54,9 +54,9 @@ struct TracedPixel {
 
 struct TracedRays {
     RayModel model{};
-    bool is_parallel = false;   ///< eye rays share their direction, otherwise their origin:
-    glm::vec3 eye{0, 0, 0};     ///< this
-    glm::vec3 forward{0, 0, 0}; ///< or this
+    bool is_parallel = false;   ///< eye rays share their direction, otherwise their origin
+    glm::vec3 eye{0, 0, 0};     ///< that origin
+    glm::vec3 forward{0, 0, 0}; ///< that direction
     float near = 0;             ///< their limits
     float far = 0;
     Image<TracedPixel> pixels;

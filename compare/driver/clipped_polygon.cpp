@@ -3,6 +3,7 @@
 #include "scenes/driver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -33,9 +34,6 @@ Corner between(const Corner& from, const Corner& to, double t, const Drawing& dr
     made.error.z += 3 * v * drawing.parallel_far * std::max(from.at.w, to.at.w); // z's constant
     made.numerator_error = (1 - t) * from.numerator_error + t * to.numerator_error +
                            3 * v * std::max(numerator(from), numerator(to));
-    // Of equal w there is no difference.
-    made.w_error = (1 - t) * from.w_error + t * to.w_error +
-                   (from.at.w == to.at.w ? 0 : 3 * v * std::max(from.at.w, to.at.w));
     made.made_by_clipping = true;
     made.weights = from.weights + t * (to.weights - from.weights);
     return made;
@@ -46,8 +44,8 @@ Corner between(const Corner& from, const Corner& to, double t, const Drawing& dr
 // plane: their sum or difference moves the near plane by no more than forward's own error and 6 v
 // of the plane's depth. The far plane is where z and w are equal: where standard depth is, they are
 // so nearly alike everywhere that the same error moves it by (far - near) / near as much. Parallel
-// depth's numerator has a constant term of up to the far plane's depth, and both planes are as far
-// off.
+// depth's numerator has a constant term, as depth up to the far plane's, which is rounded as it is
+// made and in the sums: 6 v of it are more than all, and both planes are as far off.
 double near_error(const Corner& corner, const Drawing& drawing) {
     if (drawing.parallel_range > 0)
         return corner.error.z + 6 * v * drawing.parallel_far * corner.at.w;
@@ -65,13 +63,14 @@ double far_error(const Corner& corner, const Drawing& drawing) {
 // half the quotient of numerator and depth, and the inverse depth is what is left of it to 1, over
 // the near plane: both are rounded, each by itself, so that what moves a point along its ray in
 // reversed depth moves it by depth / near as much here. Parallel depth is a multiple of the
-// numerator, and w is 1 but for what is made of corners at infinity. Where floats may put the
+// numerator, and w is 1. Where floats may put the
 // corner into the eye or behind it, as only those of faces that pass the eye that closely, it may
 // be anywhere in the picture.
 PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing& drawing) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec4& at = corner.at;
-    const double divisor = camera.is_orthographic() ? at.w : at.z;
+    const double divisor = camera.is_orthographic() ? at.w : at.z; // w of the clip coordinates
+    assert(!camera.is_orthographic() || at.w == 1);
     PicturePoint point{.place = {(at.x / divisor / half.x + 1) * 0.5 * camera.width,
                                  (1 - at.y / divisor / half.y) * 0.5 * camera.height},
                        .key = (camera.is_orthographic() ? at.z : at.w) / divisor,
@@ -83,14 +82,10 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing&
     const double scale = 0.5 * camera.height / camera.half_height;
     const double standard_near = drawing.standard_near;
     if (camera.is_orthographic()) {
-        const double share = corner.w_error / at.w;
-        point.place_error = std::max(corner.error.x, corner.error.y) / at.w * scale +
-                            share * pixels + 3 * v * pixels;
-        point.w_error = (share + v) * point.inverse_w;
-        point.depth_error = near_error(corner, drawing) / at.w +
-                            share * (std::abs(point.key) + drawing.parallel_far) +
-                            window_depth_roundings * v * drawing.parallel_range;
-        if (!(at.w > corner.w_error)) point.place_error = std::numeric_limits<double>::infinity();
+        point.place_error = std::max(corner.error.x, corner.error.y) * scale + 3 * v * pixels;
+        point.w_error = v;
+        point.depth_error =
+            near_error(corner, drawing) + window_depth_roundings * v * drawing.parallel_range;
         return point;
     }
     const double depth_error = corner.error.z / at.z;
@@ -159,7 +154,7 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
         for (const double side : {-1.0, 1.0})
             clip([&](const Corner& c) {
                 const double w = camera.is_orthographic() ? c.at.w : c.at.z;
-                const double w_error = camera.is_orthographic() ? c.w_error : c.error.z;
+                const double w_error = camera.is_orthographic() ? 0 : c.error.z;
                 return side * c.at[axis] + half[axis] * w +
                        sign * (c.error[axis] + half[axis] * w_error);
             });
@@ -179,9 +174,9 @@ Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
     return {.near = model.clamp ? 0 : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
-            .standard_near = model.reversed() || model.parallel ? 0 : model.near,
+            .standard_near = model.reversed() || scene.camera.is_orthographic() ? 0 : model.near,
             .parallel_far = model.parallel ? model.far : 0,
-            .parallel_range = model.parallel ? model.far - model.near : 0};
+            .parallel_range = model.parallel ? (model.far - model.near) / (1 - model.front) : 0};
 }
 
 std::vector<PicturePoint> clipped_polygon(const Camera& camera,

@@ -24,7 +24,7 @@ struct Drawing {
     /// The projection's near plane where window depth rises with depth; 0 where it is reversed, or
     /// parallel.
     double standard_near = 0;
-    /// Of a parallel projection: its far plane, and from its near one to there.
+    /// Of a parallel projection: its far plane, and the view depths that a window depth of 1 spans.
     double parallel_far = 0;
     double parallel_range = 0;
 };
@@ -53,7 +53,6 @@ struct ViewCorner {
     glm::dvec4 at{0, 0, 0, 0};
     glm::dvec3 error{0, 0, 0};  ///< of right, up and forward
     double numerator_error = 0; ///< of standard window depth's numerator, forward - 2 near w
-    double w_error = 0;
     bool made_by_clipping = false;
     glm::dvec3 weights{0, 0, 0}; ///< as PicturePoint has them
 };

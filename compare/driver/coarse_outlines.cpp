@@ -33,19 +33,24 @@ bool may_be_displaced(const Scene& scene, std::uint32_t triangle, const CoveredP
     return is_coarse && !certainly_holds(polygon, place, pixel.reach);
 }
 
-CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
+CoarseOutlines::CoarseOutlines(const Scene& scene, const Silhouette* silhouette,
                                const std::vector<glm::vec3>* far_ends, const Drawing& drawing) {
     for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle)
         add(clipped_triangle(scene, triangle, drawing));
-    // The diagonal between a side's two triangles is no outline, but both triangles are clipped.
+    if (silhouette != nullptr) add_volumes(scene, *silhouette, far_ends, drawing);
+    std::stable_sort(outlines_.begin(), outlines_.end(), [](const Outline& a, const Outline& b) {
+        return furthest_aside(a.from, a.to) > furthest_aside(b.from, b.to);
+    });
+}
+
+/// The diagonal between a side's two triangles is no outline, but both triangles are clipped.
+void CoarseOutlines::add_volumes(const Scene& scene, const Silhouette& silhouette,
+                                 const std::vector<glm::vec3>* far_ends, const Drawing& drawing) {
     for (const Silhouette::Side& side : silhouette.sides())
         if (side.triangle != no_triangle)
             for (const std::array<glm::dvec4, 3>& half :
                  triangles_of_side(scene, far_ends, side.triangle, static_cast<int>(side.part)))
                 add(clipped_polygon(scene.camera, half, drawing));
-    std::stable_sort(outlines_.begin(), outlines_.end(), [](const Outline& a, const Outline& b) {
-        return furthest_aside(a.from, a.to) > furthest_aside(b.from, b.to);
-    });
 }
 
 void CoarseOutlines::add(const std::vector<PicturePoint>& polygon) {

@@ -21,9 +21,10 @@ bool may_be_displaced(const Scene& scene, std::uint32_t triangle, const CoveredP
 
 class CoarseOutlines {
 public:
-    /// Of all triangles of a scene, and of the sides over its silhouette. `far_ends`: where
-    /// casters' positions lie once extruded, null where that is at infinity.
-    CoarseOutlines(const Scene& scene, const Silhouette& silhouette,
+    /// Of all triangles of a scene, and of the sides over its silhouette; null: no volumes are
+    /// drawn. `far_ends`: where casters' positions lie once extruded, null where that is at
+    /// infinity.
+    CoarseOutlines(const Scene& scene, const Silhouette* silhouette,
                    const std::vector<glm::vec3>* far_ends, const Drawing& drawing);
 
     /// Places, in pixels, on either side of the outlines that may be displaced as far as `place`,
@@ -47,6 +48,8 @@ private:
     std::vector<Outline> outlines_; ///< furthest displacement first
 
     void add(const std::vector<PicturePoint>& polygon);
+    void add_volumes(const Scene& scene, const Silhouette& silhouette,
+                     const std::vector<glm::vec3>* far_ends, const Drawing& drawing);
     /// None where the outline may not be displaced within `step` of the place.
     static std::optional<NearPlace> near(const Outline& outline, const glm::dvec2& place,
                                          double step);

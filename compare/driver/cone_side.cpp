@@ -21,7 +21,8 @@ ConeSides cone_sides(const Scene& scene, const DepthModel& model, double far,
     if (light.kind != Light::Kind::spot) return {};
     const glm::dvec3 line = line_of_sight(scene.camera, x + 0.5, y + 0.5);
     const double depth = depth_on_triangle(scene, triangle, line);
-    if (!(depth > 0)) return {true, true}; // its plane is not met: it is drawn aside
+    const bool is_met = scene.camera.is_orthographic() ? std::isfinite(depth) : depth > 0;
+    if (!is_met) return {true, true}; // its plane is not met: it is drawn aside
     const glm::dvec3 point = point_on(scene.camera, line, depth);
     const double clips_at = model.clips_at_far() ? far : std::numeric_limits<double>::infinity();
     const CoveredPixel pixel{line, lateral_error(scene, model, point),

@@ -48,9 +48,12 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
     const double scale = 0.5 * camera.height / camera.half_height;
     const bool is_parallel = camera.is_orthographic();
     double terms = 0;
-    for (const glm::dvec3& axis : {camera.right, camera.up, camera.forward})
+    for (const glm::dvec3& axis : {camera.right, camera.up})
         terms = std::max(terms, position_terms(scene, depth_model, axis, point) +
                                     direction_terms(scene, axis, point));
+    if (!is_parallel)
+        terms = std::max(terms, position_terms(scene, depth_model, camera.forward, point) +
+                                    direction_terms(scene, camera.forward, point));
     const double moved = is_parallel ? scale : (scale + 0.5 * pixels) / depth_of(camera, point);
     const double transform = transform_roundings * v * moved * terms;
     return half_step + transform + 3 * v * pixels;
@@ -61,15 +64,15 @@ double lateral_error(const Scene& scene, const DepthModel& depth_model, const gl
 // the largest standard depth and z = n/t the reversed one (where that is finite, a difference of
 // terms whose sizes times dt/dz make t all the same). Storing it in fixed point rounds once
 // more, by half a step: v / 2. In all less than 8 v z for a face, so `depth_roundings` for two that
-// are compared, carried back to view depth by dt/dz. Parallel depth is linear: dt/dz is f - n, and
-// z at most 1.
+// are compared, carried back to view depth by dt/dz. Parallel depth is linear: dt/dz is f - n, more
+// where part of the range is reserved, and z at most 1.
 double stored_depth_error(const DepthModel& depth_model, double depth) {
     const double near = depth_model.near;
     const double far = depth_model.far;
     double window_depth_error = depth * depth / near; // dt/dz times z, projection infinite
     if (depth_model.finite()) window_depth_error = depth * depth * (far - near) / (far * near);
     if (depth_model.reversed()) window_depth_error = depth;
-    if (depth_model.parallel) window_depth_error = far - near;
+    if (depth_model.parallel) window_depth_error = (far - near) / (1 - depth_model.front);
     return depth_roundings * window_depth_error;
 }
 

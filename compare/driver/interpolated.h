@@ -26,9 +26,9 @@ struct PixelSpread {
     std::optional<QuadRays> quad{};      ///< where steps between neighbours count
 };
 
-/// The weights where the ray along `direction` meets the triangle's plane; none of them is clamped.
+/// The weights where a line of sight meets the triangle's plane; none of them is clamped.
 /// Not finite if it does not meet it.
-glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction);
+glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line);
 
 /// Values at the middle, with error bounds. No vector is normalised.
 struct Interpolated {

@@ -124,7 +124,9 @@ PixelRun ConvexRegion::row(int y, int width) const {
 namespace {
 
 /// Whether floats determine the direction in which a corner lies. If not, it may be drawn anywhere.
-bool has_direction(const ViewCorner& corner) {
+/// Where lines of sight are parallel, a corner that is not at infinity has its place.
+bool has_direction(const PictureMaking& making, const ViewCorner& corner) {
+    if (making.camera.is_orthographic() && corner.at.w > 0) return true;
     return glm::length(corner.error) < 0.25 * glm::length(glm::dvec3(corner.at));
 }
 
@@ -179,27 +181,40 @@ Regions regions_of(const PictureMaking& making, const std::vector<PicturePoint>&
     return regions;
 }
 
-/// The inverse depths of a plane through three view points are linear in their direction: the
-/// coefficients that give each corner's w from its x, y and z.
-glm::dvec3 plane_of(const std::array<ViewCorner, 3>& corners) {
-    const glm::dvec3 a(corners[0].at);
-    const glm::dvec3 b(corners[1].at);
-    const glm::dvec3 c(corners[2].at);
-    const glm::dvec3 sum = corners[0].at.w * glm::cross(b, c) + corners[1].at.w * glm::cross(c, a) +
-                           corners[2].at.w * glm::cross(a, b);
-    return sum / glm::dot(a, glm::cross(b, c));
+/// What the picture makes of a view corner: its place is x and y over the last component, which is
+/// the depth or, where lines of sight are parallel, w.
+struct PictureCorner {
+    glm::dvec3 at{0, 0, 0};
+    double error = 0;
+    double nearness = 0; ///< times the last component
+};
+PictureCorner picture_corner(const PictureMaking& making, const ViewCorner& corner) {
+    const glm::dvec4& at = corner.at;
+    const glm::dvec3& error = corner.error;
+    if (!making.camera.is_orthographic()) return {glm::dvec3(at), glm::length(error), at.w};
+    return {{at.x, at.y, at.w}, glm::length(glm::dvec2(error)), -at.z};
+}
+
+/// The nearness of a plane through three corners is linear in their places: the coefficients that
+/// give each corner's.
+glm::dvec3 plane_of(const std::array<PictureCorner, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    const glm::dvec3 sum = a.nearness * glm::cross(b.at, c.at) +
+                           b.nearness * glm::cross(c.at, a.at) +
+                           c.nearness * glm::cross(a.at, b.at);
+    return sum / glm::dot(a.at, glm::cross(b.at, c.at));
 }
 
 /// Whether the front (+1) or the back (-1) of a triangle is seen; 0 where errors of its corners may
 /// reverse that. Right, up and forward make a left-handed frame: the determinant of corners that
 /// run anticlockwise as seen from the eye is positive. It is linear in each corner.
-int seen_side(const std::array<ViewCorner, 3>& corners) {
-    const glm::dvec3 a(corners[0].at);
-    const glm::dvec3 b(corners[1].at);
-    const glm::dvec3 c(corners[2].at);
-    const double da = glm::length(corners[0].error);
-    const double db = glm::length(corners[1].error);
-    const double dc = glm::length(corners[2].error);
+int seen_side(const std::array<PictureCorner, 3>& corners) {
+    const glm::dvec3& a = corners[0].at;
+    const glm::dvec3& b = corners[1].at;
+    const glm::dvec3& c = corners[2].at;
+    const double da = corners[0].error;
+    const double db = corners[1].error;
+    const double dc = corners[2].error;
     const double once = da * glm::length(glm::cross(b, c)) + db * glm::length(glm::cross(c, a)) +
                         dc * glm::length(glm::cross(a, b));
     const double twice =
@@ -219,8 +234,8 @@ glm::dvec3 in_pixels(const Camera& camera, const glm::dvec3& plane) {
 // A polygon is cut into triangles from any of its corners: any three of them may be one. A depth is
 // off by what its set-up is, and by as much as it changes over what the corners are drawn aside.
 std::vector<DepthError> depth_errors(const std::vector<PicturePoint>& polygon, double margin,
-                                     const glm::dvec3& inverse_depth) {
-    const double aside = margin * (std::abs(inverse_depth.x) + std::abs(inverse_depth.y));
+                                     const glm::dvec3& nearness) {
+    const double aside = margin * (std::abs(nearness.x) + std::abs(nearness.y));
     std::vector<DepthError> parts;
     for (std::size_t i = 0; i < polygon.size(); ++i)
         for (std::size_t j = i + 1; j < polygon.size(); ++j)
@@ -265,7 +280,8 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
     const std::array<ViewCorner, 3> seen{seen_of(corners[0]), seen_of(corners[1]),
                                          seen_of(corners[2])};
     PicturedFace face;
-    if (!std::all_of(seen.begin(), seen.end(), has_direction)) {
+    const auto is_known = [&](const ViewCorner& corner) { return has_direction(making, corner); };
+    if (!std::all_of(seen.begin(), seen.end(), is_known)) {
         face.possible = ConvexRegion::everywhere();
         face.margin = infinity;
         face.edge_on = true;
@@ -283,17 +299,20 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
         polygon.push_back(seen_of(*other));
         const std::vector<PicturePoint> both = left(polygon, PlaneCut::least);
         const std::optional<double> margin = margin_of(making, both);
-        const bool known = has_direction(polygon.back()) && margin;
+        const bool known = is_known(polygon.back()) && margin;
         face.certain_of_both = known ? ConvexRegion(both, *margin) : ConvexRegion();
         face.is_one_of_two = true;
     }
     face.possible = regions.possible;
     face.margin = regions.margin.value_or(infinity);
-    face.change = regions.is_wide || stays_as_wound(making, most) ? seen_side(seen) : 0;
-    face.inverse_depth = in_pixels(making.camera, plane_of(seen));
-    const glm::dvec3& inverse = face.inverse_depth;
-    face.edge_on = !regions.margin || !std::isfinite(inverse.x + inverse.y + inverse.z);
-    if (!face.edge_on) face.parts = depth_errors(most, *regions.margin, inverse);
+    const std::array<PictureCorner, 3> pictured{picture_corner(making, seen[0]),
+                                                picture_corner(making, seen[1]),
+                                                picture_corner(making, seen[2])};
+    face.change = regions.is_wide || stays_as_wound(making, most) ? seen_side(pictured) : 0;
+    face.nearness = in_pixels(making.camera, plane_of(pictured));
+    const glm::dvec3& nearness = face.nearness;
+    face.edge_on = !regions.margin || !std::isfinite(nearness.x + nearness.y + nearness.z);
+    if (!face.edge_on) face.parts = depth_errors(most, *regions.margin, nearness);
     return face;
 }
 
@@ -308,7 +327,8 @@ PicturedFace pictured_layer(const PictureMaking& making, const std::vector<ViewC
     PicturedFace face;
     face.in_front = true;
     const Drawing drawing = drawing_of_layers(making.drawing);
-    if (!std::all_of(most.begin(), most.end(), has_direction)) {
+    if (!std::ranges::all_of(
+            most, [&](const ViewCorner& corner) { return has_direction(making, corner); })) {
         face.possible = ConvexRegion::everywhere();
         face.margin = infinity;
         return face;

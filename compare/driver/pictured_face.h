@@ -56,7 +56,7 @@ private:
     void bound(const glm::dvec2& normal, double most);
 };
 
-/// Error of a face's inverse view depth, at the pixels that a part of the face may cover.
+/// Error of a face's nearness (nearness.h), at the pixels that a part of the face may cover.
 struct DepthError {
     ConvexRegion part;
     double error = 0; ///< infinite where the part is seen edge-on
@@ -77,8 +77,8 @@ struct PicturedFace {
     std::uint32_t copies = 1;        ///< how many faces it is (DrawnFace::copies)
     std::uint32_t light_cap_of = 0;  ///< the first of the triangles whose surface it coincides with
     std::uint32_t own_triangles = 0; ///< how many those are: one of each copy of a light cap
-    /// The inverse of its view depth at a pixel (x, y): inverse_depth . (x, y, 1).
-    glm::dvec3 inverse_depth{0, 0, 0};
+    /// How near it is (nearness.h) at a pixel (x, y): nearness . (x, y, 1).
+    glm::dvec3 nearness{0, 0, 0};
     /// The parts in which it may be set up: more than one if it is clipped.
     std::vector<DepthError> parts;
 };

@@ -21,26 +21,32 @@ SeenPlane plane_before_eye(const Scene& scene, std::uint32_t triangle) {
     return {-normal / along, glm::dot(a, normal) / along};
 }
 
-WindowDepth window_depth_of(const DepthModel& model) {
+namespace {
+
+/// Of a projection whose window depths reach from 0 to 1.
+WindowDepth full_window_depth(const DepthModel& model) {
     const double n = model.near;
     const double f = model.far;
     if (model.parallel)
         return model.reversed() ? WindowDepth{f / (f - n), -1 / (f - n)}
                                 : WindowDepth{-n / (f - n), 1 / (f - n)};
-    WindowDepth depth{1, -n};
     switch (model.projection) {
     case DepthModel::Projection::finite:
-        depth = {f / (f - n), -f * n / (f - n)};
-        break;
+        return {f / (f - n), -f * n / (f - n)};
     case DepthModel::Projection::finite_reversed:
-        depth = {-n / (f - n), f * n / (f - n)};
-        break;
+        return {-n / (f - n), f * n / (f - n)};
     case DepthModel::Projection::infinite:
         break;
     case DepthModel::Projection::infinite_reversed:
-        depth = {0, n};
-        break;
+        return {0, n};
     }
+    return {1, -n};
+}
+
+} // namespace
+
+WindowDepth window_depth_of(const DepthModel& model) {
+    const WindowDepth depth = full_window_depth(model);
     return {model.front + (1 - model.front) * depth.at_zero, (1 - model.front) * depth.slope};
 }
 

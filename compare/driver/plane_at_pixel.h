@@ -68,7 +68,8 @@ public:
         return std::isfinite(key_) && std::isfinite(gradient.x + gradient.y + gradient.z);
     }
     double key() const { return key_; }
-    /// View depth, at most the picture's far one.
+    /// View depth, at most the picture's far one; where lines of sight are parallel, not before the
+    /// near plane.
     double depth() const;
     /// Of the pixel's centre.
     const glm::dvec3& line() const { return centre_; }

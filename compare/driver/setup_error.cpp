@@ -129,9 +129,27 @@ double weight_of(const PictureTriangle& triangle, std::size_t corner, const glm:
            twice_area(triangle);
 }
 
+/// By how much twice the area may change where corners are off by their errors and `reach` along
+/// each axis: an edge's length times the move of the corner across from it, and products of two
+/// moves.
+double change_of_area(const PictureTriangle& triangle, double reach) {
+    double change = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const PicturePoint& one = triangle[(k + 1) % 3];
+        const PicturePoint& other = triangle[(k + 2) % 3];
+        const auto move = [&](const PicturePoint& corner) {
+            return std::numbers::sqrt2 * (corner.place_error + reach);
+        };
+        change +=
+            move(triangle[k]) * glm::length(other.place - one.place) + move(one) * move(other);
+    }
+    return change;
+}
+
 /// Which corner is the first depends on the driver: any may be. Corners are off, too, each by as
 /// much as it weighs at the pixel: by more than one in sum where snapping makes a triangle cover
-/// what lies beside it, and by far more where that is thin.
+/// what lies beside it, and by far more where that is thin. Weights are over the area that is
+/// drawn; where that may vanish, nothing is known.
 double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double reach) {
     const auto& [a, b, c] = triangle;
     const double area = twice_area(triangle);
@@ -147,9 +165,12 @@ double error_of(const PictureTriangle& triangle, const glm::dvec2& pixel, double
     for (std::size_t i = 0; i < 3; ++i)
         corners += weight_of(triangle, i, pixel, reach) *
                    (triangle[i].depth_error + slope * triangle[i].place_error);
-    return corners + std::max({error_from(a, b, c, pixel, plane_of_depths(a, b, c)),
-                               error_from(b, c, a, pixel, plane_of_depths(b, c, a)),
-                               error_from(c, a, b, pixel, plane_of_depths(c, a, b))});
+    const double changed = change_of_area(triangle, 0) / area;
+    if (!(changed < 1)) return std::numeric_limits<double>::infinity();
+    return corners / (1 - changed) +
+           std::max({error_from(a, b, c, pixel, plane_of_depths(a, b, c)),
+                     error_from(b, c, a, pixel, plane_of_depths(b, c, a)),
+                     error_from(c, a, b, pixel, plane_of_depths(c, a, b))});
 }
 
 /// How much a pixel takes of each corner's value, at most.
@@ -334,22 +355,8 @@ double setup_error(const PictureTriangle& triangle, const glm::dvec2& place, dou
     return error_of(triangle, place, reach);
 }
 
-// Twice the area changes by an edge's length times the move of the corner across from it, and by
-// products of two moves.
 bool may_be_flipped(const PictureTriangle& triangle, double reach) {
-    const double area =
-        cross(triangle[1].place - triangle[0].place, triangle[2].place - triangle[0].place);
-    double change = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const PicturePoint& one = triangle[(k + 1) % 3];
-        const PicturePoint& other = triangle[(k + 2) % 3];
-        const auto move = [&](const PicturePoint& corner) {
-            return std::numbers::sqrt2 * (corner.place_error + reach);
-        };
-        change +=
-            move(triangle[k]) * glm::length(other.place - one.place) + move(one) * move(other);
-    }
-    return !(std::abs(area) > change); // or no number
+    return !(twice_area(triangle) > change_of_area(triangle, reach)); // or no number
 }
 
 // A, as error_from has it, is off by 3 v of its terms and v of itself, whichever corner is first:

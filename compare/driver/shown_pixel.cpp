@@ -13,9 +13,9 @@ namespace shadowproof {
 ShownPixel shown_pixel(const Frame& frame, double far, int x, int y, double reach) {
     ShownPixel pixel{{x + 0.5, y + 0.5}, reach, frame.triangle.at(x, y), 0};
     if (pixel.triangle != no_triangle)
-        pixel.inverse_depth = inverse_depth(frame.depth_model, frame.depth.at(x, y));
+        pixel.nearness = nearness_of_window(frame.depth_model, frame.depth.at(x, y));
     else if (frame.depth_model.finite())
-        pixel.inverse_depth = 1 / far;
+        pixel.nearness = nearness_of_depth(frame.depth_model, far);
     return pixel;
 }
 
@@ -46,22 +46,22 @@ Chance covers(const PicturedFace& face, const ShownPixel& pixel) {
 }
 
 // A depth's error is the largest of the parts that may cover the pixel.
-InverseDepths inverse_depths_of(const PicturedFace& face, const ShownPixel& pixel,
-                                const WindowRoundings& roundings) {
+NearnessRange nearness_of(const PicturedFace& face, const ShownPixel& pixel,
+                          const WindowRoundings& roundings) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (face.edge_on) return {-infinity, infinity};
-    const double inverse = face.inverse_depth.x * pixel.centre.x +
-                           face.inverse_depth.y * pixel.centre.y + face.inverse_depth.z;
+    const double nearness =
+        face.nearness.x * pixel.centre.x + face.nearness.y * pixel.centre.y + face.nearness.z;
     double error = 0;
     for (const DepthError& part : face.parts)
         if (part.part.holds(pixel.centre)) error = std::max(error, part.error);
-    error += roundings.constant + roundings.share * std::abs(inverse);
+    error += roundings.constant + roundings.share * std::abs(nearness);
     if (!(error < infinity)) return {-infinity, infinity};
-    return {inverse - error, inverse + error};
+    return {nearness - error, nearness + error};
 }
 
-Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel) {
-    return {depths.high >= pixel.inverse_depth, depths.low > pixel.inverse_depth};
+Chance is_in_front(const NearnessRange& range, const ShownPixel& pixel) {
+    return {range.high >= pixel.nearness, range.low > pixel.nearness};
 }
 
 bool is_coarse(const PicturedFace& face, const Chance& covered, const ShownPixel& pixel) {
@@ -113,7 +113,7 @@ public:
                 seen.covered = covered.possible;
             } else if (covered.possible && maybe_drawn) {
                 const Chance front =
-                    is_in_front(inverse_depths_of(face, pixels[i], roundings_), pixels[i]);
+                    is_in_front(nearness_of(face, pixels[i], roundings_), pixels[i]);
                 if (front.certain && covered.certain && certainly_drawn) seen.hidden = true;
                 if (front.possible && !front.certain) seen.tied.push_back(triangle);
             }

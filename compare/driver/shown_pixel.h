@@ -2,7 +2,7 @@
 // covers the pixel, and whether it is in front.
 #pragma once
 
-#include "compare/driver/inverse_depths.h"
+#include "compare/driver/nearness.h"
 #include "compare/driver/pictured_face.h"
 #include "reference/trace/trace.h"
 #include "scenes/frame.h"
@@ -18,7 +18,7 @@ struct ShownPixel {
     glm::dvec2 centre{0, 0};
     double reach = 0; ///< how far aside, in pixels, the rasterizer may draw what it shows
     std::uint32_t triangle = no_triangle;
-    double inverse_depth = 0; ///< of the surface, as read back, or of the background
+    double nearness = 0; ///< of the surface, as read back, or of the background
 };
 
 /// The background lies at `far`, the far plane, in finite projections, else at infinity.
@@ -49,15 +49,15 @@ struct Chance {
 /// Whether a face covers the pixel.
 Chance covers(const PicturedFace& face, const ShownPixel& pixel);
 
-/// The inverse view depths that a face may have there; all where it is seen edge-on.
-struct InverseDepths {
+/// How near a face may be there (nearness.h): anywhere where it is seen edge-on.
+struct NearnessRange {
     double low = 0;
     double high = 0;
 };
-InverseDepths inverse_depths_of(const PicturedFace& face, const ShownPixel& pixel,
-                                const WindowRoundings& roundings);
+NearnessRange nearness_of(const PicturedFace& face, const ShownPixel& pixel,
+                          const WindowRoundings& roundings);
 /// Whether such a face is in front of what is shown.
-Chance is_in_front(const InverseDepths& depths, const ShownPixel& pixel);
+Chance is_in_front(const NearnessRange& range, const ShownPixel& pixel);
 
 /// Whether a face that may cover the pixel, or not, is off by more than the pixel's neighbourhood
 /// is wide: then the truth there does not determine what is drawn.

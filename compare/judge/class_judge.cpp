@@ -47,7 +47,7 @@ bool ClassJudge::allows(PixelPlace p, const RayTruth& truth) const {
 
 CoarseOutlines ClassJudge::coarse_outlines() const {
     const Scene& scene = claim_.traced.scene();
-    return {scene, claim_.traced.silhouette(), nullptr,
+    return {scene, nullptr, nullptr,
             drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
 }
 

@@ -16,8 +16,8 @@ bool is_on_grid(float depth) {
     return std::abs(steps - std::round(steps)) <= half_place;
 }
 
-// The product of the triangle's normal with the direction is the side that is seen, and changes by
-// that of an edge with a corner's move against another.
+// The product of the normal e x f with the direction is the side that is seen. Both edges change by
+// up to `moved`, and so the product by moved (|e| + |f| + moved).
 bool may_be_drawn_in_parallel(const Scene& scene, std::uint32_t triangle, double error) {
     const glm::dvec3 a = corner(scene, triangle, 0);
     const glm::dvec3 e = corner(scene, triangle, 1) - a;

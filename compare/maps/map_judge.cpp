@@ -91,10 +91,7 @@ public:
     }
 
     CoarseOutlines coarse_outlines() const override {
-        const Scene& scene = claim_.traced.scene();
-        return {
-            scene, claim_.traced.silhouette(), nullptr,
-            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
+        return {claim_.traced.scene(), nullptr, nullptr, drawing()};
     }
 
     EvidenceSummary summary(const EvidenceCheck& check,
@@ -125,6 +122,12 @@ private:
     const LightView& light_;
     MapCentres centres_;
 
+    Drawing drawing() const {
+        const DepthModel& model = claim_.frame.depth_model;
+        return drawing_of(claim_.traced.scene(), model,
+                          model.clips_at_far() ? claim_.traced.far()
+                                               : std::numeric_limits<double>::infinity());
+    }
     double depth_at(PixelPlace p) const {
         return std::min(claim_.traced.truth().depth.at(p.x, p.y), claim_.traced.far());
     }
@@ -141,8 +144,9 @@ private:
         const auto at = [&](double x, double y) {
             const glm::dvec3 line = line_of_sight(camera, x, y);
             const double depth = depth_on_triangle(scene, triangle, line);
+            const bool is_met = camera.is_orthographic() ? std::isfinite(depth) : depth > 0;
             return start_of(camera, line) - light_.origin() +
-                   (depth > 0 ? depth : claim_.traced.far()) * direction_of(camera, line);
+                   (is_met ? depth : claim_.traced.far()) * direction_of(camera, line);
         };
         // Seen nearly edge-on, the plane may be anywhere; the triangle is not.
         const glm::dvec3 centre = at(p.x + 0.5, p.y + 0.5);
@@ -162,10 +166,8 @@ private:
             for (const double y : {-reach, reach})
                 point.error = glm::max(
                     point.error, glm::abs(at(p.x + 0.5 + x, p.y + 0.5 + y) - point.from_light));
-        const Drawing drawing =
-            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity());
         point.error += interpolated_place_error(
-            scene, triangle, {centres_.line_at(p), reach, drawing}, light_.origin());
+            scene, triangle, {centres_.line_at(p), reach, drawing()}, light_.origin());
         point.error = glm::min(point.error, glm::dvec3(1e30)); // infinity times zero is no number
         return point;
     }
@@ -207,7 +209,7 @@ private:
         };
         if (drawn == no_triangle) {
             if (claim != Visibility::background) return false;
-            if (seen(no_triangle) || gapes(around, truth)) return true;
+            if (seen(no_triangle) || gapes(around, truth) || may_be_clipped(p, truth)) return true;
             cause = {Cause::precision, {}};
             return are_displaced(p, around, truth);
         }
@@ -226,13 +228,27 @@ private:
         return map_may_answer(p, drawn, claim, cause);
     }
 
+    /// Whether all that the pixel's surroundings see lies in the near or the far plane of a
+    /// projection that clips there, as far as depths tell. In perspective the pixels' depths are
+    /// compared with the planes instead.
+    bool may_be_clipped(PixelPlace p, std::span<const RayTruth> truth) const {
+        if (!claim_.frame.depth_model.parallel) return false;
+        const Scene& scene = claim_.traced.scene();
+        const DepthPicture picture =
+            depth_picture(scene, claim_.frame.depth_model, drawing(), claim_.traced.far());
+        return std::ranges::all_of(truth, [&](const RayTruth& t) {
+            const PlaneAtPixel plane(picture, t.triangle, p.x, p.y);
+            const double error = plane.error();
+            return !plane.has_depth() || std::abs(plane.key() - scene.camera.near) <= error ||
+                   std::abs(plane.key() - claim_.traced.far()) <= error;
+        });
+    }
+
     /// Whether the clipper's errors may displace all that the pixel's surroundings see.
     bool are_displaced(PixelPlace p, const Neighbourhood& around,
                        std::span<const RayTruth> truth) const {
         const Scene& scene = claim_.traced.scene();
-        const CoveredPixel pixel{
-            centres_.line_at(p), around.reach,
-            drawing_of(scene, claim_.frame.depth_model, std::numeric_limits<double>::infinity())};
+        const CoveredPixel pixel{centres_.line_at(p), around.reach, drawing()};
         return std::ranges::all_of(
             truth, [&](const RayTruth& t) { return may_be_displaced(scene, t.triangle, pixel); });
     }

@@ -135,7 +135,8 @@ ParallelView::Plane ParallelView::plane(const Texel& texel, std::uint32_t caster
 PolygonOffset ParallelView::offset(const Texel& texel, std::uint32_t caster) const {
     if (!model().has_offset()) return {};
     return polygon_offset(pictured_in_parallel(casters_, camera(0), caster),
-                          {texel.x + 0.5, texel.y + 0.5}, model(), offset_unit(), {}, half_step_);
+                          {texel.x + 0.5, texel.y + 0.5}, model(), offset_unit(), {0, 1},
+                          half_step_);
 }
 
 double ParallelView::moved_away(const Texel& texel, std::uint32_t triangle, double depth) const {

@@ -33,7 +33,7 @@ private:
     /// The directions through texels' centres are the sum of a column's and a row's.
     std::vector<std::vector<glm::dvec3>> columns_;
     std::vector<std::vector<glm::dvec3>> rows_;
-    std::vector<SeenPlane> planes_;          ///< theirs, before the eye that all faces share
+    std::vector<SeenPlane> planes_;           ///< theirs, before the eye that all faces share
     Scene seen_;                              ///< the first face's, whose culled sides are backs
     std::unique_ptr<Tracer> tracer_;          ///< of that; null without casters
     mutable std::array<CasterGrid, 6> grids_; ///< one per face, made when one is asked for

@@ -105,7 +105,7 @@ double float_step(double depth) {
 /// triangle's largest depth; each of the triangles that a polygon is drawn as has three of its
 /// corners, so that the third smallest is the least that counts.
 PolygonOffset resolved(const std::vector<PicturePoint>& polygon, const MapModel& model,
-                       const OffsetUnit& unit, const WindowScale& window) {
+                       const OffsetUnit& unit, const WindowDepth& window) {
     if (!depth_format_of(model.format).floating)
         return {0.5 * (unit.least + unit.most), unit.least, unit.most};
     std::vector<double> depths;
@@ -123,7 +123,7 @@ PolygonOffset resolved(const std::vector<PicturePoint>& polygon, const MapModel&
 
 PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
                              const MapModel& model, const OffsetUnit& unit,
-                             const WindowScale& window, double reach) {
+                             const WindowDepth& window, double reach) {
     if (!model.has_offset() || polygon.size() < 3) return {};
     PolygonOffset offset;
     if (model.slope_bias != 0)

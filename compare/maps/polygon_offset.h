@@ -4,6 +4,7 @@
 #pragma once
 
 #include "compare/driver/clipped_polygon.h"
+#include "compare/driver/plane_at_pixel.h"
 #include "scenes/shadow_map.h"
 
 #include <vector>
@@ -17,18 +18,12 @@ struct PolygonOffset {
     double most = 0; ///< infinite where it is seen edge-on, as far as can be told
 };
 
-/// How a point's key gives its window depth.
-struct WindowScale {
-    double at_zero = 0;
-    double slope = 1;
-};
-
 /// That of a texel. `polygon`: what clipping leaves of the triangle; of the triangles that it is
 /// drawn as, those count that may hold the texel's centre `place`, or all where none does. `unit`:
-/// the driver's. `reach`: how far each of its corners may be snapped, in texels. No offset where
-/// the model asks for none.
+/// the driver's. `window`: how a point's key gives its window depth. `reach`: how far each of its
+/// corners may be snapped, in texels. No offset where the model asks for none.
 PolygonOffset polygon_offset(const std::vector<PicturePoint>& polygon, const glm::dvec2& place,
                              const MapModel& model, const OffsetUnit& unit,
-                             const WindowScale& window, double reach);
+                             const WindowDepth& window, double reach);
 
 } // namespace shadowproof

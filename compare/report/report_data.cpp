@@ -49,6 +49,7 @@ std::string scene_script(const SceneResult& scene) {
                   {"right", vector_json(camera.right)},
                   {"up", vector_json(camera.up)},
                   {"forward", vector_json(camera.forward)},
+                  {"orthographic", camera.is_orthographic()},
                   {"half_height", camera.half_height},
                   {"near", camera.near}}},
                 {"far", scene.far},

@@ -120,14 +120,14 @@ private:
                      const ShownPixel& pixel) const {
         const Chance covered = covered_by(drawn, face, pixel);
         if (!covered.possible) return {};
-        const InverseDepths depths = inverse_depths_of(face, pixel, roundings_);
+        const NearnessRange range = nearness_of(face, pixel, roundings_);
         const Chance front = hides_itself || is_own(drawn, pixel) || is_at_infinity(drawn)
                                  ? Chance{}
-                                 : is_in_front(depths, pixel);
+                                 : is_in_front(range, pixel);
         const Counting::Test test = judged_.counting().caster(drawn.triangle).test;
         const bool pass = test == Counting::Test::depth_pass;
         // It may be clipped where it should not be, or the other way round.
-        const bool is_cut = !covered.certain && depths.high >= nearest_;
+        const bool is_cut = !covered.certain && range.high >= nearest_;
         return {is_coarse(face, covered, pixel) ||
                     (is_extruded_to_infinity(drawn) && front.possible),
                 steps(weight(test) * face.change, face.copies,

@@ -152,7 +152,7 @@ public:
         const double far = claim_.frame.depth_model.clips_at_far()
                                ? claim_.traced.far()
                                : std::numeric_limits<double>::infinity();
-        return {scene, claim_.traced.silhouette(), prediction_.volumes().far_ends(),
+        return {scene, &claim_.traced.silhouette(), prediction_.volumes().far_ends(),
                 drawing_of(scene, claim_.frame.depth_model, far)};
     }
 

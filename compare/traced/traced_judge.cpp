@@ -55,7 +55,7 @@ public:
     CoarseOutlines coarse_outlines() const override {
         const Scene& scene = judged_.traced.scene();
         return {
-            scene, judged_.traced.silhouette(), nullptr,
+            scene, nullptr, nullptr,
             drawing_of(scene, judged_.frame.depth_model, std::numeric_limits<double>::infinity())};
     }
 

@@ -191,7 +191,7 @@ def add_camera(manager, view):
         camera.setFOVy(Ogre.Radian(view["camera"]["yfov"]))
         camera.setAspectRatio(view["width"] / view["height"])
     camera.setNearClipDistance(view["camera"]["znear"])
-    camera.setFarClipDistance(view["camera"]["zfar"] if extent else 0)  # 0: infinite
+    camera.setFarClipDistance(view["engines"]["ogre"]["camera"]["far"] if extent else 0)  # 0: infinite
     return camera
 
 

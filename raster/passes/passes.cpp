@@ -249,6 +249,7 @@ void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& ge
     const bool reversed = depth_model.reversed();
     gl.Viewport(0, 0, target.width, target.height);
     gl.ClipControl(GL_LOWER_LEFT, reversed ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    gl.DepthRange(depth_model.front, 1);
     set_enabled(gl, GL_DEPTH_CLAMP, depth_model.clamp);
     gl.FrontFace(GL_CCW);
     gl.CullFace(GL_BACK);

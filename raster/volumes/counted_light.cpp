@@ -190,7 +190,6 @@ void CountedLight::update() {
 
 void CountedLight::begin() const {
     begin_frame(gl_, target_, geometry_, recipe_.depth_model);
-    gl_.DepthRange(recipe_.depth_model.front, 1);
 }
 
 void CountedLight::draw_surfaces() const {

@@ -146,8 +146,9 @@ void PointShader::set(std::size_t lane, const glm::dvec3& line, std::uint32_t tr
     const bool is_parallel = camera.is_orthographic();
     const glm::dvec3 from_line =
         is_parallel ? corner(scene, triangle, 0) - start_of(camera, line) : glm::dvec3(0);
+    const double all = 1 / glm::dot(direction, seen.across);
     const auto weight = [&](const glm::dvec3& toward) {
-        return share(glm::dot(direction, toward) * (1 / glm::dot(direction, seen.across)));
+        return share(glm::dot(direction, toward) * all);
     };
     const double b = weight(is_parallel ? glm::cross(seen.edge_c, from_line) : seen.toward_b);
     const double c = weight(is_parallel ? glm::cross(from_line, seen.edge_b) : seen.toward_c);

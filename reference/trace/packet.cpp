@@ -210,8 +210,8 @@ void meet_cluster(Search& search, std::uint32_t number, std::uint32_t lanes) {
                              static_cast<std::size_t>(__builtin_ctz(left)), search.arbiter);
 }
 
-/// How far the walk must still look: where 1/s is best_lo, and a little further; of parallel rays,
-/// where the height is.
+/// How far the walk must still look: where 1/s is best_lo; of parallel rays, which are walked from
+/// above, where the height is. A little further, as best_lo is rounded to float and scaled.
 void lower_limits(const Search& search, int first, int count, float* far) {
     const RayPacket& packet = search.packet;
     for (int i = 0; i < count; ++i) {

@@ -132,7 +132,8 @@ void prepare_from_origin(RayPacket& packet, const OriginView& view) {
 // Parallel rays: all points whose sheared coordinates are (u, v). With axes as in shear.h one of
 // them is (u, v, 0), and from there the light lies along (slope_u - lean u, slope_v - lean v, 1),
 // times `up`. u and v, off by `error`, weigh once and a little; slopes are known to 3 2^-53 of
-// themselves. Beyond 2 no box lies. From above all goes the other way.
+// themselves. Beyond 2 no box lies. From above, what is walked along is the height with its sign
+// changed: from the upper limit to the lower one, 2^-20 further each, as limits are rounded.
 void prepare_parallel(RayPacket& packet, const OriginView& view, bool from_above) {
     const Shear& shear = view.shear;
     const double ratio = view.trees->frame().scale / view.scale;

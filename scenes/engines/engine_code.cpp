@@ -173,7 +173,11 @@ Lines unreal(const Scene& scene, const EngineView& view) {
                                   glm::degrees(view.horizontal_field_of_view)),
         fmt::format("camera->SetAspectRatio({}); camera->SetConstraintAspectRatio(true);",
                     aspect(scene)),
-        fmt::format("GEngine->Exec(GetWorld(), TEXT(\"r.SetNearClipPlane {}\"));", view.near)};
+        view.extent
+            ? fmt::format("camera->SetOrthoNearClipPlane({}); camera->SetOrthoFarClipPlane({});",
+                          view.near, *view.far)
+            : fmt::format("GEngine->Exec(GetWorld(), TEXT(\"r.SetNearClipPlane {}\"));",
+                          view.near)};
     lines.push_back(turns(scene) ? pose("light", view.light_position, view.light_rotation)
                                  : fmt::format("light->SetWorldLocation(FVector({}));",
                                                joined(view.light_position)));

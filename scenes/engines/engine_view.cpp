@@ -39,11 +39,7 @@ double farthest_depth(const Scene& scene) {
     return depth;
 }
 
-/// Depth is w. The third row (a, b) maps it to a * depth + b, which over w is
-///   [-1, 1]: a = (f + n) / (f - n), b = -2 f n / (f - n);   without far plane 1, -2 n
-///   [ 0, 1]: a = f / (f - n),       b = -f n / (f - n);     1, -n
-///   [ 1, 0]: a = -n / (f - n),      b = f n / (f - n);      0, n
-/// Where lines of sight are parallel w is 1, and that is linear in depth:
+/// The same where lines of sight are parallel: w is 1.
 ///   [-1, 1]: a = 2 / (f - n),       b = -(f + n) / (f - n)
 ///   [ 0, 1]: a = 1 / (f - n),       b = -n / (f - n)
 ///   [ 1, 0]: a = -1 / (f - n),      b = f / (f - n)
@@ -60,6 +56,10 @@ glm::dvec2 parallel_depth_row(NdcDepth range, double near, double far) {
     return glm::dvec2(-1, far) / span;
 }
 
+/// Depth is w. The third row (a, b) maps it to a * depth + b, which over w is
+///   [-1, 1]: a = (f + n) / (f - n), b = -2 f n / (f - n);   without far plane 1, -2 n
+///   [ 0, 1]: a = f / (f - n),       b = -f n / (f - n);     1, -n
+///   [ 1, 0]: a = -n / (f - n),      b = f n / (f - n);      0, n
 glm::dvec2 depth_row(NdcDepth range, double near, const std::optional<double>& far) {
     const double n = near;
     const double span = far ? *far - n : 1;

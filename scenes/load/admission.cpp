@@ -201,7 +201,7 @@ private:
                            "between {:.3g} and {:.3g}",
                            2 * half.x * scene_.unit, 2 * half.y * scene_.unit,
                            2 * least * scene_.unit, 2 * largest_coordinate * scene_.unit),
-               "use another xmag and ymag");
+               "use another xmag and ymag, or --ortho");
     }
 
     /// Colours, and the heights and scales of bumps: floats hold products of four of them, and the

@@ -31,6 +31,7 @@ void take_scale(Scene& scene, double value) {
     move_all(scene, [&](const glm::dvec3& point) { return value * point; });
     scene.camera.near *= value;
     scene.camera.far *= value;
+    if (scene.camera.is_orthographic()) scene.camera.half_height *= value;
     if (scene.inverse_square) // the light that arrives stays the same
         for (Light& light : scene.lights) light.intensity *= value * value;
 }

@@ -1,6 +1,6 @@
 #include "compare/stencil/figures/face_counts.h"
 
-#include "compare/driver/inverse_depths.h"
+#include "compare/driver/nearness.h"
 #include "reference/parallel.h"
 
 #include <algorithm>
@@ -105,14 +105,14 @@ private:
             face, y, certain, -1, [=](int x) { return own[x]; }, low);
     }
 
-    /// Counts the face where it is not behind what is seen, with its inverse depth moved by `side`
+    /// Counts the face where it is not behind what is seen, with its nearness moved by `side`
     /// times its error; a light cap at least once where its own triangle is seen.
     template <class ErrorAt>
     void add_in_front(const PicturedFace& face, int y, PixelRun run, double side,
                       const ErrorAt& error_at, std::int32_t* faces) const {
         const double* seen = &depths_->at(0, y);
         const std::uint32_t* triangles = &frame_.triangle.at(0, y);
-        const glm::dvec3& inverse = face.inverse_depth;
+        const glm::dvec3& inverse = face.nearness;
         const double start = inverse.z + inverse.y * (y + 0.5) + inverse.x * 0.5;
         const double slope = inverse.x;
         const double share = roundings_.share;
@@ -170,7 +170,7 @@ FaceCounts counted(const DrawnPicture& picture, const Image<double>* depths, int
 } // namespace
 
 FaceCounts count_faces(const DrawnPicture& picture, int threads) {
-    const Image<double> depths = inverse_depths(picture.frame);
+    const Image<double> depths = nearness_read_back(picture.frame);
     return counted(picture, &depths, threads);
 }
 

@@ -83,7 +83,8 @@ var cutawayGeometry = (function () {
     if (technique.test === 'depth_fail' && technique.dark_caps !== 0)
       events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap,
                     test: technique.test });
-    var inside = record.inside.eye;
+    // No volumes are counted before an orthographic camera.
+    var inside = record.inside ? record.inside.eye : 0;
     events.forEach(function (event) {
       if (event.kind === 'crossing') inside += event.crossing.change;
       event.inside = inside; // after it

@@ -1,6 +1,7 @@
 // What is kept of a visible surface: shadowed until the light pass lights it.
 
-// View depths; what lies outside is not drawn. Where lines of sight are parallel, none is known here.
+// View depths; what lies outside is not drawn. Where lines of sight are parallel, w is 1: then all are
+// let through, and the projection clips.
 layout(location = 6) uniform vec2 visible_depths;
 layout(location = 7) uniform uint first_triangle; // of this draw call
 

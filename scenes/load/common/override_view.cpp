@@ -83,7 +83,7 @@ void override_view(const ViewOverride& view, Scene& scene) {
     if (view.orthographic_height) {
         scene.camera.projection = Projection::orthographic;
         scene.camera.half_height = 0.5 * *view.orthographic_height;
-        scene.notes.emplace_back("the camera is orthographic, as high as --ortho says");
+        scene.notes.emplace_back("the camera is orthographic, its picture as high as --ortho says");
     }
     if (view.light_position) {
         place_light(*view.light_position, scene);

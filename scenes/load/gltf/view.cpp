@@ -73,9 +73,9 @@ int picture_width(const Place& place, double aspect, const SceneRequest& request
     if (!request.camera_aspect || !(aspect > 0)) return request.width; // 0: there is none
     const double width = std::round(aspect * request.height);
     if (!(width >= 1 && width <= largest_side))
-        place.refuse(
-            fmt::format("{:g} makes a picture of {:g}x{} pixels", aspect, width, request.height),
-            "give its size by --size");
+        place.refuse(fmt::format("an aspect ratio of {:g} makes a picture of {:g}x{} pixels",
+                                 aspect, width, request.height),
+                     "give its size by --size");
     if (width != request.width)
         notes.push_back(fmt::format("{:g}x{} pixels: the camera's aspect ratio is {:.4g} "
                                     "(--size for another picture)",
@@ -99,7 +99,8 @@ void set_far(const Place& place, double far, Camera& camera) {
     if (!(camera.far > camera.near))
         (place / "zfar")
             .refuse(fmt::format("{} is not above znear {}", camera.far, camera.near),
-                    "move the far plane back, or leave it out");
+                    camera.is_orthographic() ? "move the far plane back"
+                                             : "move the far plane back, or leave it out");
 }
 
 void read_perspective(const tinygltf::PerspectiveCamera& source, const Place& place,
@@ -117,6 +118,9 @@ void read_perspective(const tinygltf::PerspectiveCamera& source, const Place& pl
 void read_orthographic(const tinygltf::OrthographicCamera& source, const Place& place,
                        const SceneRequest& request, Camera& camera, Scene& scene) {
     camera.projection = Projection::orthographic;
+    if (source.xmag == 0 && source.ymag == 0)
+        place.refuse("is missing, or has no extent: xmag and ymag are 0",
+                     "write half of what the picture shows, in units of the scene");
     for (const auto& [name, half] : {std::pair("xmag", source.xmag), {"ymag", source.ymag}})
         if (!(half > 0))
             (place / name)
@@ -126,7 +130,7 @@ void read_orthographic(const tinygltf::OrthographicCamera& source, const Place& 
         (place / "znear")
             .refuse(fmt::format("{} is negative", source.znear), "move the camera back instead");
     const double aspect = source.xmag / source.ymag;
-    camera.width = picture_width(place / "xmag", aspect, request, scene.notes);
+    camera.width = picture_width(place, aspect, request, scene.notes);
     note_aspect(aspect, camera, scene);
     camera.half_height = source.ymag;
     camera.near = source.znear;

@@ -25,7 +25,7 @@ Scene box_over_wide_floor(float half_width) {
 }
 
 CoarseOutlines outlines_of(const TracedScene& traced, const Frame& frame) {
-    return {traced.scene, traced.silhouette, nullptr,
+    return {traced.scene, &traced.silhouette, nullptr,
             drawing_of(traced.scene, frame.depth_model, std::numeric_limits<double>::infinity())};
 }
 

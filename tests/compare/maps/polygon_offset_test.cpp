@@ -41,7 +41,7 @@ PolygonOffset offset_of(const std::vector<PicturePoint>& polygon, double units, 
     MapModel model;
     model.offset_units = units;
     model.format = format;
-    return polygon_offset(polygon, {4, 4}, model, {0x1p-23, 0x1.001p-23}, {}, 0);
+    return polygon_offset(polygon, {4, 4}, model, {0x1p-23, 0x1.001p-23}, {0, 1}, 0);
 }
 
 TEST(OffsetUnits, are_steps_of_the_format_and_of_floats_those_at_the_largest_depth) {
@@ -90,8 +90,7 @@ TEST(SlopeOffset, is_that_of_the_triangle_which_covers_the_texel) {
     // A border has cut off a corner: what is left is drawn as two triangles, of which the second is
     // a tenth of a texel high at most, and its slope is told from a depth over this height.
     const auto at = [](double x, double y) {
-        return PicturePoint{
-            .place = {x, y}, .key = 0.1 + 0.01 * y, .depth_error = 0x1p-20};
+        return PicturePoint{.place = {x, y}, .key = 0.1 + 0.01 * y, .depth_error = 0x1p-20};
     };
     const std::vector<PicturePoint> polygon{at(0, 10), at(40, 0), at(40, 20), at(0, 10.1)};
     const PolygonOffset large = slope_offset(polygon, 1, 1, 0, {30, 10});

@@ -186,7 +186,7 @@ const std::vector<Breakage> breakages{
          g["nodes"][0]["camera"] = 0;
          g["cameras"] = json::array({{{"type", "orthographic"}}});
      },
-     " /cameras/0/orthographic/xmag", "is not above 0"},
+     " /cameras/0/orthographic", "is missing"},
     {"near_plane_behind_the_eye",
      [](json& g) {
          g["nodes"][0]["camera"] = 0;

@@ -4,8 +4,8 @@ const world = 'raster/traced/embree_world.cpp';
 const techniques = 'traced_epsilon,traced_offset,traced_skip';
 const shot = (wrong) => ({ file: rays, right: 'ray.direction = to_light / length;', wrong });
 export const faults = [
-  { name: 'ray_through_the_corner_of_a_pixel', file: rays, right: 'ray_direction(scene_.camera, x + 0.5, y + 0.5)', wrong: 'ray_direction(scene_.camera, x, y)' },
-  { name: 'ray_through_another_place_1e-3_pixels', file: rays, right: 'ray_direction(scene_.camera, x + 0.5, y + 0.5)', wrong: 'ray_direction(scene_.camera, x + 0.501, y + 0.5)' },
+  { name: 'ray_through_the_corner_of_a_pixel', file: rays, right: 'line_of_sight(scene_.camera, x + 0.5, y + 0.5)', wrong: 'line_of_sight(scene_.camera, x, y)' },
+  { name: 'ray_through_another_place_1e-3_pixels', file: rays, right: 'line_of_sight(scene_.camera, x + 0.5, y + 0.5)', wrong: 'line_of_sight(scene_.camera, x + 0.501, y + 0.5)' },
   { name: 'ray_to_a_light_1e-5_aside', ...shot('ray.direction = to_light / length; ray.direction.x += 1e-5F;') },
   { name: 'ray_not_normalised', ...shot('ray.direction = to_light;') },
   { name: 'ray_away_from_the_light', ...shot('ray.direction = to_light / -length;') },
