@@ -94,6 +94,18 @@ test('a drawing for a map holds its comparison, and one for a traced claim its r
   assert.ok(traced.svg.includes(`meets triangle ${hits[0].triangle}, ${digits(hits[0].t)}`));
 });
 
+test('before an orthographic camera no volumes are counted, and the drawing says none', () => {
+  const { text, record, svg } = explained('ordinary', '256,300',
+                                          ['--ortho', '8', '--technique', 'traced_skip,cube_map_six_pass']);
+  assert.doesNotMatch(text, /shadow volumes/);
+  assert.equal(record.inside, null);
+  assert.deepEqual(record.crossings, []);
+  const along = record.seen.point.map((x, i) => (x - record.eye[i]) / record.seen.depth);
+  along.forEach((x, i) => assert.ok(Math.abs(x - record.direction[i]) < 1e-9));
+  assert.match(svg, /<svg/);
+  assert.doesNotMatch(svg, /No side or cap/);
+});
+
 test('a drawing that cannot be written is an error that names the file', () => {
   const run = shadowproof(['explain', 'ordinary', '--pixel', '9,9', '--size', '32x32', '--svg',
                            'missing/x.svg']);

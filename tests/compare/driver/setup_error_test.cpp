@@ -53,6 +53,24 @@ TEST_F(CutFace, of_a_dark_cap_is_drawn_from_the_other_side) {
     EXPECT_EQ(error_of_cap(Crossing::Part::dark_cap, false, &far), error_of({2, 1, 0}));
 }
 
+/// A sliver of so little height over its base from (0, 0) to (1, 0), in pixels, whose corners are
+/// off by a millionth.
+std::array<PicturePoint, 3> sliver(double height) {
+    const auto at = [](const glm::dvec2& place, double key) {
+        return PicturePoint{.place = place, .key = key, .place_error = 1e-6};
+    };
+    return {at({0, 0}, 0.5), at({1, 0}, 0.6), at({0.5, height}, 0.55)};
+}
+
+/// Its area is the height's; corners that move by a millionth each, along both axes, take away as
+/// much as a height of some millionths.
+TEST(SetUp, knows_no_depth_where_rounded_corners_may_leave_no_area) {
+    EXPECT_TRUE(std::isinf(setup_error(sliver(1e-8), {0.5, 0}, 0)));
+    EXPECT_TRUE(std::isinf(setup_error(sliver(1e-6), {0.5, 0}, 0)));
+    EXPECT_LT(setup_error(sliver(1e-4), {0.5, 0}, 0), 0.1);
+    EXPECT_LT(setup_error(sliver(1e-1), {0.5, 0}, 0), 1e-4);
+}
+
 /// The driver's own arithmetic, over thin triangles of floats, finds no area in some: each of those
 /// is told.
 TEST(SetUp, that_finds_no_area_is_foreseen) {
