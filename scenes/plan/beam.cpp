@@ -3,6 +3,7 @@
 #include "scenes/driver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -120,6 +121,7 @@ Beam beam_to_rectangle(const Scene& scene, double largest, double depth) {
 }
 
 Beam beam_to_pyramid(const Scene& scene, double largest, double depth) {
+    assert(!scene.camera.is_orthographic());
     std::vector<BodyCorner> corners = rectangle(scene.camera, depth);
     const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
     corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
@@ -154,6 +156,7 @@ bool may_meet(const Beam& beam, const TriangleCorners& corners) {
 }
 
 PictureCone picture_cone(const Scene& scene) {
+    assert(!scene.camera.is_orthographic());
     const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
     PictureCone cone;
     for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye

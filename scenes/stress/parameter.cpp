@@ -51,10 +51,12 @@ std::vector<double> ladder(const StressParameter& parameter, const Scene& scene,
 
 namespace {
 
-std::string parameter_names() {
+/// Of all parameters, or of those that suit a scene.
+std::string parameter_names(const Scene* scene = nullptr) {
     std::string names;
     for (const StressParameter& each : stress_parameters())
-        names += (names.empty() ? "" : ", ") + std::string(each.name);
+        if (scene == nullptr || (each.take != nullptr && each.suits(*scene)))
+            names += (names.empty() ? "" : ", ") + std::string(each.name);
     return names;
 }
 
@@ -79,7 +81,7 @@ Scene stressed(Scene scene, const Stress& stress) {
                     fmt::format("give --{} instead", parameter->flag));
     if (!parameter->suits(scene))
         throw Error(words, fmt::format("does not suit scene {}", scene.name),
-                    "leave it out, or take one of " + parameter_names());
+                    "leave it out, or take one of " + parameter_names(&scene));
     if (!has_value(*parameter, scene, stress.value))
         throw Error(words, "is out of range",
                     fmt::format("its values are {}{}, from {} to {}", parameter->words,

@@ -94,17 +94,22 @@ TEST(OrthographicFaults, of_a_camera_that_is_a_little_off_are_caught) {
     }
 }
 
-/// A floor straight before the camera: depth is the same everywhere, and off by roundings alone.
-TEST(OrthographicFaults, of_depth_beyond_its_roundings_are_caught) {
+/// Seen from straight above, so that the floor has one depth, 20.
+Scene from_above(double near, double far) {
     Scene scene = in_parallel("ordinary");
     Camera& camera = scene.camera;
     camera.eye = {0, 20, 0};
     camera.forward = {0, -1, 0};
     camera.right = {1, 0, 0};
     camera.up = {0, 0, -1};
-    camera.near = 1;
-    camera.far = 33;
-    const TracedScene traced(std::move(scene));
+    camera.near = near;
+    camera.far = far;
+    return scene;
+}
+
+/// Off by roundings alone.
+TEST(OrthographicFaults, of_depth_beyond_its_roundings_are_caught) {
+    const TracedScene traced(from_above(1, 33));
     Gpu gpu(GlPlatform::osmesa);
     const Technique& technique = *find_technique("cube_map_six_pass");
     const Frame frame = render(technique, traced.scene, traced.plan, gpu);
@@ -147,20 +152,12 @@ TEST(OrthographicFaults, of_surfaces_beyond_the_planes_and_from_behind_are_caugh
     EXPECT_FALSE(with_planes(own.near, 0.5 * (nearest + deepest)));
 }
 
-/// A floor straight before the camera, in its far plane or a little before it. Whether rounding
-/// leaves it out there is the driver's; before, it is not.
+/// A floor in the far plane, or a little before it. Whether rounding leaves it out there is the
+/// driver's; before, it is not.
 TEST(OrthographicFaults, that_leave_out_a_floor_before_the_far_plane_are_caught) {
     for (const double beyond : {0.0, 1e-9, 0.01}) {
         SCOPED_TRACE(beyond);
-        Scene scene = in_parallel("ordinary");
-        Camera& camera = scene.camera;
-        camera.eye = {0, 20, 0};
-        camera.forward = {0, -1, 0};
-        camera.right = {1, 0, 0};
-        camera.up = {0, 0, -1};
-        camera.near = 0;
-        camera.far = 20 + beyond; // the floor's top is at height 0
-        const TracedScene traced(std::move(scene));
+        const TracedScene traced(from_above(0, 20 + beyond));
         Gpu gpu(GlPlatform::osmesa);
         Frame frame = render(*find_technique("cube_map_six_pass"), traced.scene, traced.plan, gpu);
         EXPECT_TRUE(is_explained(compared(traced, frame)));

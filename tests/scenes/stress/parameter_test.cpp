@@ -271,6 +271,20 @@ TEST(StressParameters, views_change_as_asked) {
     EXPECT_NEAR(closer.camera.eye.z, 8 - 0.5 * size_of(scene), 1e-12);
 }
 
+TEST(StressParameters, of_an_orthographic_view_keep_its_picture_and_ask_for_no_field_of_view) {
+    Scene scene = box_over_floor();
+    scene.camera.projection = Projection::orthographic;
+    scene.camera.half_height = 3;
+    scene.camera.near = 0;
+    const Scene larger = stressed(scene, {"scale", 1024});
+    for (const glm::dvec3 position : {scene.positions[0], scene.positions[9]})
+        EXPECT_LT(glm::distance(project(larger.camera, 1024.0 * position),
+                                project(scene.camera, position)),
+                  1e-9);
+    for (const char* name : {"field_of_view", "eye_distance", "eye_to_side", "near_plane"})
+        expect_refused(scene, {name, 0.5}, "does not suit");
+}
+
 TEST(StressParameters, what_cannot_be_is_refused_with_the_reason) {
     const Scene scene = box_over_floor();
     expect_refused(scene, {"wind", 1}, "no such parameter");

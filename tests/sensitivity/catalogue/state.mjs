@@ -42,7 +42,7 @@ export const faults = [
   { name: 'occluders_count_down', techniques: 'zp_plus', file, right: 'gl_.StencilOp(GL_KEEP, GL_KEEP, operation(+1, kind));', wrong: 'gl_.StencilOp(GL_KEEP, GL_KEEP, operation(-1, kind));' },
   { name: 'eye_count_one_more', techniques: 'zpass_eye_count', file, right: 'start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));', wrong: 'start_ = static_cast<std::uint8_t>(1 + volumes_around_eye(parts_.front()->scene));' },
   { name: 'eye_count_left_out', techniques: 'zpass_eye_count', file, right: 'start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));', wrong: ';' },
-  { name: 'no_ledge', techniques: 'zpass_capped', file, right: 'gl_.DepthRange(recipe_.depth_model.front, 1);', wrong: 'gl_.DepthRange(0, 1);' },
+  { name: 'no_ledge', techniques: 'zpass_capped', file: passes, right: 'gl.DepthRange(depth_model.front, 1);', wrong: 'gl.DepthRange(0, 1);' },
   { name: 'sum_depth_or_equal', techniques: 'zfail_float', file, right: 'const GLenum others = recipe_.depth_model.reversed() ? GL_LEQUAL : GL_GEQUAL;'.replace(/^.*= (.*);$/, '$1'), wrong: 'recipe_.depth_model.reversed() ? GL_LESS : GL_GREATER' },
   { name: 'stencil_of_the_light_before', techniques: bumps, file: passes, right: clearStencil, wrong: ';' },
   { name: 'another_light_starts_from_1', techniques: bumps, file: passes, right: clearStencil, wrong: 'const GLint one = value + 1; gl.ClearNamedFramebufferiv(target.surface.name(), GL_STENCIL, 0, &one);' },
