@@ -25,7 +25,7 @@ std::uint64_t differing_rays(const TracedRays& a, const TracedRays& b) {
         std::array<std::uint32_t, 15> words{pixel.seen, pixel.shot ? 1U : 0U, pixel.occluder};
         std::size_t next = 3;
         for (const float number :
-             {pixel.direction.x, pixel.direction.y, pixel.direction.z, pixel.depth, shadow.origin.x,
+             {pixel.line.x, pixel.line.y, pixel.line.z, pixel.depth, shadow.origin.x,
               shadow.origin.y, shadow.origin.z, shadow.direction.x, shadow.direction.y,
               shadow.direction.z, shadow.near, shadow.far})
             words[next++] = std::bit_cast<std::uint32_t>(number);
