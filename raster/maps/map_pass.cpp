@@ -74,28 +74,11 @@ Framebuffer make_face(const GlFunctions& gl, const MapPass& pass, std::size_t fa
     return framebuffer;
 }
 
-/// A sun's camera: window depth runs linearly from its near to its far plane, and w is 1.
-ClipTransform parallel_transform(const Camera& camera) {
-    const double depths = camera.far - camera.near;
-    glm::dmat4 clip_from_view(1);
-    clip_from_view[0][0] = 1 / camera.half_height;
-    clip_from_view[1][1] = 1 / camera.half_height;
-    clip_from_view[2][2] = -2 / depths;
-    clip_from_view[3][2] = -(camera.far + camera.near) / depths;
-    ClipTransform transform;
-    transform.origin = split(camera.eye);
-    transform.clip_from_relative =
-        glm::mat4(clip_from_view * glm::dmat4(view_from_eye_relative(camera)));
-    transform.light = transform.origin;
-    return transform;
-}
-
 /// The light's camera at one face. Points are relative to the light.
 ClipTransform transform_of(const Scene& scene, const MapModel& model, std::size_t face) {
     Scene seen_from_light;
     seen_from_light.lights = {chosen_light(scene)};
     seen_from_light.camera = map_camera(chosen_light(scene), model, face);
-    if (model.shape == MapModel::Shape::sun) return parallel_transform(seen_from_light.camera);
     return clip_transform(seen_from_light, map_depth_model(model));
 }
 

@@ -3,19 +3,20 @@ const pass = 'raster/maps/map_pass.cpp';
 const shadows = 'raster/maps/map_shadows.cpp';
 const sun = 'raster/glsl/maps/map_light_sun.frag';
 const test = 'raster/glsl/maps/map_test.glsl';
-const draws = 'return parallel_transform(seen_from_light.camera);';
-const camera = (change) => ({ file: pass, right: draws, wrong: `Camera& p = seen_from_light.camera; ${change}; ${draws}` });
+const draws = 'return clip_transform(seen_from_light, map_depth_model(model));';
+const camera = (change) => ({ file: pass, right: draws, wrong: `if (Camera& p = seen_from_light.camera; model.shape == MapModel::Shape::sun) { ${change}; } ${draws}` });
+const matrix = (right, wrong) => ({ file: 'scenes/camera.cpp', right, wrong });
 const placed = (wrong) => ({ file: sun, right: '0.5 * (place.xy + 1)', wrong });
 const compared = (wrong) => ({ file: test, right: '(nearer - planes.x) / (planes.y - planes.x)', wrong });
 const origin = (wrong) => ({ file: shadows, right: 'split(map_camera(chosen_light(scene), model, 0).eye)', wrong });
 export const faults = [
   // The map.
-  { name: 'sun_drawn_in_perspective', file: pass, right: draws, wrong: '' },
-  { name: 'sun_depths_run_backwards', file: pass, right: 'clip_from_view[2][2] = -2 / depths;', wrong: 'clip_from_view[2][2] = 2 / depths;' },
-  { name: 'sun_depths_not_moved_to_the_planes', file: pass, right: 'clip_from_view[3][2] = -(camera.far + camera.near) / depths;', wrong: 'clip_from_view[3][2] = -1;' },
-  { name: 'sun_depths_a_thousandth_off', file: pass, right: 'clip_from_view[2][2] = -2 / depths;', wrong: 'clip_from_view[2][2] = -2.002 / depths;' },
-  { name: 'sun_wider_by_a_thousandth', file: pass, right: 'clip_from_view[0][0] = 1 / camera.half_height;', wrong: 'clip_from_view[0][0] = 0.999 / camera.half_height;' },
-  { name: 'sun_higher_by_a_percent', file: pass, right: 'clip_from_view[1][1] = 1 / camera.half_height;', wrong: 'clip_from_view[1][1] = 0.99 / camera.half_height;' },
+  { name: 'sun_drawn_in_perspective', ...camera('p.projection = Projection::perspective') },
+  { name: 'sun_depths_run_backwards', ...matrix('-2 / (far - near)', '2 / (far - near)') },
+  { name: 'sun_depths_not_moved_to_the_planes', ...matrix('is_parallel ? middle : -2 * far * near / (far - near)', 'is_parallel ? -1 : -2 * far * near / (far - near)') },
+  { name: 'sun_depths_a_thousandth_off', ...matrix('-2 / (far - near)', '-2.002 / (far - near)') },
+  { name: 'sun_wider_by_a_thousandth', ...matrix('clip[0][0] = 1 / half.x;', 'clip[0][0] = (camera.is_orthographic() ? 0.999 : 1) / half.x;') },
+  { name: 'sun_higher_by_a_percent', ...matrix('clip[1][1] = 1 / half.y;', 'clip[1][1] = (camera.is_orthographic() ? 0.99 : 1) / half.y;') },
   { name: 'sun_map_mirrored', ...camera('p.right = -p.right') },
   { name: 'sun_map_upside_down', ...camera('p.up = -p.up') },
   { name: 'sun_map_rotated', ...camera('std::swap(p.right, p.up)') },
