@@ -31,6 +31,11 @@ struct DepthModel {
     }
     /// Whether what lies past the far plane is lost.
     bool clips_at_far() const { return finite() && !clamp; }
+    /// Whether the background is as far as the far plane: what lies past that is lost, or clamped
+    /// to the depth that is cleared. Else the background is further than all that is drawn.
+    bool background_at_far() const {
+        return clips_at_far() || (finite() && !(reversed() && front > 0));
+    }
     friend bool operator==(const DepthModel&, const DepthModel&) = default;
 };
 

@@ -80,21 +80,21 @@ double orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 }
 
 int side_of_edge(const glm::dvec4& light, const glm::dvec3& a, const glm::dvec3& b,
-                 const glm::dvec3& place) {
+                 const glm::dvec4& place) {
     const glm::dvec3 ab = b - a;
     const glm::dvec3 from_light = light.w * a - glm::dvec3(light);
-    const glm::dvec3 from_a = place - a;
+    const glm::dvec3 from_a = glm::dvec3(place) - place.w * a;
     const double value = glm::dot(glm::cross(from_light, ab), from_a);
     if (std::abs(value) > determinant_error(from_light, ab, from_a)) return value > 0 ? 1 : -1;
     const Rational from = rational(a);
     const Rational plane = cross(minus(rational(b), from), towards(light, from));
-    if (const int sign = sgn(dot(plane, minus(rational(place), from))); sign != 0) return sign;
+    if (const int sign = sgn(dot(plane, towards(place, from))); sign != 0) return sign;
     return side_of_move(plane);
 }
 
 int side_of_triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
-                     const glm::dvec3& place) {
-    const double side = orientation(a, b, c, glm::dvec4(place, 1));
+                     const glm::dvec4& place) {
+    const double side = orientation(a, b, c, place);
     if (side != 0) return side > 0 ? 1 : -1;
     const Rational from = rational(a);
     return side_of_move(cross(minus(rational(b), from), minus(rational(c), from)));

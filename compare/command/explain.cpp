@@ -158,22 +158,20 @@ std::string ray_text(const Scene& scene, const PixelRecord& record) {
     return text;
 }
 
-/// Empty where no volumes are counted.
 std::string ledger_text(const Scene& scene, const PixelRecord& record) {
-    if (!record.ledger) return {};
-    const RayCounts& counts = record.ledger->counts;
+    const RayCounts& counts = record.ledger.counts;
     std::string text = "  shadow volumes along the ray, by depth\n";
     text += fmt::format("    {:>14}  {:>6}  inside\n", "depth", "change");
     std::int32_t inside = counts.at_eye;
     text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "eye", "", inside);
-    for (const Crossing& crossing : record.ledger->crossings) {
+    for (const Crossing& crossing : record.ledger.crossings) {
         inside += crossing.change;
         text +=
             fmt::format("    {:>14.9g}  {:>+6}  {:>6}  {} of {}\n", crossing.depth, crossing.change,
                         inside, name_of(crossing.part), triangle_words(scene, crossing.triangle));
     }
     text += fmt::format("    {:>14}  {:>6}  {:>6}\n", "infinity", "", counts.at_infinity);
-    if (!record.ledger->adds_up)
+    if (!record.ledger.adds_up)
         text +=
             "    the depths are rounded, and rounding moved a crossing: the sums differ from the "
             "exact counts\n";

@@ -32,6 +32,9 @@ Corner between(const Corner& from, const Corner& to, double t, const Drawing& dr
     const glm::dvec3 larger = glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
     made.error = (1 - t) * from.error + t * to.error + 3 * v * larger;
     made.error.z += 3 * v * drawing.parallel_far * std::max(from.at.w, to.at.w); // z's constant
+    if (from.at.w != to.at.w)
+        made.w_error =
+            (1 - t) * from.w_error + t * to.w_error + 3 * v * std::max(from.at.w, to.at.w);
     made.numerator_error = (1 - t) * from.numerator_error + t * to.numerator_error +
                            3 * v * std::max(numerator(from), numerator(to));
     made.made_by_clipping = true;
@@ -63,14 +66,14 @@ double far_error(const Corner& corner, const Drawing& drawing) {
 // half the quotient of numerator and depth, and the inverse depth is what is left of it to 1, over
 // the near plane: both are rounded, each by itself, so that what moves a point along its ray in
 // reversed depth moves it by depth / near as much here. Parallel depth is a multiple of the
-// numerator, and w is 1. Where floats may put the
-// corner into the eye or behind it, as only those of faces that pass the eye that closely, it may
-// be anywhere in the picture.
+// numerator, and w is 1 but where clipping cuts what reaches to infinity; of what is clamped,
+// window depth is larger than 1, and rounds by as much more. Where floats may put the corner into
+// the eye or behind it, as only those of faces that pass the eye that closely, or to infinity, it
+// may be anywhere in the picture.
 PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing& drawing) {
     const glm::dvec2 half = half_extent(camera);
     const glm::dvec4& at = corner.at;
     const double divisor = camera.is_orthographic() ? at.w : at.z; // w of the clip coordinates
-    assert(!camera.is_orthographic() || at.w == 1);
     PicturePoint point{.place = {(at.x / divisor / half.x + 1) * 0.5 * camera.width,
                                  (1 - at.y / divisor / half.y) * 0.5 * camera.height},
                        .key = (camera.is_orthographic() ? at.z : at.w) / divisor,
@@ -82,10 +85,16 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing&
     const double scale = 0.5 * camera.height / camera.half_height;
     const double standard_near = drawing.standard_near;
     if (camera.is_orthographic()) {
-        point.place_error = std::max(corner.error.x, corner.error.y) * scale + 3 * v * pixels;
-        point.w_error = v;
-        point.depth_error =
-            near_error(corner, drawing) + window_depth_roundings * v * drawing.parallel_range;
+        const double w_error = corner.w_error / at.w;
+        const double spanned =
+            std::max({drawing.parallel_range, std::abs(point.key - drawing.parallel_near),
+                      std::abs(point.key - drawing.parallel_far)});
+        point.place_error = std::max(corner.error.x, corner.error.y) / at.w * scale +
+                            w_error * pixels + 3 * v * pixels;
+        point.w_error = (w_error + v) * point.inverse_w;
+        point.depth_error = near_error(corner, drawing) / at.w + w_error * std::abs(point.key) +
+                            window_depth_roundings * v * spanned;
+        if (!(at.w > corner.w_error)) point.place_error = std::numeric_limits<double>::infinity();
         return point;
     }
     const double depth_error = corner.error.z / at.z;
@@ -154,13 +163,14 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
         for (const double side : {-1.0, 1.0})
             clip([&](const Corner& c) {
                 const double w = camera.is_orthographic() ? c.at.w : c.at.z;
-                const double w_error = camera.is_orthographic() ? 0 : c.error.z;
+                const double w_error = camera.is_orthographic() ? c.w_error : c.error.z;
                 return side * c.at[axis] + half[axis] * w +
                        sign * (c.error[axis] + half[axis] * w_error);
             });
-    clip([&](const Corner& c) {
-        return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
-    });
+    if (std::isfinite(drawing.near))
+        clip([&](const Corner& c) {
+            return c.at.z - drawing.near * c.at.w + sign * near_error(c, drawing);
+        });
     if (std::isfinite(drawing.far))
         clip([&](const Corner& c) {
             return drawing.far * c.at.w - c.at.z + sign * far_error(c, drawing);
@@ -171,10 +181,12 @@ std::vector<PicturePoint> clipped_polygon(const Camera& camera, std::vector<View
 }
 
 Drawing drawing_of(const Scene& scene, const DepthModel& model, double far) {
-    return {.near = model.clamp ? 0 : scene.camera.near,
+    const double clamped = model.parallel ? -std::numeric_limits<double>::infinity() : 0;
+    return {.near = model.clamp ? clamped : scene.camera.near,
             .far = far,
             .offset = model.eye_relative ? 0 : glm::length(scene.camera.eye),
             .standard_near = model.reversed() || scene.camera.is_orthographic() ? 0 : model.near,
+            .parallel_near = model.parallel ? model.near : 0,
             .parallel_far = model.parallel ? model.far : 0,
             .parallel_range = model.parallel ? (model.far - model.near) / (1 - model.front) : 0};
 }

@@ -18,13 +18,16 @@ namespace shadowproof {
 
 /// The parameters of a drawing that affect clipping.
 struct Drawing {
-    double near = 0; ///< depths of planes that clip; 0 where depths are clamped instead
+    /// Depths of planes that clip. Where depths are clamped instead: the eye's, at which w is 0 or,
+    /// where lines of sight are parallel, minus infinity; and infinity.
+    double near = 0;
     double far = std::numeric_limits<double>::infinity();
     double offset = 0; ///< size of the eye's coordinates, where positions are transformed with them
     /// The projection's near plane where window depth rises with depth; 0 where it is reversed, or
     /// parallel.
     double standard_near = 0;
-    /// Of a parallel projection: its far plane, and the view depths that a window depth of 1 spans.
+    /// Of a parallel projection: its planes, and the view depths that a window depth of 1 spans.
+    double parallel_near = 0;
     double parallel_far = 0;
     double parallel_range = 0;
 };
@@ -52,6 +55,7 @@ struct PicturePoint {
 struct ViewCorner {
     glm::dvec4 at{0, 0, 0, 0};
     glm::dvec3 error{0, 0, 0};  ///< of right, up and forward
+    double w_error = 0;         ///< where clipping made a w that is neither 0 nor 1
     double numerator_error = 0; ///< of standard window depth's numerator, forward - 2 near w
     bool made_by_clipping = false;
     glm::dvec3 weights{0, 0, 0}; ///< as PicturePoint has them

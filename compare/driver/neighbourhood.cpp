@@ -42,13 +42,13 @@ struct Line {
     double distance(const glm::dvec2& place) const { return glm::dot(normal, place) + offset; }
 };
 
-std::vector<Line> lines_of(const std::vector<glm::dvec3>& planes, const glm::dvec3& centre,
+std::vector<Line> lines_of(const std::vector<SightPlane>& planes, const glm::dvec3& centre,
                            const glm::dvec3& right, const glm::dvec3& down) {
     std::vector<Line> lines;
-    for (const glm::dvec3& plane : planes) {
-        const glm::dvec2 normal(glm::dot(plane, right), glm::dot(plane, down));
+    for (const SightPlane& plane : planes) {
+        const glm::dvec2 normal(glm::dot(plane.normal, right), glm::dot(plane.normal, down));
         const double length = glm::length(normal);
-        if (length > 0) lines.push_back({normal / length, glm::dot(plane, centre) / length});
+        if (length > 0) lines.push_back({normal / length, plane.side(centre) / length});
     }
     return lines;
 }
@@ -90,7 +90,8 @@ void read_masks_in_all_ways(Neighbourhood& around) {
 
 // Each part that lies next to a line has a piece of it as a side, from one crossing to the next.
 // From the piece's middle, half the way to the nearest of all other lines leads into that part.
-std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<glm::dvec3> planes) {
+std::vector<glm::dvec3> rays_between(const Neighbourhood& around,
+                                     const std::vector<SightPlane>& planes) {
     constexpr std::size_t most_lines = 12;
     const glm::dvec3& centre = around.rays.front();
     const glm::dvec3 right = 0.5 * (around.corners[1] - around.corners[0]);

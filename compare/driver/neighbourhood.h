@@ -2,6 +2,7 @@
 // cover it when their corners are moved by as much.
 #pragma once
 
+#include "reference/predict/sight_plane.h"
 #include "reference/trace/trace.h"
 #include "scenes/scene.h"
 
@@ -37,7 +38,8 @@ void read_masks_in_all_ways(Neighbourhood& around);
 /// Planes through the eye divide the neighbourhood into parts. Gives one ray within each part that
 /// lies next to a plane: however thin, such a part may be drawn at the pixel. If there are many
 /// planes, only those that pass next to the pixel's centre are used.
-std::vector<glm::dvec3> rays_between(const Neighbourhood& around, std::vector<glm::dvec3> planes);
+std::vector<glm::dvec3> rays_between(const Neighbourhood& around,
+                                     const std::vector<SightPlane>& planes);
 
 /// Largest difference of a ray's component from the centre's.
 double spread(const Neighbourhood& around);

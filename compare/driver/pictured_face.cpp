@@ -124,9 +124,12 @@ PixelRun ConvexRegion::row(int y, int width) const {
 namespace {
 
 /// Whether floats determine the direction in which a corner lies. If not, it may be drawn anywhere.
-/// Where lines of sight are parallel, a corner that is not at infinity has its place.
+/// Where lines of sight are parallel, a corner that is not at infinity has its place, and one that
+/// is lies in the direction of its place.
 bool has_direction(const PictureMaking& making, const ViewCorner& corner) {
-    if (making.camera.is_orthographic() && corner.at.w > 0) return true;
+    if (making.camera.is_orthographic())
+        return corner.at.w > 0 ||
+               glm::length(glm::dvec2(corner.error)) < 0.25 * glm::length(glm::dvec2(corner.at));
     return glm::length(corner.error) < 0.25 * glm::length(glm::dvec3(corner.at));
 }
 

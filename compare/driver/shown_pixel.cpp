@@ -14,8 +14,10 @@ ShownPixel shown_pixel(const Frame& frame, double far, int x, int y, double reac
     ShownPixel pixel{{x + 0.5, y + 0.5}, reach, frame.triangle.at(x, y), 0};
     if (pixel.triangle != no_triangle)
         pixel.nearness = nearness_of_window(frame.depth_model, frame.depth.at(x, y));
-    else if (frame.depth_model.finite())
+    else if (frame.depth_model.background_at_far())
         pixel.nearness = nearness_of_depth(frame.depth_model, far);
+    else if (frame.depth_model.parallel)
+        pixel.nearness = -std::numeric_limits<double>::infinity();
     return pixel;
 }
 

@@ -30,22 +30,29 @@ double change_between(double from, double to, const Predicate& holds) {
 // The error is a square of the depth, or proportional to it, plus the float transform's terms, each
 // the size of a linear function: a convex function of the depth t. A pixel's width is w t. So
 // error(t) / t - w decreases to its lowest place and increases from there, or only decreases: the
-// depths that suffice are one interval. The place is found by thirds.
+// depths that suffice are one interval. The place is found by thirds. Parallel lines of sight have
+// pixels of one width w, and error(t) - w does the same; their depths may begin at 0.
 SufficientDepths sufficient_depths(const Scene& scene, const DepthModel& depth_model) {
     const Camera& camera = scene.camera;
+    const bool is_parallel = camera.is_orthographic();
     const double width_of_pixel = 2 * camera.half_height / camera.height;
-    const auto relative_error = [&](double t) {
-        return depth_error(scene, depth_model, camera.eye + t * camera.forward) / t;
+    const auto error_in_pixels = [&](double t) {
+        return depth_error(scene, depth_model, camera.eye + t * camera.forward) /
+               (is_parallel ? 1 : t);
     };
-    const auto suffices = [&](double t) { return relative_error(t) <= width_of_pixel; };
+    const auto suffices = [&](double t) { return error_in_pixels(t) <= width_of_pixel; };
     double low = camera.near;
     double high = greatest_depth;
-    for (int i = 0; i < 100; ++i) { // by the depth's logarithm: depths differ by many orders
+    for (int i = 0; i < (is_parallel ? 300 : 100); ++i) {
+        // In perspective by the depth's logarithm: depths differ by many orders.
         const double ratio = std::cbrt(high / low);
-        if (relative_error(low * ratio) <= relative_error(high / ratio))
-            high /= ratio;
+        const double third = (high - low) / 3;
+        const double nearer = is_parallel ? low + third : low * ratio;
+        const double further = is_parallel ? high - third : high / ratio;
+        if (error_in_pixels(nearer) <= error_in_pixels(further))
+            high = further;
         else
-            low *= ratio;
+            low = nearer;
     }
     const double best = suffices(camera.near) ? camera.near : low;
     if (!suffices(best))

@@ -85,10 +85,8 @@ PixelRecord record_pixel(const TracedScene& traced, int x, int y) {
     record.depth = record.seen == no_triangle
                        ? std::numeric_limits<double>::infinity()
                        : depth_on_triangle(tracer.scene(), record.seen, line);
-    if (!camera.is_orthographic()) {
-        record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
-        record.depth_margin = depth_margin(*record.ledger, record.seen);
-    }
+    record.ledger = pixel_ledger(tracer, truth, traced.depths(), x, y);
+    record.depth_margin = depth_margin(record.ledger, record.seen);
     record.pixel_margin = pixel_margin(truth.visibility, x, y);
     return record;
 }
@@ -97,10 +95,8 @@ PixelRecord in_units(PixelRecord record, double unit) {
     record.far *= unit;
     record.start *= unit;
     record.depth *= unit;
-    if (record.ledger) {
-        record.ledger->surface *= unit;
-        for (Crossing& crossing : record.ledger->crossings) crossing.depth *= unit;
-    }
+    record.ledger.surface *= unit;
+    for (Crossing& crossing : record.ledger.crossings) crossing.depth *= unit;
     if (record.depth_margin) *record.depth_margin *= unit;
     return record;
 }

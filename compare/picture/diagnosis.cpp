@@ -13,11 +13,9 @@ Diagnosed diagnose(const TracedScene& traced, const Frame& frame,
     if (trial.wrong() == 0) return {{}, Image<std::uint8_t>(cause.width, cause.height)};
     const VolumeCounts counts(traced);
     using Try = std::function<void()>;
-    // Volumes are counted along lines of sight that meet in the eye.
-    const bool counts_volumes = !traced.scene().camera.is_orthographic();
     const auto try_volumes = [&] {
         for (const auto try_one : {try_counters, try_near_plane, try_far_plane, try_length})
-            if (counts_volumes && !trial.is_settled()) try_one(trial, counts);
+            if (!trial.is_settled()) try_one(trial, counts);
     };
     // The cheap ones first: once one explains all and contradicts nothing, no other is tried.
     for (const Try& attempt : std::initializer_list<Try>{

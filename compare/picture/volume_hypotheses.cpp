@@ -21,6 +21,13 @@ Counting behind(const std::function<void(Counting&)>& change) {
     return counting;
 }
 
+/// Of the near planes that are tried: the camera's, or where an orthographic one has it at 0, one
+/// next to that.
+double middle_near(const Trial& trial) {
+    const double near = trial.scene().camera.near;
+    return near > 0 ? near : trial.traced().far() / 256;
+}
+
 void try_bits(Trial& trial, const VolumeCounts& counts) {
     const DepthModel model = without_far_plane(trial.scene().camera.near);
     const auto of_bits = [&](int bits) {
@@ -56,7 +63,7 @@ void try_counters(Trial& trial, const VolumeCounts& counts) {
 
 void try_near_plane(Trial& trial, const VolumeCounts& counts) {
     const Counting in_front{.test = Test::depth_pass, .dark_cap = false};
-    const double near = trial.scene().camera.near;
+    const double near = middle_near(trial);
     trial.search(
         {.hypothesis = "zpass",
          .parameter = "near",
@@ -86,7 +93,7 @@ void try_far_plane(Trial& trial, const VolumeCounts& counts) {
                           return fmt::format(
                               "z-fail, which loses what lies past the far plane at {:.4g}", value);
                       }},
-                 4 * near, 4 * trial.traced().far());
+                 4 * middle_near(trial), 4 * trial.traced().far());
 }
 
 void try_length(Trial& trial, const VolumeCounts& counts) {
@@ -104,7 +111,7 @@ void try_length(Trial& trial, const VolumeCounts& counts) {
                           return fmt::format("shadow volumes that end {:.4g} behind their casters",
                                              value);
                       }},
-                 near, 2 * far);
+                 middle_near(trial), 2 * far);
 }
 
 } // namespace shadowproof

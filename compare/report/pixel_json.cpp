@@ -29,10 +29,9 @@ Json technique_json(const Scene& scene, const TechniqueAtPixel& technique) {
     return json;
 }
 
-/// How many volumes points of the ray are in; null where none are counted.
+/// How many volumes points of the ray are in.
 Json inside_json(const PixelRecord& record) {
-    if (!record.ledger) return nullptr;
-    const RayCounts& counts = record.ledger->counts;
+    const RayCounts& counts = record.ledger.counts;
     const bool seen = record.seen != no_triangle;
     return {{"eye", counts.at_eye},
             {"near", counts.at_near},
@@ -56,6 +55,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
               {"height", camera.height},
               {"eye", vector_json(record.start)},
               {"direction", vector_json(record.direction)},
+              {"orthographic", camera.is_orthographic()},
               {"near", camera.near},
               {"far", record.far},
               {"light", light_json(chosen_light(scene))},
@@ -68,7 +68,7 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
                 {"pixels", optional_json(record.pixel_margin)}}},
               {"inside", inside_json(record)},
               {"crossings", Json::array()},
-              {"adds_up", !record.ledger || record.ledger->adds_up},
+              {"adds_up", record.ledger.adds_up},
               {"notes", scene.notes},
               {"techniques", Json::array()}};
     if (seen) {
@@ -78,9 +78,8 @@ nlohmann::ordered_json to_json(const Scene& scene, const PixelRecord& record,
         json["seen"]["faces_light"] = record.faces_light;
         if (chosen_light(scene).kind == Light::Kind::spot) json["seen"]["in_cone"] = record.in_cone;
     }
-    if (record.ledger)
-        for (const Crossing& crossing : record.ledger->crossings)
-            json["crossings"].push_back(crossing_json(scene, crossing, {}));
+    for (const Crossing& crossing : record.ledger.crossings)
+        json["crossings"].push_back(crossing_json(scene, crossing, {}));
     for (const TechniqueAtPixel& technique : techniques)
         json["techniques"].push_back(technique_json(scene, technique));
     return json;

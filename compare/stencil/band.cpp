@@ -9,15 +9,15 @@ namespace shadowproof {
 
 std::vector<glm::dvec3> rays_between_outlines(const PixelVolumes& volumes, const Frame& frame,
                                               const Neighbourhood& around) {
-    std::vector<glm::dvec3> planes = volumes.counted.outlines(around.corners);
-    const auto add = [&](const std::vector<glm::dvec3>& more) {
+    std::vector<SightPlane> planes = volumes.counted.outlines(around.corners);
+    const auto add = [&](const std::vector<SightPlane>& more) {
         planes.insert(planes.end(), more.begin(), more.end());
     };
     // Volumes left open at infinity are counted to there, and a side ends in its vanishing line.
     if (tally_of_dark_caps(frame.counted->counting, frame.depth_model) == Tally::lost_cap)
         add(volumes.counted.vanishing_lines(around.corners));
     if (volumes.ideal != nullptr) add(volumes.ideal->outlines(around.corners));
-    return rays_between(around, std::move(planes));
+    return rays_between(around, planes);
 }
 
 PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Frame& frame,

@@ -58,8 +58,10 @@ public:
         : judged_(judged), picture_(picture), faces_(picture), pixels_(pixels),
           by_row_(pixels, picture.casters.camera.height),
           roundings_(window_roundings(judged.frame.depth_model)),
-          nearest_(judged.frame.depth_model.clamp ? std::numeric_limits<double>::infinity()
-                                                  : 1 / judged.traced.scene().camera.near) {}
+          nearest_(judged.frame.depth_model.clamp
+                       ? std::numeric_limits<double>::infinity()
+                       : nearness_of_depth(judged.frame.depth_model,
+                                           judged.traced.scene().camera.near)) {}
 
     std::size_t count() const { return faces_.count(); }
 
@@ -77,7 +79,7 @@ private:
     std::span<const ShownPixel> pixels_;
     PixelsByRow by_row_;
     WindowRoundings roundings_;
-    double nearest_; ///< inverse depth at which faces are clipped
+    double nearest_; ///< nearness at which faces are clipped
 
     /// One triangle, or both of a side. Those share an edge: they do not overlap, or have opposite
     /// signs, wherever they are drawn, and so count once at most.

@@ -13,23 +13,37 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+glm::dvec3 ahead_of_eye(const Camera& camera, double depth) {
+    return camera.eye + depth * camera.forward;
+}
+
 } // namespace
 
-double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction) {
-    const double depth = depth_on_triangle(scene, triangle, direction);
-    return depth > 0 ? depth : infinity;
+double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line) {
+    const double depth = depth_on_triangle(scene, triangle, line);
+    const bool is_ahead = scene.camera.is_orthographic() ? std::isfinite(depth) : depth > 0;
+    return is_ahead ? depth : infinity;
+}
+
+// On a ray D a plane is met at a depth that is inverse to D . plane; not at all where that changes
+// its sign. A line that starts apart by d meets it nearer by d . plane over D . plane.
+double face_depth(const Camera& camera, const Crossing& crossing, const glm::dvec3& line,
+                  const glm::dvec3& other) {
+    if (camera.is_orthographic())
+        return crossing.depth -
+               glm::dot(other - line, crossing.plane) / glm::dot(camera.forward, crossing.plane);
+    const double ratio = glm::dot(line, crossing.plane) / glm::dot(other, crossing.plane);
+    return ratio > 0 ? crossing.depth * ratio : infinity;
 }
 
 // A standard infinite projection's depths round to 1, what is cleared to, as soon as n / t is
 // within the error of 1.
 DepthRange FaceDepths::background() const {
     const DepthModel& model = frame_.depth_model;
-    if (model.projection == DepthModel::Projection::infinite_reversed)
-        return {infinity, infinity, infinity};
+    if (model.reversed() && !model.background_at_far()) return {infinity, infinity, infinity};
     if (model.projection == DepthModel::Projection::infinite)
         return {infinity, model.near / depth_roundings, infinity};
-    const glm::dvec3 point = scene_.camera.eye + far_ * scene_.camera.forward;
-    const double q = depth_error(scene_, model, point);
+    const double q = depth_error(scene_, model, ahead_of_eye(scene_.camera, far_));
     return {far_, far_ - q, far_ + q};
 }
 
@@ -40,29 +54,28 @@ DepthRange FaceDepths::surface(std::uint32_t triangle) const {
     if (!std::isfinite(setup) ||
         std::isnan(depth_on_triangle(scene_, triangle, around_.rays.front())))
         return {0, -infinity, infinity};
-    for (const glm::dvec3& direction : around_.corners) {
-        const double t = plane_depth(scene_, triangle, direction);
-        const double slope_error = std::isfinite(t) ? setup * t * t : 0;
+    for (const glm::dvec3& line : around_.corners) {
+        const double t = plane_depth(scene_, triangle, line);
+        const double slope_error = std::isfinite(t) ? setup * depths_of_key(t) : 0;
         range.include(t, stored_depth_error(frame_.depth_model, std::min(t, far_)) + slope_error);
     }
     return range;
 }
 
-// On a ray D a plane is met at a depth that is inverse to D . plane; not at all where that changes
-// its sign.
-DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& direction) const {
+DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& line) const {
     DepthRange range{crossing.depth, crossing.depth, crossing.depth};
     range.include(crossing.depth, setup_error_at(crossing));
-    const double here = glm::dot(direction, crossing.plane);
-    for (const glm::dvec3& other : around_.corners) {
-        const double ratio = here / glm::dot(other, crossing.plane);
-        range.include(ratio > 0 ? crossing.depth * ratio : infinity, 0);
-    }
+    for (const glm::dvec3& other : around_.corners)
+        range.include(face_depth(scene_.camera, crossing, line, other), 0);
     return range;
 }
 
+double FaceDepths::depths_of_key(double depth) const {
+    return frame_.depth_model.parallel ? 1 : depth * depth;
+}
+
 double FaceDepths::setup_error_at(const Crossing& crossing) const {
-    return plane_error(crossing) * crossing.depth * crossing.depth;
+    return plane_error(crossing) * depths_of_key(crossing.depth);
 }
 
 double FaceDepths::clip_far() const {
@@ -70,9 +83,8 @@ double FaceDepths::clip_far() const {
 }
 
 double FaceDepths::clip_depth(double depth, int move) const {
-    const Camera& camera = scene_.camera;
     return depth +
-           move * depth_error(scene_, frame_.depth_model, camera.eye + depth * camera.forward);
+           move * depth_error(scene_, frame_.depth_model, ahead_of_eye(scene_.camera, depth));
 }
 
 CoveredPixel FaceDepths::covered_pixel() const {

@@ -17,9 +17,12 @@
 
 namespace shadowproof {
 
-/// Depth at which a ray from the eye meets a triangle's plane; infinite where that is behind the
-/// eye.
-double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& direction);
+/// Depth at which a line of sight meets a triangle's plane; infinite where that is behind the eye.
+double plane_depth(const Scene& scene, std::uint32_t triangle, const glm::dvec3& line);
+
+/// Depth at which another line of sight than the crossing's own, `line`, meets its plane; likewise.
+double face_depth(const Camera& camera, const Crossing& crossing, const glm::dvec3& line,
+                  const glm::dvec3& other);
 
 struct DepthRange {
     double nominal = 0; ///< on the sample's own ray
@@ -49,12 +52,12 @@ public:
     DepthRange background() const;
     /// A triangle's plane over the neighbourhood; the nominal depth is left at zero.
     DepthRange surface(std::uint32_t triangle) const;
-    /// A volume face's plane over the neighbourhood, met on a ray of direction `direction`.
-    DepthRange face(const Crossing& crossing, const glm::dvec3& direction) const;
+    /// A volume face's plane over the neighbourhood, met on the line of sight `line`.
+    DepthRange face(const Crossing& crossing, const glm::dvec3& line) const;
 
     /// How far off the planes of both are set up, in view depth, where a ray meets them.
     double setup_error_at(std::uint32_t triangle, double depth) const {
-        return plane_error(triangle) * depth * depth;
+        return plane_error(triangle) * depths_of_key(depth);
     }
     double setup_error_at(const Crossing& crossing) const;
 
@@ -78,6 +81,8 @@ private:
     mutable std::map<std::pair<Crossing::Part, std::uint32_t>, double> setup_of_face_;
     mutable std::unordered_map<std::uint32_t, double> setup_of_triangle_;
 
+    /// The change of view depth with the key of picture points (clipped_polygon.h).
+    double depths_of_key(double depth) const;
     double plane_error(const Crossing& face) const;
     double plane_error(std::uint32_t triangle) const;
 };

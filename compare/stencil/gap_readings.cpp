@@ -24,8 +24,8 @@ void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
     for (const std::int32_t start : pixel.starts())
         for (const std::int64_t count :
              possible_counts(possible, start, pixel.dark_caps(sample), pixel.counting()))
-            readings.push_back({count, sample.ideal, truth[0].in_cone, true, false,
-                                sample.direction, sample.depth});
+            readings.push_back(
+                {count, sample.ideal, truth[0].in_cone, true, false, sample.line, sample.depth});
 }
 
 } // namespace shadowproof

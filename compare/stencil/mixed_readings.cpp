@@ -56,7 +56,7 @@ void add_mixed_samples(const PixelFaces& pixel, std::span<const RayTruth> truth,
     for (const Sum& sum : sums)
         for (const std::int64_t count :
              possible_counts_of_sum(possible, sum.start, sum.dark_caps, pixel.counting(), sum.sum))
-            readings.push_back({count, sum.ideal, sum.in_cone, false, false, sample.direction,
+            readings.push_back({count, sum.ideal, sum.in_cone, false, false, sample.line,
                                 sample.depth, sum.off_ray});
 }
 

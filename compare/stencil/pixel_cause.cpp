@@ -52,7 +52,7 @@ std::optional<PixelCause> cause_at_centre(const CountedClaim& judged, PixelPlace
 std::optional<PixelCause> cause_of_reading(const CountedClaim& judged, const Reading& reading,
                                            std::uint32_t shown, const Neighbourhood& around,
                                            Visibility true_visibility) {
-    const SurfaceRay ray{reading.direction, reading.depth, shown, around.corners};
+    const SurfaceRay ray{reading.line, reading.depth, shown, around.corners};
     // Steps that a counter lost at its limits are not faces.
     const bool saturates = judged.counting().operation == Counting::Operation::saturate;
     const std::int64_t off_ray =
@@ -130,7 +130,7 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
             algorithmic = cause_of_reading(judged, reading, shown, around, truth_of_shown);
         if (!algorithmic && reading.by_rounding &&
             claim_by(judged.prediction.count_without(
-                {}, {reading.direction, reading.depth, shown, around.corners})) == truth_of_shown) {
+                {}, {reading.line, reading.depth, shown, around.corners})) == truth_of_shown) {
             mended_exactly = true;
             mended_by_depth = mended_by_depth && reading.by_depth;
         }

@@ -36,11 +36,11 @@ PixelFaces::PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const 
     starts_ = possible_starts();
 }
 
-bool PixelFaces::take(const glm::dvec3& direction, const RayTruth& truth, Sample& sample) const {
+bool PixelFaces::take(const glm::dvec3& line, const RayTruth& truth, Sample& sample) const {
     bool moved = false;
-    const std::optional<double> depth = shown_depth(truth, direction, moved);
+    const std::optional<double> depth = shown_depth(truth, line, moved);
     if (!depth) return false;
-    sample.direction = direction;
+    sample.line = line;
     sample.depth = *depth;
     sample.in_cone = truth.in_cone;
     sample.ideal = ideal_depth(sample, sample.crossings);
@@ -51,7 +51,7 @@ bool PixelFaces::take(const glm::dvec3& direction, const RayTruth& truth, Sample
     const bool misordered = !has_holes_filled && truth.triangle == shown_ &&
                             truth.visibility == Visibility::lit && sample.ideal != 0;
     sample.moved = moved || misordered;
-    volumes_.counted.crossings(direction, sample.crossings);
+    volumes_.counted.crossings(line, sample.crossings);
     return true;
 }
 
@@ -92,15 +92,15 @@ std::vector<std::uint32_t> PixelFaces::all_in_front() const {
 /// The depth of the shown surface where the pixel is covered as a sample is, if it may be seen
 /// there: it is what the sample sees, or it may cover the pixel and what the sample sees may come
 /// out behind it or leave a gap.
-std::optional<double> PixelFaces::shown_depth(const RayTruth& truth, const glm::dvec3& direction,
+std::optional<double> PixelFaces::shown_depth(const RayTruth& truth, const glm::dvec3& line,
                                               bool& moved) const {
     if (truth.triangle == shown_) return shown_ == no_triangle ? shown_range_.nominal : truth.depth;
     if (!may_cover_) return std::nullopt;
     const double depth =
-        shown_ == no_triangle ? shown_range_.nominal : plane_depth(scene_, shown_, direction);
+        shown_ == no_triangle ? shown_range_.nominal : plane_depth(scene_, shown_, line);
     if (truth.triangle == no_triangle) return depth;
     // Without area it has no plane; its line passes the pixel where the sample's surface is.
-    if (shown_ != no_triangle && std::isnan(depth_on_triangle(scene_, shown_, direction))) {
+    if (shown_ != no_triangle && std::isnan(depth_on_triangle(scene_, shown_, line))) {
         moved = true;
         return truth.depth;
     }
@@ -118,14 +118,17 @@ std::int64_t PixelFaces::flat_volumes_around(const Sample& sample) const {
 /// the volume's thickness, the error of depths and the lateral error allow.
 bool PixelFaces::may_lie_in(const FlatVolume& flat, const Sample& sample) const {
     if (!flat.faces_light || !std::isfinite(sample.depth)) return false;
-    const glm::dvec3 point = scene_.camera.eye + sample.depth * sample.direction;
+    const Camera& camera = scene_.camera;
+    const glm::dvec3 point = point_on(camera, sample.line, sample.depth);
     const double error = depth_error(scene_, frame_.depth_model, point);
     double sideways = 0;
     for (const glm::dvec3& corner : around_.corners)
-        sideways = std::max(sideways, std::abs(glm::dot(flat.normal, corner - sample.direction)) *
-                                          sample.depth);
+        sideways = std::max(
+            sideways,
+            std::abs(glm::dot(flat.normal, point_on(camera, corner, sample.depth) - point)));
     return std::abs(glm::dot(flat.normal, point - flat.corner)) <=
-           flat.thickness + sideways + error * std::abs(glm::dot(flat.normal, sample.direction));
+           flat.thickness + sideways +
+               error * std::abs(glm::dot(flat.normal, direction_of(camera, sample.line)));
 }
 
 /// A light cap covers what its own surface covers, at the same depth bit for bit: it is in front of
@@ -156,10 +159,9 @@ bool PixelFaces::is_nominally_in_front(const Crossing& crossing, const Sample& s
 /// those along its ray. A light cap before the near plane is in front, as its surface is not seen.
 std::int64_t PixelFaces::ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const {
     RegionLedger& ledger = volumes_.ideal != nullptr ? *volumes_.ideal : volumes_.counted;
-    ledger.crossings(sample.direction, crossings);
+    ledger.crossings(sample.line, crossings);
     std::int64_t s = volumes_.ideal_at_eye;
-    if (volumes_.masked != nullptr)
-        s -= volumes_.masked->ideal_let_through(sample.direction, shown_);
+    if (volumes_.masked != nullptr) s -= volumes_.masked->ideal_let_through(sample.line, shown_);
     for (const Crossing& crossing : crossings) {
         const bool before_near = crossing.depth < scene_.camera.near;
         if (is_nominally_in_front(crossing, sample) &&
@@ -187,8 +189,8 @@ std::vector<std::int32_t> PixelFaces::possible_starts() const {
         return {start_of(counting(), volumes_.counted_at_eye, 0)};
     std::vector<std::int32_t> all;
     std::vector<Crossing> crossings;
-    for (const glm::dvec3& direction : around_.rays) {
-        volumes_.counted.crossings(direction, crossings);
+    for (const glm::dvec3& line : around_.rays) {
+        volumes_.counted.crossings(line, crossings);
         for (const int move : {0, -1, 1}) {
             const std::int32_t start = depth_at_near(crossings, move);
             if (std::find(all.begin(), all.end(), start) == all.end()) all.push_back(start);
@@ -227,7 +229,7 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample,
         const bool is_cut = !pass && crossing.depth >= clip.far;
         const bool maybe_cut = !pass && crossing.depth >= clip.nearest_far;
         const bool behind = is_never_in_front(crossing);
-        const DepthRange range = depths_.face(crossing, sample.direction);
+        const DepthRange range = depths_.face(crossing, sample.line);
         // What is seen through a gap between surfaces is seen through the same gap between their
         // caps.
         if (behind && crossing.triangle != shown_ && range.upper < shown_range_.lower) continue;

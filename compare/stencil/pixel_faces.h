@@ -35,7 +35,7 @@ struct PixelVolumes {
 
 /// What the pixel shows if it is covered as one ray is.
 struct Sample {
-    glm::dvec3 direction{0, 0, 0};
+    glm::dvec3 line{0, 0, 0};
     double depth = 0;       ///< view depth of the shown surface
     bool in_cone = true;    ///< as Reading::in_cone
     bool moved = false;     ///< only depths that are rounded show it, or order its faces so
@@ -76,7 +76,7 @@ public:
 
     /// Whether the shown surface may be seen where the pixel is covered as the ray is. If so, fills
     /// `sample`.
-    bool take(const glm::dvec3& direction, const RayTruth& truth, Sample& sample) const;
+    bool take(const glm::dvec3& line, const RayTruth& truth, Sample& sample) const;
 
     /// Where the clipping planes may lie: their own depths, both nearer, both further.
     std::array<ClipDepths, 3> clip_depths() const;
@@ -124,7 +124,7 @@ private:
     bool are_displaced(const std::vector<std::uint32_t>& triangles) const;
     bool is_displaced_cap(const Crossing& crossing, const DepthRange& range) const;
     std::vector<std::uint32_t> all_in_front() const;
-    std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& direction,
+    std::optional<double> shown_depth(const RayTruth& truth, const glm::dvec3& line,
                                       bool& moved) const;
     bool may_lie_in(const FlatVolume& flat, const Sample& sample) const;
     bool is_never_in_front(const Crossing& crossing) const;

@@ -15,8 +15,6 @@ namespace shadowproof {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The surface shown at a pixel and the faces of volumes around it, a pixel to each side.
 class Surroundings {
 public:
@@ -74,11 +72,11 @@ public:
             return pixel_.flat_volumes_around(sample) > 0 ||
                    std::ranges::any_of(
                        sample.crossings,
-                       [&](const Crossing& face) { return meets_clip(face, sample.direction); }) ||
+                       [&](const Crossing& face) { return meets_clip(face, sample.line); }) ||
                    std::ranges::any_of(pixel_.candidates(sample, pixel_.clip_depths().front()),
                                        [&](const CandidateFace& face) {
                                            return !face.certain &&
-                                                  meets_shown(face.crossing, sample.direction);
+                                                  meets_shown(face.crossing, sample.line);
                                        });
         });
     }
@@ -135,8 +133,7 @@ private:
                const std::function<double(const glm::dvec3& at)>& depth_of_other,
                double error_of_other) const {
         const auto gap = [&](const glm::dvec3& at) {
-            const double ratio = glm::dot(ray, face.plane) / glm::dot(at, face.plane);
-            return (ratio > 0 ? face.depth * ratio : infinity) - depth_of_other(at);
+            return face_depth(scene().camera, face, ray, at) - depth_of_other(at);
         };
         double least = gap(ray);
         double most = least;

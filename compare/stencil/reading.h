@@ -14,7 +14,7 @@ struct Reading {
     bool by_rounding = false; ///< only if depths are rounded so, or slivers snapped
     bool by_depth = false;    ///< only if depths of faces are rounded so
     /// The ray whose faces were counted, and the view depth of the surface shown there.
-    glm::dvec3 direction{0, 0, 0};
+    glm::dvec3 line{0, 0, 0};
     double depth = 0;
     /// Sum of the faces counted less that of the ray's own faces, in a counter without limits.
     std::int64_t off_ray = 0;

@@ -53,7 +53,7 @@ void add_clipped(const PixelFaces& pixel, const Sample& sample, const ClipDepths
         const std::int64_t off = found.sum - nominal.sum;
         const bool by_depth = clip.moved || found != nominal;
         readings.push_back({found.count, sample.ideal + off, sample.in_cone,
-                            sample.moved || by_depth, by_depth, sample.direction, sample.depth, off,
+                            sample.moved || by_depth, by_depth, sample.line, sample.depth, off,
                             by_near, by_far});
     };
     if (!clip.moved) add(nominal);

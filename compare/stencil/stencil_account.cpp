@@ -43,11 +43,11 @@ CounterAtPixel counter_at(const Frame& frame, const Prediction& prediction,
     at.other_volumes = !volumes.are_the_casters();
     if (at.other_volumes)
         volumes.ledger(corner_lines(volumes.casters().camera, x, y, x + 1, y + 1))
-            .crossings(record.direction, at.crossings);
+            .crossings(line_of_sight(volumes.casters().camera, x + 0.5, y + 0.5), at.crossings);
     else
-        at.crossings = record.ledger->crossings;
+        at.crossings = record.ledger.crossings;
     for (const Crossing& crossing : at.crossings)
-        at.tallies.push_back(tally(crossing, record.ledger->surface, record.seen, record.far,
+        at.tallies.push_back(tally(crossing, record.ledger.surface, record.seen, record.far,
                                    counting, frame.depth_model));
     at.dark_caps = tally_of_dark_caps(counting, frame.depth_model);
     at.dark_cap_count = dark_caps_at_infinity(counting, prediction.depths().at_eye, at.crossings);
@@ -92,7 +92,7 @@ std::string other_volumes_words(const CounterAtPixel& at, const PixelRecord& rec
     const auto same = [](const Crossing& a, const Crossing& b) {
         return a.depth == b.depth && a.change == b.change;
     };
-    if (!at.other_volumes || std::ranges::equal(at.crossings, record.ledger->crossings, same))
+    if (!at.other_volumes || std::ranges::equal(at.crossings, record.ledger.crossings, same))
         return {};
     std::string words = "makes its volumes otherwise, and meets";
     for (const Crossing& crossing : at.crossings)
@@ -166,7 +166,7 @@ Account account_of_counter(const Frame& frame, const Prediction& prediction,
                        {"stored", std::to_string(at.stored)},
                        {"read back", std::to_string(at.read_back)},
                        {"precise", words_of(sufficient, near, unit)}};
-    account.remark = {"lost", lost_words(at, counting, record.ledger->counts.at_eye, unit)};
+    account.remark = {"lost", lost_words(at, counting, record.ledger.counts.at_eye, unit)};
     account.note = other_volumes_words(at, record, unit);
     Json members = members_of(at, counting, prediction.volumes(), unit);
     members["sufficient"] = sufficient_json(sufficient, unit);

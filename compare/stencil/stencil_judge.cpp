@@ -19,17 +19,17 @@ namespace shadowproof {
 namespace {
 
 /// The pixel's lateral error bounds. `ledger` must hold the ray.
-BandRadius band_radius(const CountedClaim& judged, PixelPlace p, const glm::dvec3& direction,
+BandRadius band_radius(const CountedClaim& judged, PixelPlace p, const glm::dvec3& line,
                        RegionLedger& ledger, std::vector<Crossing>& crossings) {
     const Scene& scene = judged.traced.scene();
     const auto at = [&](double depth) {
-        return lateral_error(scene, judged.frame.depth_model, scene.camera.eye + depth * direction);
+        return lateral_error(scene, judged.frame.depth_model, point_on(scene.camera, line, depth));
     };
     const double surface = std::min(judged.truth().depth.at(p.x, p.y), judged.traced.far());
     double nearest = surface;
     const Counting& counting = judged.counting();
     if (counting.test == Counting::Test::depth_pass || !counting.casters.empty()) {
-        ledger.crossings(direction, crossings);
+        ledger.crossings(line, crossings);
         for (const Crossing& crossing : crossings)
             if (crossing.depth >= scene.camera.near &&
                 counting.caster(crossing.triangle).test == Counting::Test::depth_pass)

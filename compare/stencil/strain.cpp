@@ -75,12 +75,12 @@ Strained strained_at(const CountedClaim& judged, PixelPlace p, RegionLedger& led
                      std::vector<Crossing>& crossings) {
     const GroundTruth& truth = judged.truth();
     const Scene& scene = judged.traced.scene();
-    const glm::dvec3 direction = line_of_sight(scene.camera, p.x + 0.5, p.y + 0.5);
+    const glm::dvec3 line = line_of_sight(scene.camera, p.x + 0.5, p.y + 0.5);
     const double depth = truth.depth.at(p.x, p.y);
-    const glm::dvec3 point = scene.camera.eye + depth * direction;
+    const glm::dvec3 point = point_on(scene.camera, line, depth);
     const bool lit = truth.visibility.at(p.x, p.y) == Visibility::lit;
     if ((judged.stored(judged.predicted(p)) == 0) != lit) return {infinity, p, point};
-    ledger.crossings(direction, crossings);
+    ledger.crossings(line, crossings);
     const DepthModel& model = judged.frame.depth_model;
     const double deviation = std::hypot(
         deviation_share(window_depth_roundings) * stored_depth_error(model, depth),

@@ -121,10 +121,10 @@ void add_color(const GlFunctions& gl, Target& target, bool in_bytes) {
     target.lighting = beside_depth(gl, target, target.color);
 }
 
-void begin_adding(const GlFunctions& gl, const Target& target) {
-    constexpr std::array<GLfloat, 4> nothing{0, 0, 0, 0};
+void begin_adding(const GlFunctions& gl, const Target& target, float start) {
+    const std::array<GLfloat, 4> all{start, start, start, start};
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl.ClearNamedFramebufferfv(target.adding.name(), GL_COLOR, 0, nothing.data());
+    gl.ClearNamedFramebufferfv(target.adding.name(), GL_COLOR, 0, all.data());
     gl.BindFramebuffer(GL_FRAMEBUFFER, target.adding.name());
     gl.DepthMask(GL_FALSE);
     gl.Disable(GL_STENCIL_TEST);

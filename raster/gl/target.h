@@ -31,8 +31,8 @@ Target make_target(const GlFunctions& gl, const Camera& camera, bool floating);
 void add_sum(const GlFunctions& gl, Target& target);
 void add_color(const GlFunctions& gl, Target& target, bool in_bytes);
 
-/// Begins a pass that sums the worth (volume.frag) of its faces in `sum`, from zero.
-void begin_adding(const GlFunctions& gl, const Target& target);
+/// Begins a pass that sums the worth (volume.frag) of its faces in `sum`, from `start`.
+void begin_adding(const GlFunctions& gl, const Target& target, float start = 0);
 void end_adding(const GlFunctions& gl);
 
 /// Where faces are counted, and from where the light pass reads shadows.

@@ -15,18 +15,8 @@ namespace shadowproof {
 
 namespace {
 
-/// Parallel lines of sight have no infinite projection. What lies in its far plane is to be drawn,
-/// and must be nearer than what is cleared. (Half of the range, so that the viewport multiplies by
-/// a power of two.)
 DepthModel eye_depth_model(const Scene& scene) {
-    if (scene.camera.is_orthographic())
-        return {.projection = DepthModel::Projection::finite_reversed,
-                .near = scene.camera.near,
-                .far = finite_far(scene),
-                .parallel = true,
-                .floating = true,
-                .eye_relative = true,
-                .front = 0.5};
+    if (scene.camera.is_orthographic()) return reversed_parallel_depths(scene);
     return {.projection = DepthModel::Projection::infinite_reversed,
             .near = scene.camera.near,
             .floating = true,

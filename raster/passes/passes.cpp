@@ -3,6 +3,7 @@
 #include "raster/gl/shader.h"
 #include "raster/passes/lit_sides.h"
 #include "scenes/error.h"
+#include "scenes/plan/plan.h"
 
 #include <algorithm>
 #include <array>
@@ -56,6 +57,16 @@ TwoFloats split(const glm::dvec3& point) {
     return sum;
 }
 
+DepthModel reversed_parallel_depths(const Scene& scene) {
+    return {.projection = DepthModel::Projection::finite_reversed,
+            .near = scene.camera.near,
+            .far = finite_far(scene),
+            .parallel = true,
+            .floating = true,
+            .eye_relative = true,
+            .front = 0.5};
+}
+
 ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
     const glm::dmat4 projection = clip_from_view(scene.camera, depth_model);
     ClipTransform transform;
@@ -69,6 +80,8 @@ ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) 
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     transform.light = split(light);
     transform.light_w = static_cast<float>(light.w);
+    // Far beyond what floats tell from infinity, and far from their own end.
+    if (scene.camera.is_orthographic()) transform.end_w = 0x1p-60F;
     return transform;
 }
 
@@ -196,6 +209,7 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
     gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light.high));
     gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light.low));
     gl.ProgramUniform1f(program.name(), 11, transform.light_w);
+    gl.ProgramUniform1f(program.name(), 35, transform.end_w);
 }
 
 Program link_projection(const GlFunctions& gl, std::string_view fragment,
@@ -285,6 +299,24 @@ void draw_volume_faces(const GlFunctions& gl, const Geometry& geometry, const Tr
     }
 }
 
+namespace {
+
+/// Draws nothing, into another range of depths. Mesa 22.3's llvmpipe finds the range that clamps
+/// depths when a viewport's scale or offset changes, not when the clip control does: depths from
+/// [0, 1] drawn into [0.5, 1] have those of depths from [-1, 1] drawn into [0, 1], and either would
+/// be clamped to the range of the other.
+void renew_depth_range(const GlFunctions& gl, const SurfacePrograms& surface,
+                       const Geometry& geometry, double front) {
+    gl.Enable(GL_RASTERIZER_DISCARD);
+    gl.DepthRange(0.25, 1);
+    gl.UseProgram(surface.whole.name());
+    draw_triangles(gl, geometry, geometry.surface, 0, 1);
+    gl.DepthRange(front, 1);
+    gl.Disable(GL_RASTERIZER_DISCARD);
+}
+
+} // namespace
+
 void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const Target& target,
                   const Geometry& geometry, const DepthModel& depth_model,
                   const VisibleDepths& visible, std::uint8_t stencil) {
@@ -303,11 +335,14 @@ void draw_surface(const GlFunctions& gl, const SurfacePrograms& surface, const T
     gl.ClearNamedFramebufferfi(framebuffer, GL_DEPTH_STENCIL, 0, reversed ? 0.0F : 1.0F, stencil);
 
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    if (depth_model.clamp && geometry.surface.count > 0)
+        renew_depth_range(gl, surface, geometry, depth_model.front);
     for (const SurfaceRun& run : geometry.runs) {
         use(gl, surface, geometry, run);
         set_enabled(gl, GL_CULL_FACE, !run.double_sided);
         // Locations as surface.glsl lays them out.
         gl.ProgramUniform2f(surface.of(run).name(), 6, visible.near, visible.far);
+        gl.ProgramUniform1i(surface.of(run).name(), 8, visible.of_clip ? 1 : 0);
         gl.ProgramUniform1ui(surface.of(run).name(), 7, run.first_triangle);
         draw_triangles(gl, geometry, geometry.surface, run.first_triangle, run.triangle_count);
     }

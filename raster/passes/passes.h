@@ -25,14 +25,22 @@ struct TwoFloats {
 };
 TwoFloats split(const glm::dvec3& point);
 
+/// Reversed depths of an orthographic camera, in floats: parallel lines of sight have no infinite
+/// projection. What lies in its far plane is drawn, as it is nearer than what is cleared. (Half of
+/// the range, so that the viewport multiplies by a power of two.)
+DepthModel reversed_parallel_depths(const Scene& scene);
+
 /// What project.vert does to a position p of the scene: clip_from_relative * (p - origin), or, for
-/// corners at infinity, clip_from_relative * (p - light, 0). Points are given as the sum of two
+/// corners at infinity, clip_from_relative * (p - light, end_w). Points are given as the sum of two
 /// floats, and the matrix is computed in double and rounded once.
 struct ClipTransform {
     glm::mat4 clip_from_relative{1};
     TwoFloats origin;
     TwoFloats light;   ///< position, or the direction to a light at infinity
     float light_w = 1; ///< 0 at infinity
+    /// 0, or a number next to it where lines of sight are parallel: there a corner may go to
+    /// infinity straight away from the eye, and have no place in the picture but by its w.
+    float end_w = 0;
 };
 /// In an infinite projection, row z equals row w in all coefficients of directions, so corners at
 /// infinity get z == w bit for bit and are not clipped.
@@ -136,11 +144,12 @@ void begin_frame(const GlFunctions& gl, const Target& target, const Geometry& ge
 /// Back to OpenGL's initial values.
 void end_frame(const GlFunctions& gl);
 
-/// The range of visible view depths. Where the projection clips at near and far itself, everything
-/// that is left is visible.
+/// The range of visible depths. Where the projection clips at near and far itself, everything that
+/// is left is visible.
 struct VisibleDepths {
     float near = 0;
     float far = std::numeric_limits<float>::infinity();
+    bool of_clip = false; ///< z of the clip coordinates; else view depths, along perspective lines
 };
 
 /// Clears the target, the stencil to `stencil`, and draws the nearest surfaces:

@@ -86,9 +86,10 @@ std::vector<std::string> left_out(const Scene& scene, const std::vector<CasterPl
     });
     clauses.emplace_back("finding the edges that triangles share, frame by frame: a half-edge mesh "
                          "is made once");
-    clauses.push_back(std::any_of(plans.begin(), plans.end(), is_counted_behind)
-                          ? "depth clamp: the projection has no far plane"
-                          : "depth clamp: nothing behind the surface is counted");
+    if (std::none_of(plans.begin(), plans.end(), is_counted_behind))
+        clauses.emplace_back("depth clamp: nothing behind the surface is counted");
+    else if (!scene.camera.is_orthographic())
+        clauses.emplace_back("depth clamp: the projection has no far plane");
     return clauses;
 }
 
@@ -106,8 +107,9 @@ StencilRecipe recipe_by(const Scene& scene, const Plan& plan,
         made.counting.test = Counting::Test::depth_pass;
         made.depth_model.projection = DepthModel::Projection::finite_reversed;
         made.depth_model.far = finite_far(scene);
+        made.depth_model.clamp = false;
     }
-    made.hidden_caps = certain_surfaces(scene, made.depth_model.finite());
+    made.hidden_caps = certain_surfaces(scene, made.depth_model.clips_at_far());
     return made;
 }
 
@@ -148,6 +150,7 @@ Technique auto_technique() {
             .cost = 0.81,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe,
             .remark = remark};
 }

@@ -25,6 +25,7 @@ Technique invert_technique() {
                          Cause::open_mesh, Cause::alpha, Cause::light_inside},
             .by_nature = {Cause::parity},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

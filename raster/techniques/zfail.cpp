@@ -24,6 +24,7 @@ Technique zfail_technique() {
             .fails_at = {Cause::far_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

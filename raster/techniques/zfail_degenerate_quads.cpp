@@ -23,6 +23,7 @@ Technique zfail_degenerate_quads_technique() {
             .cost = 1.42,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

@@ -26,6 +26,7 @@ Technique zfail_float_technique() {
             .cost = 1.09,
             .fails_at = {Cause::precision, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe,
             .counts_in_sum = true};
 }

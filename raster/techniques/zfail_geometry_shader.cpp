@@ -22,6 +22,7 @@ Technique zfail_geometry_shader_technique() {
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

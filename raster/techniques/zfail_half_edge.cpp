@@ -26,6 +26,7 @@ Technique zfail_half_edge_technique() {
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

@@ -24,6 +24,7 @@ Technique zfail_no_dark_cap_technique() {
         .fails_at = {Cause::cap, Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
         .by_nature = {Cause::cap},
         .depth_model = reversed_depths,
+        .sees_in_parallel = true,
         .recipe = recipe};
 }
 

@@ -30,6 +30,7 @@ Technique zfail_per_triangle_technique() {
             .cost = 8.1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

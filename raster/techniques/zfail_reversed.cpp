@@ -23,6 +23,7 @@ Technique zfail_reversed_technique() {
             .cost = 1,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

@@ -26,6 +26,7 @@ Technique zfail_truncated_technique() {
             .fails_at = {Cause::extrusion, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::alpha},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .settings = {"extrusion"},
             .recipe = recipe};
 }

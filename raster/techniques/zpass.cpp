@@ -23,6 +23,7 @@ Technique zpass_technique() {
             .fails_at = {Cause::near_plane, Cause::eye_inside, Cause::precision, Cause::counter,
                          Cause::open_mesh, Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

@@ -24,6 +24,7 @@ Technique zpass_eye_count_technique() {
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

@@ -80,6 +80,10 @@ void set_steps(const GlFunctions& gl, Counting::Operation kind, Counting::Test t
 VisibleDepths visible_depths(const Camera& camera, const StencilRecipe& recipe) {
     VisibleDepths visible;
     const bool clamp = recipe.depth_model.clamp;
+    if (camera.is_orthographic()) {
+        if (!clamp) return visible;
+        return {.near = recipe.depth_model.reversed() ? 0.0F : -1.0F, .far = 1, .of_clip = true};
+    }
     if (clamp) visible.near = static_cast<float>(camera.near);
     if (clamp || !recipe.depth_model.finite()) visible.far = static_cast<float>(camera.far);
     return visible;
@@ -169,7 +173,7 @@ VolumePass CountedLight::make_volumes(const Part& part) const {
     if (recipe_.near_plane == NearPlane::capped)
         return make_capped_pass(gl_, part.scene, geometry_, transform_, recipe_.depth_model,
                                 special, part.split);
-    const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap};
+    const VolumeCaps caps{part.caster.light_cap, part.caster.dark_cap && !has_caps_at_infinity()};
     // Shaders use the scene's winding, cannot always tell on which side of a triangle that
     // touches the light the light is, and split no far end: such volumes are made on the CPU.
     const VolumeMaking making =
@@ -185,7 +189,18 @@ void CountedLight::update() {
     if (occluders_) occluders_->update();
     start_ = 0;
     if (recipe_.counting.start == Counting::Start::eye)
-        start_ = static_cast<std::uint8_t>(volumes_around_eye(parts_.front()->scene));
+        start_ = static_cast<std::int64_t>(volumes_around_eye(parts_.front()->scene));
+    if (!has_caps_at_infinity() || recipe_.depth_model.clips_at_far()) return;
+    for (const auto& part : parts_)
+        if (part->caster.dark_cap)
+            start_ += static_cast<std::int64_t>(volumes_at_infinity(part->scene));
+}
+
+/// Whether dark caps lie where parallel lines of sight end: all at one point, met by every one of
+/// them or by none. They have no area, and are not drawn: the counter starts with them, unless the
+/// far plane clips them.
+bool CountedLight::has_caps_at_infinity() const {
+    return scene_.camera.is_orthographic() && std::isinf(recipe_.counting.extrusion);
 }
 
 void CountedLight::begin() const {
@@ -194,11 +209,11 @@ void CountedLight::begin() const {
 
 void CountedLight::draw_surfaces() const {
     draw_surface(gl_, surface_, target_, geometry_, recipe_.depth_model,
-                 visible_depths(scene_.camera, recipe_), start_);
+                 visible_depths(scene_.camera, recipe_), static_cast<std::uint8_t>(start_));
 }
 
 void CountedLight::clear_stencil() const {
-    shadowproof::clear_stencil(gl_, target_, start_);
+    shadowproof::clear_stencil(gl_, target_, static_cast<std::uint8_t>(start_));
 }
 
 void CountedLight::count() {
@@ -231,7 +246,7 @@ void CountedLight::count_in_stencil() {
 /// Blending adds what passes the depth test. Where faces behind the surface are to be counted
 /// the test is therefore inverted: it passes what fails the strict one.
 void CountedLight::count_in_sum() {
-    begin_adding(gl_, target_);
+    begin_adding(gl_, target_, static_cast<float>(start_));
     for (const auto& part : parts_) {
         const bool pass = part->caster.test == Counting::Test::depth_pass;
         const GLenum nearer = recipe_.depth_model.reversed() ? GL_GREATER : GL_LESS;

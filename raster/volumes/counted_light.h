@@ -56,13 +56,14 @@ private:
     SurfacePrograms surface_;
     Program light_;
     std::optional<VolumePass> occluders_;
-    std::uint8_t start_ = 0;
+    std::int64_t start_ = 0;     ///< what the counter starts from
     bool touches_light_ = false; ///< some caster does
 
     static std::vector<std::unique_ptr<Part>> make_parts(const Scene& scene,
                                                          const StencilRecipe& recipe);
     static std::vector<glm::vec3> split_points(const Scene& scene, const StencilRecipe& recipe,
                                                std::vector<std::unique_ptr<Part>>& parts);
+    bool has_caps_at_infinity() const;
     VolumePass make_volumes(const Part& part) const;
     void count_in_stencil();
     void count_in_sum();

@@ -130,7 +130,8 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
 DepthModel finite_depths(const Scene& scene) noexcept {
     return {.projection = DepthModel::Projection::finite,
             .near = scene.camera.near,
-            .far = finite_far(scene)};
+            .far = finite_far(scene),
+            .parallel = scene.camera.is_orthographic()};
 }
 
 DepthModel infinite_depths(const Scene& scene) noexcept {
@@ -138,6 +139,11 @@ DepthModel infinite_depths(const Scene& scene) noexcept {
 }
 
 DepthModel reversed_depths(const Scene& scene) noexcept {
+    if (scene.camera.is_orthographic()) {
+        DepthModel model = reversed_parallel_depths(scene);
+        model.clamp = true; // volumes reach to infinity
+        return model;
+    }
     return {.projection = DepthModel::Projection::infinite_reversed,
             .near = scene.camera.near,
             .floating = true,

@@ -49,7 +49,8 @@ Frame draw_stencil_shadows(Gpu& gpu, const Scene& scene, const StencilRecipe& re
                            std::span<const StencilLight> before = {});
 
 /// The numbers in which techniques tell depths apart: window depth of 24 bits, up to a far plane or
-/// to infinity; or reversed, up to infinity, in floats.
+/// to infinity; or reversed, up to infinity, in floats. Parallel lines of sight have no infinite
+/// projection: there the last one is finite, and clamped.
 DepthModel finite_depths(const Scene& scene) noexcept;
 DepthModel infinite_depths(const Scene& scene) noexcept;
 DepthModel reversed_depths(const Scene& scene) noexcept;

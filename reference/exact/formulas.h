@@ -76,7 +76,8 @@ Quotient<A> plane_depth(const A& arithmetic, const EyeRay& ray, const Corners& t
             dot<A>(direction_of(arithmetic, ray), n)};
 }
 
-/// (n, d) of a point: a depth is n / 1, infinity 1 / 0. A surface's denominator may be negative.
+/// (n, d) of a point: a depth is n / 1, infinity 1 / 0, the eye there -1 / 0. A surface's
+/// denominator may be negative.
 template <class A>
 Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) {
     switch (q.kind) {
@@ -84,6 +85,8 @@ Quotient<A> position(const A& arithmetic, const EyeRay& ray, const RayPoint& q) 
         return plane_depth(arithmetic, ray, q.surface);
     case RayPoint::Kind::depth:
         return {arithmetic.number(q.depth), arithmetic.number(1)};
+    case RayPoint::Kind::eye:
+        return {arithmetic.number(-1), arithmetic.number(0)};
     case RayPoint::Kind::infinity:
         break;
     }

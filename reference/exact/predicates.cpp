@@ -46,6 +46,14 @@ std::optional<int> with_sign_of(const N& value, const N& denominator) {
     return *v * (*d < 0 ? -1 : 1);
 }
 
+std::optional<int> opposite(const std::optional<int>& sign) {
+    return sign ? std::optional(-*sign) : std::nullopt;
+}
+
+bool is_at_infinity(const RayPoint& q) {
+    return q.kind == RayPoint::Kind::infinity || q.kind == RayPoint::Kind::eye;
+}
+
 /// Sign of (E - origin + (n / d) D) . plane, the plane's normal given: d (E - origin) . plane +
 /// n D . plane, with d made positive.
 template <class A>
@@ -53,6 +61,7 @@ std::optional<int> point_against(const A& arithmetic, const EyeRay& ray, const R
                                  const glm::dvec3& origin, const Vector<A>& plane) {
     const Number<A> along = dot<A>(direction_of(arithmetic, ray), plane);
     if (q.kind == RayPoint::Kind::infinity) return sign_of(along);
+    if (q.kind == RayPoint::Kind::eye) return opposite(sign_of(along));
     const Number<A> base = dot<A>(difference(arithmetic, ray.start, origin), plane);
     const Quotient<A> t = position(arithmetic, ray, q);
     return with_sign_of(t.denominator * base + t.numerator * along, t.denominator);
@@ -69,6 +78,14 @@ Decision moved_against(Filters filters, const NormalOf& normal_of) {
             return sign_of(axis == 0 ? n.x : (axis == 1 ? n.y : n.z));
         });
     return {moved.sign, Exactness::degenerate};
+}
+
+/// The same for a point of a ray.
+template <class NormalOf>
+Decision moved_against(Filters filters, const RayPoint& q, const NormalOf& normal_of) {
+    Decision moved = moved_against(filters, normal_of);
+    if (q.kind == RayPoint::Kind::eye) moved.sign = -moved.sign;
+    return moved;
 }
 
 } // namespace
@@ -112,7 +129,7 @@ Decision Predicates::shadow_edge(const EyeRay& ray, const RayPoint& q, const glm
         if (ray.light.w != 0)
             return point_against<A>(arithmetic, ray, q, glm::dvec3(ray.light), plane);
         const std::optional<int> sign = point_against<A>(arithmetic, ray, q, a, plane);
-        if (q.kind != RayPoint::Kind::infinity || sign != 0) return sign;
+        if (!is_at_infinity(q) || sign != 0) return sign;
         // The ray is parallel to the plane: the side is that of its start.
         return sign_of(dot<A>(difference(arithmetic, ray.start, a), plane));
     });
@@ -124,9 +141,20 @@ Decision Predicates::shadow_edge_untied(const EyeRay& ray, const RayPoint& q, co
     if (tied.sign != 0) return tied;
     // Not all three are zero: otherwise light, a and b would be collinear, and the light would lie
     // in the plane of the triangle, which then takes no part.
-    return moved_against(filters_, [&]<class A>(const A& arithmetic) {
+    return moved_against(filters_, q, [&]<class A>(const A& arithmetic) {
         return edge_plane(arithmetic, ray.light, a, b);
     });
+}
+
+Decision Predicates::towards_shadow_edge_untied(const EyeRay& ray, const glm::dvec3& a,
+                                                const glm::dvec3& b) const {
+    const auto plane = [&]<class A>(const A& arithmetic) {
+        return edge_plane(arithmetic, ray.light, a, b);
+    };
+    const Decision tied = decide(filters_, [&]<class A>(const A& arithmetic) -> std::optional<int> {
+        return sign_of(dot<A>(direction_of(arithmetic, ray), plane(arithmetic)));
+    });
+    return tied.sign != 0 ? tied : moved_against(filters_, plane);
 }
 
 Decision Predicates::side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const {
@@ -139,7 +167,7 @@ Decision Predicates::side_of_point_untied(const EyeRay& ray, const RayPoint& q,
                                           const Corners& u) const {
     const Decision tied = side_of_point(ray, q, u);
     if (tied.sign != 0) return tied;
-    return moved_against(filters_,
+    return moved_against(filters_, q,
                          [&]<class A>(const A& arithmetic) { return normal(arithmetic, u); });
 }
 

@@ -20,13 +20,14 @@ struct Decision {
     Exactness exactness = Exactness::filtered;
 };
 
-/// A point Q = E + (n / d) D of an eye ray, which starts at E, kept as the exact quotient, or its
-/// end at infinity.
+/// A point Q = E + (n / d) D of an eye ray, which starts at E, kept as the exact quotient, or one
+/// of its ends at infinity.
 struct RayPoint {
     enum class Kind : std::uint8_t {
         surface,  ///< where the ray meets the plane of `surface`
         depth,    ///< at view depth `depth`
         infinity, ///< the direction D itself
+        eye,      ///< the direction -D, where the eye is of lines of sight that are parallel
     };
     Kind kind = Kind::infinity;
     Corners surface{};
@@ -70,18 +71,24 @@ public:
 
     /// Sign of (Q - a) . ((w a - l) x (b - a)), L = (l, w): the side of edge ab, seen from the
     /// light, on which Q lies. Degree 6 for a surface point. At infinity: for points far enough
-    /// along the ray, where the light is directional; the direction D itself, where it is not.
+    /// along the ray, where the light is directional; the direction itself, where it is not.
     Decision shadow_edge(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                          const glm::dvec3& b) const;
 
     /// The same with ties broken: where the sign is zero, that of Q moved by (e, e^2, e^3), e -> 0.
     /// All edges use the same move, so a ray through a shared edge or vertex is counted
-    /// consistently (Edelsbrunner & Muecke 1990, Simulation of Simplicity).
+    /// consistently (Edelsbrunner & Muecke 1990, Simulation of Simplicity). The eye at infinity
+    /// moves the other way: it remains opposite to the ray's end.
     Decision shadow_edge_untied(const EyeRay& ray, const RayPoint& q, const glm::dvec3& a,
                                 const glm::dvec3& b) const;
 
+    /// Sign of D . ((w a - l) x (b - a)): the side of the plane through the light and an edge to
+    /// which the ray runs. Ties are broken by the same move of D. Degree 3.
+    Decision towards_shadow_edge_untied(const EyeRay& ray, const glm::dvec3& a,
+                                        const glm::dvec3& b) const;
+
     /// Sign of (Q - a) . ((b - a) x (c - a)): the side of U's plane on which Q lies. Degree 6 for a
-    /// surface point; for the point at infinity that of the direction D.
+    /// surface point; for a point at infinity that of the direction.
     Decision side_of_point(const EyeRay& ray, const RayPoint& q, const Corners& u) const;
 
     /// The same with ties broken, by the move of shadow_edge_untied. U must not be degenerate.

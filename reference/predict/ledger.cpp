@@ -49,9 +49,10 @@ ShadowDepths count_depths(const Tracer& tracer, double far, const SurfaceOf& sur
         });
     });
 
-    // The eye: depth 0 on a line of sight through it.
+    // The eye: depth 0 on a line of sight through it, or the end of all lines.
     Prober prober(state);
     Lanes<Prober::Point> points{};
+    if (camera.is_orthographic()) points[0].kind = RayPoint::Kind::eye;
     Vectors lines;
     Lanes<std::int32_t> found{};
     lines.set(0, eye_line(camera));

@@ -17,8 +17,8 @@ struct ShadowDepths {
     Image<std::int32_t> at_far;      ///< on the far plane of `far`
     Image<std::int32_t> at_infinity; ///< light-facing triangles met from the light along the eye
                                      ///< ray's direction
-    std::int32_t at_eye = 0;
-    double far = 0; ///< the finite far plane of at_far
+    std::int32_t at_eye = 0; ///< of an orthographic camera: at the other end of all lines of sight
+    double far = 0;          ///< the finite far plane of at_far
 };
 
 /// `far`: depth of the far plane of the techniques that have a finite one.

@@ -20,12 +20,17 @@ bool lacks_caps(const CountingModel& model) {
            (!counts_in_front(model) && !counting.dark_cap && !model.depth_model.clips_at_far());
 }
 
+/// Parallel lines of sight come from infinity.
+double depth_of_eye(const DepthModel& depth_model) {
+    return depth_model.parallel ? -std::numeric_limits<double>::infinity() : 0;
+}
+
 void lift(Limitation limitation, CountingModel& model) {
     Counting& counting = model.counting;
     DepthModel& depth_model = model.depth_model;
     switch (limitation) {
     case Limitation::near_clip:
-        depth_model.near = 0;
+        depth_model.near = depth_of_eye(depth_model);
         break;
     case Limitation::far_clip:
         depth_model.projection = depth_model.reversed() ? DepthModel::Projection::infinite_reversed

@@ -81,8 +81,8 @@ struct CountingModel {
 /// The limitations that a technique has, whatever the scene: all but alpha.
 Limitations limitations_of(const CountingModel& model);
 
-/// The technique without some of its limitations. Without near_clip the near plane is at the eye,
-/// depth 0; without far_clip the projection is infinite.
+/// The technique without some of its limitations. Without near_clip the near plane is at the eye:
+/// at depth 0, or at minus infinity; without far_clip the projection is infinite.
 CountingModel without(CountingModel model, Limitations limitations);
 
 } // namespace shadowproof

@@ -5,6 +5,7 @@
 #include "reference/trace/faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <set>
@@ -25,14 +26,15 @@ bool follows_from_depths(const Counting& counting) {
 std::int32_t count_from_depths(const ShadowDepths& depths, const GroundTruth& truth, int x, int y,
                                const CountingModel& model) {
     const Counting& counting = model.counting;
-    const bool infinite = !model.depth_model.finite();
     const bool background = truth.triangle.at(x, y) == no_triangle;
     // A near plane at the eye clips nothing.
-    const bool clips_near = model.depth_model.near > 0;
+    const bool clips_near = model.depth_model.parallel ? std::isfinite(model.depth_model.near)
+                                                       : model.depth_model.near > 0;
     const std::int32_t near = clips_near ? depths.at_near.at(x, y) : depths.at_eye;
-    // A clamped or finite picture's background is at its far plane, an infinite one's at infinity.
     std::int32_t at_surface = depths.at_surface.at(x, y);
-    if (background) at_surface = infinite ? depths.at_infinity.at(x, y) : depths.at_far.at(x, y);
+    if (background)
+        at_surface = model.depth_model.background_at_far() ? depths.at_far.at(x, y)
+                                                           : depths.at_infinity.at(x, y);
     at_surface += start_of(counting, depths.at_eye, near);
     if (counting.test == Counting::Test::depth_pass)
         return at_surface - (model.depth_model.clamp ? depths.at_eye : near);
@@ -222,11 +224,11 @@ Image<std::int32_t> Prediction::count_all(const CountedVolumes& made,
         std::vector<Crossing> crossings;
         for (int y = top; y < bottom; ++y)
             for (int x = left; x < right; ++x) {
-                const glm::dvec3 direction = line_of_sight(camera, x + 0.5, y + 0.5);
-                ledger.crossings(direction, crossings);
+                const glm::dvec3 line = line_of_sight(camera, x + 0.5, y + 0.5);
+                ledger.crossings(line, crossings);
                 const std::uint32_t seen = truth.triangle.at(x, y);
                 const double surface =
-                    seen == no_triangle ? 0 : depth_on_triangle(scene, seen, direction);
+                    seen == no_triangle ? 0 : depth_on_triangle(scene, seen, line);
                 const CountedRay ray{crossings, surface, seen, depths.at_eye,
                                      depths.at_near.at(x, y)};
                 counts.at(x, y) = static_cast<std::int32_t>(
@@ -282,7 +284,7 @@ std::int64_t Prediction::count_with_masks(Limitations limitations, int x, int y)
 std::int64_t Prediction::count_with_masks(Limitations limitations, const SurfaceRay& ray) const {
     const Limitations others = limitations - Limitation::alpha;
     const std::int64_t count = count_without(others, ray);
-    return less(count, volumes_without(others).volumes.let_through(ray.direction, ray.seen),
+    return less(count, volumes_without(others).volumes.let_through(ray.line, ray.seen),
                 without(others).counting);
 }
 
@@ -311,7 +313,7 @@ std::int64_t Prediction::count_without(Limitations limitations, const SurfaceRay
     const std::int32_t at_eye = made.depths->at_eye;
     RegionLedger ledger = made.volumes.ledger(ray.corners);
     std::vector<Crossing> crossings;
-    ledger.crossings(ray.direction, crossings);
+    ledger.crossings(ray.line, crossings);
     std::int32_t at_near = at_eye;
     for (Crossing& crossing : crossings) {
         const bool before_near = crossing.depth < tracer.scene().camera.near;

@@ -75,7 +75,7 @@ std::int64_t counted(const CountedRay& ray, double far, const Counting& counting
 
 /// A surface point that a ray beside a pixel's centre meets.
 struct SurfaceRay {
-    glm::dvec3 direction{0, 0, 0};
+    glm::dvec3 line{0, 0, 0};
     double depth = 0; ///< view depth of the surface
     std::uint32_t seen = no_triangle;
     std::array<glm::dvec3, 4> corners{}; ///< of a rectangle around it, as RegionLedger takes them

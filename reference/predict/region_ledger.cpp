@@ -16,34 +16,6 @@ namespace shadowproof {
 
 namespace {
 
-/// d x m, not normalised, where m is the direction in which the eye is moved to break ties
-/// (Predicates::shadow_edge_untied): (e, e^2, e^3), with an e that distinguishes the three whatever
-/// the sizes in d, and that no rounding reaches.
-glm::dvec3 cross_with_move(const glm::dvec3& d) {
-    constexpr double e = 0x1p-60;
-    glm::dvec3 sum(0);
-    double weight = 1;
-    for (const glm::dvec3& part :
-         {glm::dvec3(0, d.z, -d.y), glm::dvec3(-d.z, 0, d.x), glm::dvec3(d.y, -d.x, 0)}) {
-        if (part == glm::dvec3(0)) continue;
-        sum += part * (weight / largest(part));
-        weight *= e;
-    }
-    return sum;
-}
-
-/// v times a power of two that keeps products of it far from the smallest doubles.
-glm::dvec3 enlarged(const glm::dvec3& v) {
-    return largest(v) < 0x1p-500 ? v * 0x1p500 : v;
-}
-
-/// v x (eye - p), not normalised, for a p that may be next to the eye; where both are equal, that
-/// of the moved eye.
-glm::dvec3 plane_through_eye(const glm::dvec3& v, const glm::dvec3& eye, const glm::dvec3& p) {
-    const glm::dvec3 plane = glm::cross(enlarged(v), enlarged(eye - p));
-    return plane == glm::dvec3(0) ? cross_with_move(v) : plane;
-}
-
 /// As side_plane. Where the light is next to the edge, a product of doubles keeps few of its 53
 /// bits, or none: where it loses 20, or comes near the smallest doubles, it is computed in rational
 /// numbers.
@@ -54,14 +26,6 @@ glm::dvec3 accurate_side_plane(const glm::dvec4& light, const glm::dvec3& a, con
     return normal_through_light(light, a, b);
 }
 
-/// Normal of the plane through the eye and an edge, the same for both directions of the edge. If
-/// the eye lies on its line: (a - e m) x (b - e m), e -> 0, is e (b - a) x m.
-glm::dvec3 edge_plane(const glm::dvec3& eye, const glm::dvec3& a, const glm::dvec3& b) {
-    if (before(b, a)) return edge_plane(eye, b, a);
-    const glm::dvec3 plane = glm::cross(enlarged(a - eye), enlarged(b - eye));
-    return plane == glm::dvec3(0) ? cross_with_move(b - a) : plane;
-}
-
 /// The eye's side of a plane as computed in double, with the exact sign, ties broken as the counts
 /// at the eye break them (Predicates::shadow_edge_untied): only then do the crossings of a ray and
 /// those counts add up. Where doubles have the wrong sign the eye's distance is next to nothing.
@@ -69,44 +33,45 @@ double with_sign(double side, int sign) {
     return sign * side > 0 ? side : sign * std::numeric_limits<double>::denorm_min();
 }
 
-/// Shadow volumes are counted along lines of sight that meet in the eye.
-const glm::dvec3& eye_of(const Tracer::State& state) {
-    assert(!state.scene->camera.is_orthographic());
-    return state.scene->camera.eye;
-}
-
 EyeRay any_ray(const Tracer::State& state) {
-    return {eye_of(state), state.scene->camera.forward, state.light};
-}
-constexpr RayPoint at_eye{.kind = RayPoint::Kind::depth, .surface = {}, .depth = 0};
-
-/// The eye's side of the plane of the side over the edge from a to b.
-double eye_against_side(const Tracer::State& state, const glm::dvec3& plane, const glm::dvec3& a,
-                        const glm::dvec3& b) {
-    return with_sign(glm::dot(eye_of(state) - side_point(state.light, a, b), plane),
-                     state.predicates.shadow_edge_untied(any_ray(state), at_eye, a, b).sign);
+    return state.ray(eye_line(state.scene->camera));
 }
 
-/// The eye's side of a light cap; positive behind it.
-double eye_against_cap(const Tracer::State& state, std::uint32_t triangle, const Corners& t,
-                       const glm::dvec3& plane) {
+RayPoint eye_of(const Camera& camera) {
+    return {.kind = camera.is_orthographic() ? RayPoint::Kind::eye : RayPoint::Kind::depth,
+            .surface = {},
+            .depth = 0};
+}
+
+/// The plane of a face with this normal through p; `sign`: that of the eye's side.
+FacePlane face_plane(const Camera& camera, const glm::dvec3& normal, const glm::dvec3& p,
+                     int sign) {
+    const double side = camera.is_orthographic() ? -glm::dot(camera.forward, normal)
+                                                 : glm::dot(camera.eye - p, normal);
+    return {normal, with_sign(side, sign), p};
+}
+
+/// The plane of the side over the edge from a to b.
+FacePlane plane_of_side(const Tracer::State& state, const glm::dvec3& a, const glm::dvec3& b) {
+    const Camera& camera = state.scene->camera;
+    const EyeRay ray = any_ray(state);
+    // The eye at infinity is on the side that lines of sight come from.
+    const int sign = camera.is_orthographic()
+                         ? -state.predicates.towards_shadow_edge_untied(ray, a, b).sign
+                         : state.predicates.shadow_edge_untied(ray, eye_of(camera), a, b).sign;
+    return face_plane(camera, accurate_side_plane(state.light, a, b), side_point(state.light, a, b),
+                      sign);
+}
+
+/// The plane of a light cap; its eye's side is positive behind it.
+FacePlane plane_of_cap(const Tracer::State& state, std::uint32_t triangle, const Corners& t) {
+    const Camera& camera = state.scene->camera;
     int sign = state.from_eye.side[triangle];
     // The predicate's plane points to the front, the cap's into the volume.
-    if (sign == 0) sign = -state.predicates.side_of_point_untied(any_ray(state), at_eye, t).sign;
-    return with_sign(glm::dot(eye_of(state) - t.a, plane), sign);
+    if (sign == 0)
+        sign = -state.predicates.side_of_point_untied(any_ray(state), eye_of(camera), t).sign;
+    return face_plane(camera, cap_plane(t), t.a, sign);
 }
-
-/// Signs of a function that is linear in the direction, over a region.
-struct Signs {
-    bool some_negative = false;
-    bool some_positive = false; ///< or zero
-
-    Signs(const std::array<glm::dvec3, 4>& corners, const glm::dvec3& plane) {
-        for (const glm::dvec3& corner : corners)
-            (glm::dot(corner, plane) < 0 ? some_negative : some_positive) = true;
-    }
-    bool mixed() const { return some_negative && some_positive; }
-};
 
 std::vector<std::uint32_t> casting_triangles(const Tracer::State& state) {
     std::vector<std::uint32_t> casting;
@@ -123,13 +88,22 @@ std::vector<std::size_t> first_of_each(const std::vector<SurplusEdge>& edges, st
     return first;
 }
 
-/// Planes between neighbouring corners and the eye; normals point out of the region.
-std::array<glm::dvec3, 4> walls_of(const std::array<glm::dvec3, 4>& corners) {
-    std::array<glm::dvec3, 4> walls{};
-    const glm::dvec3 middle = corners[0] + corners[1] + corners[2] + corners[3];
+/// A plane through neighbouring corners and the eye, and a point of it; the normal points out of
+/// the region.
+struct Wall {
+    glm::dvec3 normal{0, 0, 0};
+    glm::dvec3 point{0, 0, 0};
+};
+
+std::array<Wall, 4> walls_of(const Camera& camera, const std::array<glm::dvec3, 4>& corners) {
+    std::array<Wall, 4> walls{};
+    const glm::dvec3 sum = corners[0] + corners[1] + corners[2] + corners[3];
     for (std::size_t i = 0; i < 4; ++i) {
-        walls[i] = glm::cross(corners[i], corners[(i + 1) % 4]);
-        if (glm::dot(walls[i], middle) > 0) walls[i] = -walls[i];
+        const glm::dvec3& corner = corners[i];
+        const glm::dvec3 along = corners[(i + 1) % 4] - corner;
+        const glm::dvec3 normal = glm::cross(direction_of(camera, corner), along);
+        const glm::dvec3 inwards = camera.is_orthographic() ? sum - 4.0 * corner : sum;
+        walls[i] = {glm::dot(normal, inwards) > 0 ? -normal : normal, start_of(camera, corner)};
     }
     return walls;
 }
@@ -151,7 +125,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
             numbers[position] = static_cast<std::uint32_t>(vertices_.size());
             const glm::dvec3 at(scene.positions[position]);
             const glm::dvec3 from_light = state.light.w * at - glm::dvec3(state.light);
-            vertices_.push_back({at, plane_through_eye(from_light, eye_of(state), at)});
+            vertices_.push_back({at, plane_through_eye(scene.camera, from_light, at)});
         }
         return numbers[position];
     };
@@ -164,10 +138,8 @@ Silhouette::Silhouette(const Tracer& tracer) {
         side.q = number_of(reversed ? edge.a : edge.b);
         // The triangle on the left of a to b faces the light: its side runs back.
         side.surplus = reversed ? edge.surplus : -edge.surplus;
-        side.plane = reversed ? accurate_side_plane(state.light, b, a)
-                              : accurate_side_plane(state.light, a, b);
-        side.eye = eye_against_side(state, side.plane, reversed ? b : a, reversed ? a : b);
-        side.edge = edge_plane(eye_of(state), a, b);
+        side.plane = reversed ? plane_of_side(state, b, a) : plane_of_side(state, a, b);
+        side.edge = edge_plane(scene.camera, a, b);
         side.number = static_cast<std::uint32_t>(sides_.size() - 1);
         side.flipped = edge.a > edge.b;
     }
@@ -185,7 +157,7 @@ Silhouette::Silhouette(const Tracer& tracer) {
 
 RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
                            const std::array<glm::dvec3, 4>& corners)
-    : tracer_(tracer) {
+    : tracer_(tracer), is_parallel_(tracer.scene().camera.is_orthographic()) {
     const std::vector<Silhouette::Vertex>& vertices = silhouette.vertices();
     gather_sides(
         silhouette.sides(), vertices.size(),
@@ -194,12 +166,10 @@ RegionLedger::RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
 }
 
 RegionLedger::RegionLedger(const RegionLedger& outer, const std::array<glm::dvec3, 4>& corners)
-    : tracer_(outer.tracer_), flipped_(outer.flipped_) {
+    : tracer_(outer.tracer_), is_parallel_(outer.is_parallel_), flipped_(outer.flipped_) {
     const Vertices& vertices = outer.vertices_;
     gather_sides(
-        outer.sides_, vertices.x.size(),
-        [&](std::size_t i) { return glm::dvec3(vertices.x[i], vertices.y[i], vertices.z[i]); },
-        corners);
+        outer.sides_, vertices.x.size(), [&](std::size_t i) { return vertices.plane(i); }, corners);
     for (const Cap& cap : outer.caps_)
         if (cap.may_be_met(corners)) caps_.push_back(cap);
     if (outer.ends_) ends_ = std::make_shared<RegionLedger>(*outer.ends_, corners);
@@ -211,7 +181,10 @@ RegionLedger::RegionLedger(const RegionLedger& outer, const std::array<glm::dvec
 //   with N = (w p - l) x (q - p), t = -(eye - p).N / D.N is positive;
 //   the crossing lies beyond the edge: det(D, p - eye, q - eye) has the sign of (eye - p).N, as
 //     that determinant is m / t times it where the crossing is (1 + w m) e - m l, e on the edge.
-// All are linear in D, so what holds at no corner of a region holds nowhere in it.
+// All are linear in D, so what holds at no corner of a region holds nowhere in it. A line S + t D
+// of an orthographic camera crosses it likewise: with -D for eye - p, and p - S for what D was
+// multiplied with, the functions are affine in S; any t is ahead of the eye, and the last factor is
+// m.
 template <class PlaneOf>
 void RegionLedger::gather_sides(const std::vector<Silhouette::Side>& sides,
                                 std::size_t vertex_count, const PlaneOf& plane_of,
@@ -223,9 +196,11 @@ void RegionLedger::gather_sides(const std::vector<Silhouette::Side>& sides,
         const Signs& p = signs[side.p];
         const Signs& q = signs[side.q];
         if (!p.mixed() && !q.mixed() && p.some_negative == q.some_negative) continue;
-        const double eye = side.eye;
-        const Signs ray(corners, side.plane);
-        if (eye < 0 ? !ray.some_positive : !ray.some_negative) continue;
+        const double eye = side.plane.eye;
+        if (!is_parallel_) {
+            const Signs ray(corners, {side.plane.normal, 0});
+            if (eye < 0 ? !ray.some_positive : !ray.some_negative) continue;
+        }
         const Signs beyond(corners, side.edge);
         if (eye < 0 ? !beyond.some_negative : !beyond.some_positive) continue;
         sides_.push_back(side);
@@ -240,10 +215,11 @@ void RegionLedger::number_vertices(const PlaneOf& plane_of) {
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (const std::uint32_t vertex : used) {
-        const glm::dvec3 plane = plane_of(vertex);
-        vertices_.x.push_back(plane.x);
-        vertices_.y.push_back(plane.y);
-        vertices_.z.push_back(plane.z);
+        const SightPlane plane = plane_of(vertex);
+        vertices_.x.push_back(plane.normal.x);
+        vertices_.y.push_back(plane.normal.y);
+        vertices_.z.push_back(plane.normal.z);
+        vertices_.offset.push_back(plane.offset);
     }
     behind_.resize(used.size());
     const auto number = [&](std::uint32_t vertex) {
@@ -258,17 +234,18 @@ void RegionLedger::number_vertices(const PlaneOf& plane_of) {
 
 void RegionLedger::gather_caps(const std::array<glm::dvec3, 4>& corners) {
     const Tracer::State& state = tracer_.state();
-    const std::array<glm::dvec3, 4> walls = walls_of(corners);
+    const std::array<Wall, 4> walls = walls_of(state.scene->camera, corners);
     const auto may_meet = [&](const Box& box) {
         const glm::dvec3 lower(box.lower);
         const glm::dvec3 upper(box.upper);
-        const glm::dvec3 centre = 0.5 * (lower + upper) - eye_of(state);
+        const glm::dvec3 centre = 0.5 * (lower + upper);
         const glm::dvec3 half = 0.5 * (upper - lower);
-        return std::all_of(walls.begin(), walls.end(), [&](const glm::dvec3& wall) {
+        return std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
             // 2^-40 of the terms' sizes leaves room for thousands of roundings.
-            const double reach = glm::dot(glm::abs(wall), half);
-            const double size = glm::dot(glm::abs(wall), glm::abs(centre)) + reach;
-            return glm::dot(wall, centre) - reach <= 0x1p-40 * size;
+            const glm::dvec3 from_wall = centre - wall.point;
+            const double reach = glm::dot(glm::abs(wall.normal), half);
+            const double size = glm::dot(glm::abs(wall.normal), glm::abs(from_wall)) + reach;
+            return glm::dot(wall.normal, from_wall) - reach <= 0x1p-40 * size;
         });
     };
     state.clusters.for_each_in(may_meet, [&](const Cluster& cluster) {
@@ -286,11 +263,10 @@ void RegionLedger::gather_cap(std::uint32_t triangle, const std::array<glm::dvec
     Cap cap;
     cap.triangle = triangle;
     const Corners from = from_short_edge(t);
-    cap.plane = cap_plane(from);
-    cap.eye = eye_against_cap(state, triangle, from, cap.plane);
+    cap.plane = plane_of_cap(state, triangle, from);
     const std::array<glm::dvec3, 4> loop{t.a, t.b, t.c, t.a};
     for (std::size_t k = 0; k < 3; ++k) {
-        cap.edges[k] = edge_plane(eye_of(state), loop[k], loop[k + 1]);
+        cap.edges[k] = edge_plane(state.scene->camera, loop[k], loop[k + 1]);
         cap.reversed[k] = before(loop[k + 1], loop[k]);
     }
     if (cap.may_be_met(corners)) caps_.push_back(cap);
@@ -307,39 +283,41 @@ bool RegionLedger::Cap::may_be_met(const std::array<glm::dvec3, 4>& corners) con
     return may_be_left || may_be_right;
 }
 
-bool RegionLedger::Cap::is_met_by(const glm::dvec3& direction) const {
-    const auto left = [&](std::size_t k) {
-        return (glm::dot(direction, edges[k]) < 0) != reversed[k];
-    };
+bool RegionLedger::Cap::is_met_by(const glm::dvec3& line) const {
+    const auto left = [&](std::size_t k) { return (edges[k].side(line) < 0) != reversed[k]; };
     return left(0) == left(1) && left(1) == left(2);
 }
 
-void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>& found) {
+std::optional<RegionLedger::Meeting> RegionLedger::meet(const FacePlane& plane,
+                                                        const glm::dvec3& line) const {
+    const double eye = plane.eye;
+    if (is_parallel_) return Meeting{glm::dot(line - plane.point, plane.normal) / eye, eye < 0};
+    const double slope = glm::dot(line, plane.normal);
+    if (slope == 0 || (slope < 0) == (eye < 0)) return std::nullopt;
+    return Meeting{-eye / slope, slope > 0};
+}
+
+void RegionLedger::crossings(const glm::dvec3& line, std::vector<Crossing>& found) {
     found.clear();
-    for (std::size_t i = 0; i < behind_.size(); ++i)
-        behind_[i] = direction.x * vertices_.x[i] + direction.y * vertices_.y[i] +
-                         direction.z * vertices_.z[i] <
-                     0;
+    for (std::size_t i = 0; i < behind_.size(); ++i) behind_[i] = vertices_.plane(i).side(line) < 0;
     for (const Silhouette::Side& side : sides_) {
         if (behind_[side.p] == behind_[side.q]) continue;
-        const double slope = glm::dot(direction, side.plane);
-        const double eye = side.eye;
-        if (slope == 0 || (slope < 0) == (eye < 0)) continue;
-        if ((glm::dot(direction, side.edge) < 0) != (eye < 0)) continue;
-        const int change = slope > 0 ? side.surplus : -side.surplus;
+        const std::optional<Meeting> met = meet(side.plane, line);
+        if (!met || (side.edge.side(line) < 0) != (side.plane.eye < 0)) continue;
+        const int change = met->along_normal ? side.surplus : -side.surplus;
         for (int i = 0; i < std::abs(change); ++i)
-            found.push_back({-eye / slope, change > 0 ? 1 : -1, side.part, side.triangle,
-                             side.plane, side.number, side.flipped});
+            found.push_back({met->depth, change > 0 ? 1 : -1, side.part, side.triangle,
+                             side.plane.normal, side.number, side.flipped});
     }
     for (const Cap& cap : caps_) {
-        if (!cap.is_met_by(direction)) continue;
-        const double slope = glm::dot(direction, cap.plane);
-        if (slope == 0 || (slope < 0) == (cap.eye < 0)) continue;
+        if (!cap.is_met_by(line)) continue;
+        const std::optional<Meeting> met = meet(cap.plane, line);
+        if (!met) continue;
         const bool flipped = cap.triangle < flipped_.size() && flipped_[cap.triangle] != 0;
-        found.push_back({-cap.eye / slope, slope > 0 ? 1 : -1, Crossing::Part::light_cap,
-                         cap.triangle, cap.plane, 0, flipped});
+        found.push_back({met->depth, met->along_normal ? 1 : -1, Crossing::Part::light_cap,
+                         cap.triangle, cap.plane.normal, 0, flipped});
     }
-    if (ends_) cross_ends(direction, found);
+    if (ends_) cross_ends(line, found);
     std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
         if (a.depth != b.depth) return a.depth < b.depth;
         return std::tuple(!a.is_side() ? 0 : 1, a.change, a.triangle) <
@@ -347,35 +325,43 @@ void RegionLedger::crossings(const glm::dvec3& direction, std::vector<Crossing>&
     });
 }
 
-std::vector<glm::dvec3> RegionLedger::outlines(const std::array<glm::dvec3, 4>& corners) const {
-    std::vector<glm::dvec3> planes;
-    const auto add = [&](const glm::dvec3& plane) {
+std::vector<SightPlane> RegionLedger::outlines(const std::array<glm::dvec3, 4>& corners) const {
+    std::vector<SightPlane> planes;
+    const auto add = [&](const SightPlane& plane) {
         if (Signs(corners, plane).mixed()) planes.push_back(plane);
     };
-    for (std::size_t i = 0; i < vertices_.x.size(); ++i)
-        add({vertices_.x[i], vertices_.y[i], vertices_.z[i]});
+    for (std::size_t i = 0; i < vertices_.x.size(); ++i) add(vertices_.plane(i));
     for (const Silhouette::Side& side : sides_) add(side.edge);
     for (const Cap& cap : caps_)
-        for (const glm::dvec3& edge : cap.edges) add(edge);
+        for (const SightPlane& edge : cap.edges) add(edge);
     if (!ends_) return planes;
-    const std::vector<glm::dvec3> ends = ends_->outlines(corners);
+    const std::vector<SightPlane> ends = ends_->outlines(corners);
     planes.insert(planes.end(), ends.begin(), ends.end());
     return planes;
 }
 
-std::vector<glm::dvec3>
+// Parallel lines of sight all run to one point at infinity, which such a line meets nowhere or
+// everywhere.
+std::vector<SightPlane>
 RegionLedger::vanishing_lines(const std::array<glm::dvec3, 4>& corners) const {
-    std::vector<glm::dvec3> planes;
+    std::vector<SightPlane> planes;
     for (const Silhouette::Side& side : sides_)
-        if (Signs(corners, side.plane).mixed()) planes.push_back(side.plane);
+        if (const SightPlane line{side.plane.normal, 0};
+            !is_parallel_ && Signs(corners, line).mixed())
+            planes.push_back(line);
     return planes;
 }
 
 int RegionLedger::edge_on_sides(const std::array<glm::dvec3, 4>& corners) const {
     int edge_on = 0;
-    for (const Silhouette::Side& side : sides_)
-        if (Signs(corners, side.plane).mixed() && Signs(corners, side.edge).mixed())
-            edge_on += std::abs(side.surplus);
+    const auto pass = [&](const SightPlane& one, const SightPlane& other) {
+        return Signs(corners, one).mixed() && Signs(corners, other).mixed();
+    };
+    for (const Silhouette::Side& side : sides_) {
+        const bool is_thin = is_parallel_ ? pass(vertices_.plane(side.p), vertices_.plane(side.q))
+                                          : pass({side.plane.normal, 0}, side.edge);
+        if (is_thin) edge_on += std::abs(side.surplus);
+    }
     return edge_on;
 }
 
@@ -385,8 +371,8 @@ std::vector<std::uint32_t> RegionLedger::light_caps() const {
     return triangles;
 }
 
-void RegionLedger::cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found) {
-    ends_->crossings(direction, found_at_ends_);
+void RegionLedger::cross_ends(const glm::dvec3& line, std::vector<Crossing>& found) {
+    ends_->crossings(line, found_at_ends_);
     for (Crossing& crossing : found_at_ends_) {
         crossing.change = -crossing.change;
         if (!crossing.is_side()) {

@@ -3,16 +3,25 @@
 #pragma once
 
 #include "reference/predict/ledger.h"
+#include "reference/predict/sight_plane.h"
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 namespace shadowproof {
+
+/// The plane of a face of the volumes, as lines of sight meet it.
+struct FacePlane {
+    glm::dvec3 normal{0, 0, 0}; ///< of any length
+    double eye = 0;             ///< the eye's side of it, with an exact sign; never 0
+    glm::dvec3 point{0, 0, 0};  ///< of the plane
+};
 
 /// The silhouette edges of a scene as seen from its light: computed once, for all regions.
 class Silhouette {
@@ -26,15 +35,14 @@ public:
         int surplus = 0; ///< how many sides lie there; negative where they run from p to q
         std::uint32_t triangle = no_triangle; ///< the first that has this edge
         Crossing::Part part = Crossing::Part::side_0;
-        std::uint32_t number = 0;  ///< of this side, in the order of all
-        bool flipped = false;      ///< as Crossing::flipped
-        glm::dvec3 plane{0, 0, 0}; ///< as side_plane gives it
-        double eye = 0;            ///< the eye's side of that plane
-        glm::dvec3 edge{0, 0, 0};  ///< normal of the plane through the eye and the edge
+        std::uint32_t number = 0; ///< of this side, in the order of all
+        bool flipped = false;     ///< as Crossing::flipped
+        FacePlane plane;          ///< its normal as side_plane gives it
+        SightPlane edge;          ///< through the edge
     };
     struct Vertex {
         glm::dvec3 position{0, 0, 0};
-        glm::dvec3 plane{0, 0, 0}; ///< normal of the plane through it, eye and light
+        SightPlane plane; ///< through it and the light
     };
 
     const std::vector<Vertex>& vertices() const { return vertices_; }
@@ -51,7 +59,7 @@ inline constexpr int region_side = 16;
 
 class RegionLedger {
 public:
-    /// `corners`: directions of four rays of the picture whose rectangle contains all rays to be
+    /// `corners`: four lines of sight of the picture whose rectangle contains all that are to be
     /// queried, as from corner_lines: the corners of pixels leave room on all sides of their
     /// centres. Keeps a reference to the tracer.
     RegionLedger(const Tracer& tracer, const Silhouette& silhouette,
@@ -67,22 +75,25 @@ public:
     /// One flag per triangle: Crossing::flipped of its light cap. Empty: none. Kept as a reference.
     void flip_caps(std::span<const std::uint8_t> flipped) { flipped_ = flipped; }
 
-    /// Crossings of one ray, by increasing depth from the eye, without sides that cancel. In double
-    /// precision with signs that neighbouring faces share, so that a ray leaves a closed volume as
-    /// often as it enters it, except where a product rounds to another sign: compare the sum with
-    /// the exact counts.
-    void crossings(const glm::dvec3& direction, std::vector<Crossing>& found);
+    /// Crossings of one line of sight, by increasing depth from the eye, without sides that cancel.
+    /// In double precision with signs that neighbouring faces share, so that a ray leaves a closed
+    /// volume as often as it enters it, except where a product rounds to another sign: compare the
+    /// sum with the exact counts. Where lines of sight are parallel, they come from the eye at
+    /// infinity: depths may be negative, and infinite on sides that the lines are parallel to.
+    void crossings(const glm::dvec3& line, std::vector<Crossing>& found);
 
-    /// Normals of the planes through the eye, and between four rays, that bound faces there: rays
-    /// on the same sides of all of them cross the same faces.
-    std::vector<glm::dvec3> outlines(const std::array<glm::dvec3, 4>& corners) const;
+    /// The planes between four lines of sight that bound faces there: lines on the same sides of
+    /// all of them cross the same faces.
+    std::vector<SightPlane> outlines(const std::array<glm::dvec3, 4>& corners) const;
 
     /// The same of the lines in which sides that reach to infinity end: they bound what is counted
     /// where no dark caps close the volumes there.
-    std::vector<glm::dvec3> vanishing_lines(const std::array<glm::dvec3, 4>& corners) const;
+    std::vector<SightPlane> vanishing_lines(const std::array<glm::dvec3, 4>& corners) const;
 
-    /// How many sides are seen edge-on within the rectangle of four rays: both the line of their
-    /// edges and the vanishing line of their planes pass through it.
+    /// How many sides are seen edge-on within the rectangle of four lines of sight: both the line
+    /// of their edges and the vanishing line of their planes pass through it. Parallel lines of
+    /// sight have no such line, and see a side between two lines away from the light: it is both of
+    /// these.
     int edge_on_sides(const std::array<glm::dvec3, 4>& corners) const;
 
     /// Triangles whose light caps some ray of the region may meet.
@@ -91,11 +102,10 @@ public:
 private:
     struct Cap {
         std::uint32_t triangle = no_triangle;
-        glm::dvec3 plane{0, 0, 0};
-        std::array<glm::dvec3, 3> edges{}; ///< as Silhouette::Side::edge
-        std::array<bool, 3> reversed{};    ///< the triangle runs the edge the other way
-        double eye = 0;                    ///< the eye's side of that plane; positive behind it
-        bool is_met_by(const glm::dvec3& direction) const; ///< ahead of the eye or behind it
+        FacePlane plane;                              ///< the eye's side is positive behind it
+        std::array<SightPlane, 3> edges{};            ///< as Silhouette::Side::edge
+        std::array<bool, 3> reversed{};               ///< the triangle runs the edge the other way
+        bool is_met_by(const glm::dvec3& line) const; ///< ahead of the eye or behind it
         bool may_be_met(const std::array<glm::dvec3, 4>& corners) const; ///< anywhere between them
     };
 
@@ -107,13 +117,22 @@ private:
     void gather_caps(const std::array<glm::dvec3, 4>& corners);
     void gather_cap(std::uint32_t triangle, const std::array<glm::dvec3, 4>& corners);
 
+    /// Where a line of sight meets a plane ahead of the eye.
+    struct Meeting {
+        double depth = 0;
+        bool along_normal = false; ///< it runs to that side
+    };
+    std::optional<Meeting> meet(const FacePlane& plane, const glm::dvec3& line) const;
+
     /// Vertices of the region's sides, with the components of their planes in separate arrays so
     /// that the compiler can load many at once.
     struct Vertices {
-        std::vector<double> x, y, z;
+        std::vector<double> x, y, z, offset;
+        SightPlane plane(std::size_t i) const { return {{x[i], y[i], z[i]}, offset[i]}; }
     };
 
     const Tracer& tracer_;
+    bool is_parallel_;
     Vertices vertices_;
     std::vector<Silhouette::Side> sides_; ///< p and q: indices into vertices_
     std::vector<std::uint8_t> behind_;    ///< one flag per vertex, for the ray at hand
@@ -122,7 +141,7 @@ private:
     std::shared_ptr<RegionLedger> ends_;
     std::vector<Crossing> found_at_ends_;
 
-    void cross_ends(const glm::dvec3& direction, std::vector<Crossing>& found);
+    void cross_ends(const glm::dvec3& line, std::vector<Crossing>& found);
 };
 
 } // namespace shadowproof

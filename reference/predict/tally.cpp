@@ -23,7 +23,7 @@ std::string_view name_of(Tally tally) {
 Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double far,
             const Counting& counting, const DepthModel& depth_model) {
     if (seen == no_triangle)
-        surface = depth_model.finite() ? far : std::numeric_limits<double>::infinity();
+        surface = depth_model.background_at_far() ? far : std::numeric_limits<double>::infinity();
     const bool own = crossing.triangle == seen && crossing.part == Crossing::Part::light_cap;
     const bool in_front = !own && crossing.depth < surface;
     const Counting::Caster caster = counting.caster(crossing.triangle);

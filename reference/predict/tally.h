@@ -23,7 +23,7 @@ std::string_view name_of(Tally tally);
 
 /// How one crossing is counted, where triangle `seen` is the surface, at view depth `surface`. A
 /// triangle's own light cap is behind it, as its counter does not count itself. Background
-/// (no_triangle) lies at `far`, the far plane of finite projections, else at infinity.
+/// (no_triangle) lies at `far`, the far plane, or at infinity (DepthModel::background_at_far).
 Tally tally(const Crossing& crossing, double surface, std::uint32_t seen, double far,
             const Counting& counting, const DepthModel& depth_model);
 

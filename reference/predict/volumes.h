@@ -41,12 +41,12 @@ public:
     Image<std::int32_t> let_through(const GroundTruth& truth) const {
         return count_let_through(*tracer_, truth);
     }
-    std::int32_t let_through(const glm::dvec3& direction, std::uint32_t seen) const {
-        return count_let_through(*tracer_, direction, seen);
+    std::int32_t let_through(const glm::dvec3& line, std::uint32_t seen) const {
+        return count_let_through(*tracer_, line, seen);
     }
     /// The same of the volumes that give the right shadows.
-    std::int32_t ideal_let_through(const glm::dvec3& direction, std::uint32_t seen) const {
-        return count_let_through(*ideal_tracer_, direction, seen);
+    std::int32_t ideal_let_through(const glm::dvec3& line, std::uint32_t seen) const {
+        return count_let_through(*ideal_tracer_, line, seen);
     }
 
     /// For the rays between four corners, as RegionLedger takes them. Refers to these volumes.

@@ -358,7 +358,8 @@ void CountArbiter::decide(RayPacket& packet, int lane, std::uint32_t triangle, f
 
 Decision CountArbiter::behind(const EyeRay& ray, const RayPoint& q, const Corners& t) const {
     const Predicates& predicates = rays_.predicates;
-    const bool at_eye = q.kind == RayPoint::Kind::depth && q.depth == 0;
+    const bool at_eye =
+        q.kind == RayPoint::Kind::eye || (q.kind == RayPoint::Kind::depth && q.depth == 0);
     return at_eye ? predicates.side_of_point_untied(ray, q, t)
                   : predicates.side_of_point(ray, q, t);
 }

@@ -158,13 +158,18 @@ void lead_to_points(const Tracer::State& state, const Vectors& lines, const Lane
 }
 
 // Rays of a directional light leave the scene, except where D points straight away from the light:
-// there they meet everything above the place where the line of sight starts.
-std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line) {
-    const glm::dvec3& direction = direction_of(state.scene->camera, line);
+// there they meet everything above the place where the line of sight starts. That is a tie: where
+// lines of sight are parallel, all would be tied, and D is moved as the predicates move it.
+std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line,
+                                         RayPoint::Kind kind) {
+    const Camera& camera = state.scene->camera;
+    const glm::dvec3 forward = direction_of(camera, line);
+    const glm::dvec3 direction = kind == RayPoint::Kind::eye ? -forward : forward;
     if (!state.from_light.parallel) return LightRay{{direction, 0}, {}};
     if (state.from_light.shear.lean != 0)
         return from_far_light_to_infinity(state.from_light, direction);
-    if (!state.predicates.runs_from_light(state.ray(line))) return std::nullopt;
+    if (camera.is_orthographic() || !state.predicates.runs_from_light(state.ray(line)))
+        return std::nullopt;
     RayPacket packet;
     Vectors lines;
     lines.set(0, line);

@@ -20,8 +20,9 @@ struct LightRay {
     HitLimits limits;
 };
 
-/// From the light along the direction of a line of sight, to infinity; nothing where no triangle
-/// can be met.
-std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line);
+/// From the light along the direction of a line of sight, or against it to an eye at infinity;
+/// nothing where no triangle can be met.
+std::optional<LightRay> lead_to_infinity(const Tracer::State& state, const glm::dvec3& line,
+                                         RayPoint::Kind kind);
 
 } // namespace shadowproof

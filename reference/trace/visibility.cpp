@@ -180,8 +180,9 @@ void Prober::count(const Vectors& lines, std::uint32_t lanes, const Lanes<Point>
     packet_.active = lanes;
     for_lanes(lanes, [&](std::size_t l) {
         if (own[l] != no_triangle) packet_.skip[l] = state_->places.plane[own[l]];
-        if (points[l].kind != RayPoint::Kind::infinity) return;
-        if (const std::optional<LightRay> ray = lead_to_infinity(*state_, lines[l]))
+        const RayPoint::Kind kind = points[l].kind;
+        if (kind != RayPoint::Kind::infinity && kind != RayPoint::Kind::eye) return;
+        if (const std::optional<LightRay> ray = lead_to_infinity(*state_, lines[l], kind))
             set_lane(packet_, static_cast<int>(l), ray->w, ray->limits, packet_.skip[l]);
         else
             packet_.active &= ~(1U << l);

@@ -120,8 +120,26 @@ Beam beam_to_rectangle(const Scene& scene, double largest, double depth) {
                    largest_coordinate(scene, largest, depth));
 }
 
+namespace {
+
+/// Of an orthographic camera: its lines of sight between the near plane and a depth.
+Beam beam_to_visible_box(const Scene& scene, double largest, double depth) {
+    const Camera& camera = scene.camera;
+    std::vector<BodyCorner> corners = rectangle(camera, depth);
+    for (BodyCorner& corner : rectangle(camera, camera.near)) {
+        corner.edges.push_back(camera.forward);
+        corners.push_back(std::move(corner));
+    }
+    Beam beam = beam_to(scene, corners, largest_coordinate(scene, largest, depth));
+    for (const glm::dvec3& side : {camera.right, camera.up})
+        beam.axes.push_back(extent(beam, side));
+    return beam;
+}
+
+} // namespace
+
 Beam beam_to_pyramid(const Scene& scene, double largest, double depth) {
-    assert(!scene.camera.is_orthographic());
+    if (scene.camera.is_orthographic()) return beam_to_visible_box(scene, largest, depth);
     std::vector<BodyCorner> corners = rectangle(scene.camera, depth);
     const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
     corners.push_back({scene.camera.eye, {rays.begin(), rays.end()}});
@@ -156,14 +174,21 @@ bool may_meet(const Beam& beam, const TriangleCorners& corners) {
 }
 
 PictureCone picture_cone(const Scene& scene) {
-    assert(!scene.camera.is_orthographic());
-    const std::array<glm::dvec3, 4> rays = corner_lines(scene.camera);
+    const Camera& camera = scene.camera;
+    const std::array<glm::dvec3, 4> rays = corner_lines(camera);
     PictureCone cone;
     for (std::size_t i = 0; i < 4; ++i) // corners run clockwise as seen from the eye
         cone.inward[i] = glm::normalize(glm::cross(rays[i], rays[(i + 1) % 4]));
-    cone.inward[4] = scene.camera.forward;
+    if (camera.is_orthographic())
+        cone.inward = {camera.right, -camera.right, camera.up, -camera.up, {}};
+    cone.inward[4] = camera.forward;
     cone.error =
         transform_error * largest_coordinate(scene, largest_position(scene), scene.camera.near);
+    return cone;
+}
+
+PictureCone opposite(PictureCone cone) {
+    for (glm::dvec3& normal : cone.inward) normal = -normal;
     return cone;
 }
 
@@ -177,6 +202,19 @@ bool may_point_into(const PictureCone& cone, const TriangleCorners& corners,
             return glm::dot(axis, direction) < -margin;
         });
     });
+}
+
+bool may_be_in_picture(const Camera& camera, const PictureCone& cone,
+                       const TriangleCorners& corners) {
+    if (!camera.is_orthographic()) return may_point_into(cone, corners, camera.eye);
+    const glm::dvec2 half = half_extent(camera) + cone.error;
+    const auto is_beyond = [&](const glm::dvec3& side, double most) {
+        return std::ranges::all_of(corners, [&](const glm::dvec3& point) {
+            return glm::dot(side, point - camera.eye) > most;
+        });
+    };
+    return !is_beyond(camera.right, half.x) && !is_beyond(-camera.right, half.x) &&
+           !is_beyond(camera.up, half.y) && !is_beyond(-camera.up, half.y);
 }
 
 } // namespace shadowproof

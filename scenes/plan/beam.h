@@ -38,7 +38,8 @@ double largest_position(const Scene& scene);
 /// From the light to the picture's rectangle at view depth `depth`. `largest`: largest_position.
 Beam beam_to_rectangle(const Scene& scene, double largest, double depth);
 
-/// From the light to the pyramid between the eye and that rectangle.
+/// From the light to the pyramid between the eye and that rectangle; of an orthographic camera, to
+/// the box between the near plane and the rectangle.
 Beam beam_to_pyramid(const Scene& scene, double largest, double depth);
 
 /// From the light to an axis-aligned box.
@@ -53,17 +54,23 @@ bool may_meet(const Beam& beam, std::span<const glm::dvec3> points,
 bool may_meet(const Beam& beam, const TriangleCorners& corners);
 
 /// The directions of the picture's rays: those on the inner side of its four side planes and of the
-/// plane across `forward`.
+/// plane across `forward`. Of an orthographic camera, `forward` alone.
 struct PictureCone {
     std::array<glm::dvec3, 5> inward; ///< normals of the planes
     double error = 0;                 ///< of the transform, for points of the scene
 };
 PictureCone picture_cone(const Scene& scene);
 
-/// Whether some direction from `from` to a point of a triangle may be one of the picture's. From
-/// the eye: whether the triangle may be in the picture; from the light: whether its volume may be
-/// seen at infinity.
+/// Where lines of sight come from: their directions reversed.
+PictureCone opposite(PictureCone cone);
+
+/// Whether some direction from `from` to a point of a triangle may be one of the cone's. From the
+/// light: whether its volume may be seen at infinity.
 bool may_point_into(const PictureCone& cone, const TriangleCorners& corners,
                     const glm::dvec3& from);
+
+/// Whether a triangle may be in the picture, near and far plane aside.
+bool may_be_in_picture(const Camera& camera, const PictureCone& cone,
+                       const TriangleCorners& corners);
 
 } // namespace shadowproof

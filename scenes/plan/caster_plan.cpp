@@ -107,10 +107,10 @@ bool may_show_lit_side(const Scene& scene, std::uint32_t triangle, bool double_s
     const TriangleCorners corners = corners_of(scene, triangle);
     const CertainPlane plane(corners);
     const double of_light = plane.side(homogeneous(chosen_light(scene)));
-    const double of_eye = plane.side(scene.camera.eye);
+    const double of_eye = plane.side(homogeneous_eye(scene.camera));
     if (of_light == 0 || of_eye == 0 || of_light * of_eye < 0) return false;
     if (!double_sided && of_eye < 0) return false;
-    return may_point_into(cone, corners, scene.camera.eye);
+    return may_be_in_picture(scene.camera, cone, corners);
 }
 
 /// The triangles of a mesh that may be seen lit where nothing shadows them. Only they can receive a
@@ -244,6 +244,15 @@ bool is_front_certain(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
     return -glm::dot(a, glm::cross(b, c)) > once + twice + da * db * dc;
 }
 
+/// The same along parallel lines of sight, with corners moved by up to `moved`: each edge changes
+/// by twice that.
+bool is_front_certain(const glm::dvec3& forward, const TriangleCorners& corners, double moved) {
+    const glm::dvec3 ab = corners[1] - corners[0];
+    const glm::dvec3 ac = corners[2] - corners[0];
+    const double by = 2 * moved;
+    return -glm::dot(forward, glm::cross(ab, ac)) > by * (glm::length(ab) + glm::length(ac) + by);
+}
+
 } // namespace
 
 std::vector<CasterPlan> plan_casters(const Scene& scene) {
@@ -251,6 +260,7 @@ std::vector<CasterPlan> plan_casters(const Scene& scene) {
     const double largest = largest_position(scene);
     const Beam to_seen = beam_to_seen(scene, largest);
     const Beam to_near = beam_to_pyramid(scene, largest, scene.camera.near);
+    const PictureCone to_eye = opposite(cone);
     std::vector<Body> receivers;
     for (const Mesh& mesh : scene.meshes) receivers.push_back(lit_body(scene, mesh, cone, largest));
     Effort effort;
@@ -260,6 +270,14 @@ std::vector<CasterPlan> plan_casters(const Scene& scene) {
         return light.kind != Light::Kind::directional &&
                may_point_into(cone, corners_of(scene, triangle), light.position);
     };
+    // An eye at infinity may be in a volume that never meets the near plane.
+    const auto reaches_eye = [&](std::uint32_t triangle) {
+        if (!scene.camera.is_orthographic()) return false;
+        const glm::dvec4 from = homogeneous(light);
+        if (from.w != 0) return may_point_into(to_eye, corners_of(scene, triangle), from);
+        const glm::dvec3 away = -glm::dvec3(from);
+        return may_point_into(to_eye, {away, away, away}, glm::dvec3(0));
+    };
     std::vector<CasterPlan> plans;
     for (std::uint32_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         if (!scene.meshes[mesh].casts) continue;
@@ -267,7 +285,8 @@ std::vector<CasterPlan> plan_casters(const Scene& scene) {
         CasterPlan& plan = plans.emplace_back();
         plan.mesh = mesh;
         plan.left_out = reason_to_leave_out(scene, caster, receivers, to_seen, effort);
-        plan.meets_near = body_may_meet(scene, caster, to_near);
+        plan.meets_near = body_may_meet(scene, caster, to_near) ||
+                          std::ranges::any_of(caster.triangles, reaches_eye);
         plan.reaches_infinity =
             std::any_of(caster.triangles.begin(), caster.triangles.end(), reaches_infinity);
     }
@@ -297,6 +316,7 @@ std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips) {
     const double error = picture_cone(scene).error;
     const double half_step = std::sqrt(2.0) / 32;
     const double snapping = half_step * 2 * camera.half_height / camera.height;
+    const bool is_parallel = camera.is_orthographic();
     std::vector<std::uint8_t> certain(scene.triangles.size(), 0);
     for (const Mesh& mesh : scene.meshes) {
         if (scene.materials[mesh.material].mask != no_mask) continue;
@@ -312,10 +332,11 @@ std::vector<std::uint8_t> certain_surfaces(const Scene& scene, bool far_clips) {
             if (!double_sided && nearest - error <= camera.near)
                 continue; // what is left is clipped
             const glm::dvec3 moved = depth * snapping + error;
-            if (double_sided ||
-                is_front_certain(corners[0] - camera.eye, corners[1] - camera.eye,
-                                 corners[2] - camera.eye, moved.x, moved.y, moved.z))
-                certain[triangle] = 1;
+            const bool is_front =
+                is_parallel ? is_front_certain(camera.forward, corners, snapping + error)
+                            : is_front_certain(corners[0] - camera.eye, corners[1] - camera.eye,
+                                               corners[2] - camera.eye, moved.x, moved.y, moved.z);
+            if (double_sided || is_front) certain[triangle] = 1;
         }
     }
     return certain;

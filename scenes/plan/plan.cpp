@@ -92,17 +92,13 @@ Plan make_plan(const Scene& scene) {
     if (!is_bump_lit(scene)) plan.left_out.push_back("tangents: no normal map or height field");
     const std::vector<CasterReport> casters = inspect_casters(scene);
     plan.faults = list_faults(scene, casters);
-    // Shadow volumes are drawn in perspective alone: what follows tells what they need.
-    const bool has_volumes = !scene.camera.is_orthographic();
-    if (has_volumes)
-        for (std::string& line : list_touching(scene)) plan.faults.push_back(std::move(line));
+    for (std::string& line : list_touching(scene)) plan.faults.push_back(std::move(line));
     plan.hole_filling = !std::all_of(casters.begin(), casters.end(),
                                      [](const CasterReport& c) { return c.encloses_volume(); });
     if (!plan.hole_filling) plan.left_out.push_back("hole filling: every caster is closed");
     plan.around_light = triangles_around_light(scene);
     if (plan.around_light.empty())
         plan.left_out.push_back("flipping casters: none has the light inside");
-    if (!has_volumes) return plan;
     plan.volume_meets_near = volume_meets(scene, scene.camera.near);
     if (!plan.volume_meets_near)
         plan.left_out.push_back("near cap: no volume meets the near plane, z-pass is enough");

@@ -91,7 +91,8 @@ struct Stretch {
     Face first; ///< where it begins
     Face last;  ///< where it ends
 
-    bool is_ahead() const { return begin < end && end > 0; }
+    /// `eye`: the depth at which lines of sight begin.
+    bool is_ahead(double eye) const { return begin < end && end > eye; }
 
     /// Keeps what has constant + t slope >= 0.
     void cut(double constant, double slope, const Face& face) {
@@ -110,11 +111,17 @@ struct Stretch {
     }
 };
 
+double depth_of_eye(const Camera& camera) {
+    return camera.is_orthographic() ? -std::numeric_limits<double>::infinity() : 0;
+}
+
 /// `radius` widens the stretch to hold those of all rays whose direction differs by at most that a
 /// component: a plane's slope then differs by at most |plane|_1 radius.
-Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const glm::dvec3& direction,
+Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const glm::dvec3& line,
                           double radius) {
     Stretch stretch;
+    const glm::dvec3& start = start_of(state.scene->camera, line);
+    const glm::dvec3& direction = direction_of(state.scene->camera, line);
     const auto slope = [&](const glm::dvec3& plane) {
         return glm::dot(direction, plane) + radius * sum_of(plane);
     };
@@ -124,12 +131,11 @@ Stretch stretch_in_volume(const Tracer::State& state, const Corners& t, const gl
     for (std::size_t part = 0; part < edges.size(); ++part) {
         const auto [a, b] = edges[part];
         const glm::dvec3 plane = side_plane(state.light, *a, *b);
-        stretch.cut(glm::dot(state.scene->camera.eye - side_point(state.light, *a, *b), plane),
-                    slope(plane), {plane, static_cast<Crossing::Part>(part)});
+        stretch.cut(glm::dot(start - side_point(state.light, *a, *b), plane), slope(plane),
+                    {plane, static_cast<Crossing::Part>(part)});
     }
     const glm::dvec3 away = cap_plane(t);
-    stretch.cut(glm::dot(state.scene->camera.eye - t.a, away), slope(away),
-                {away, Crossing::Part::light_cap});
+    stretch.cut(glm::dot(start - t.a, away), slope(away), {away, Crossing::Part::light_cap});
     return stretch;
 }
 
@@ -164,38 +170,38 @@ std::vector<Crossing> cancel_shared_sides(std::vector<Crossing> events) {
 
 } // namespace
 
-NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& direction, double radius) {
+NearbyVolumes volumes_near(const Tracer& tracer, const glm::dvec3& line, double radius) {
     const Tracer::State& state = tracer.state();
-    const Region region = swept_region(state, direction, radius);
+    const Camera& camera = state.scene->camera;
+    const Region region = camera.is_orthographic() ? Region{} : swept_region(state, line, radius);
     NearbyVolumes volumes;
     state.clusters.for_each_in(
-        [&](const Box& box) { return may_meet(box, region); },
+        [&](const Box& box) { return camera.is_orthographic() || may_meet(box, region); },
         [&](const Cluster& cluster) {
             for (const std::uint32_t triangle : cluster.triangles) {
                 if (triangle == no_triangle || state.from_light.side[triangle] >= 0) continue;
                 // A little more than the radius, for the rounding of the slopes.
                 const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle),
-                                                          direction, radius * (1 + 0x1p-20));
-                if (stretch.is_ahead()) volumes.triangles.push_back(triangle);
+                                                          line, radius * (1 + 0x1p-20));
+                if (stretch.is_ahead(depth_of_eye(camera))) volumes.triangles.push_back(triangle);
             }
         });
     std::sort(volumes.triangles.begin(), volumes.triangles.end());
     return volumes;
 }
 
-RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
-                     const glm::dvec3& direction) {
+RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes, const glm::dvec3& line) {
     const Tracer::State& state = tracer.state();
+    const double eye = depth_of_eye(state.scene->camera);
     RayLedger ledger;
     std::vector<Crossing> events;
     for (const std::uint32_t triangle : volumes.triangles) {
-        const Stretch stretch =
-            stretch_in_volume(state, corners(*state.scene, triangle), direction, 0);
-        if (!stretch.is_ahead()) continue;
+        const Stretch stretch = stretch_in_volume(state, corners(*state.scene, triangle), line, 0);
+        if (!stretch.is_ahead(eye)) continue;
         const auto event = [&](double depth, int change, const Face& face) {
             events.push_back({depth, change, face.part, triangle, face.plane});
         };
-        if (stretch.begin < 0)
+        if (stretch.begin <= eye)
             ++ledger.at_eye;
         else
             event(stretch.begin, 1, stretch.first);
@@ -208,8 +214,8 @@ RayLedger ray_ledger(const Tracer& tracer, const NearbyVolumes& volumes,
     return ledger;
 }
 
-RayLedger ray_ledger(const Tracer& tracer, const glm::dvec3& direction) {
-    return ray_ledger(tracer, volumes_near(tracer, direction, 0), direction);
+RayLedger ray_ledger(const Tracer& tracer, const glm::dvec3& line) {
+    return ray_ledger(tracer, volumes_near(tracer, line, 0), line);
 }
 
 } // namespace shadowproof

@@ -86,8 +86,9 @@ TEST(SideOfEdge, is_the_opposite_for_the_edge_run_the_other_way_and_never_zero_o
         const glm::dvec4 light(any_place(random, false), trial % 2);
         const glm::dvec3 place =
             trial % 3 == 0 ? 0.5 * (a + b) : (trial % 3 == 1 ? a : any_place(random, false));
-        const int one = side_of_edge(light, a, b, place);
-        ASSERT_EQ(side_of_edge(light, b, a, place), -one) << "seed " << seed << ", trial " << trial;
+        const int one = side_of_edge(light, a, b, {place, 1});
+        ASSERT_EQ(side_of_edge(light, b, a, {place, 1}), -one)
+            << "seed " << seed << ", trial " << trial;
         const glm::dvec3 plane = glm::cross(light.w * a - glm::dvec3(light), b - a);
         if (glm::length(plane) > 1e-9) {
             ASSERT_NE(one, 0) << "seed " << seed << ", trial " << trial;
@@ -98,8 +99,8 @@ TEST(SideOfEdge, is_the_opposite_for_the_edge_run_the_other_way_and_never_zero_o
 TEST(SideOfTriangle, is_never_zero_in_its_plane_and_the_same_as_a_real_move_leads_to) {
     const glm::dvec3 a{1, 2, 3};
     const auto at = [&](const glm::dvec3& b, const glm::dvec3& c) {
-        const int side = side_of_triangle(a, b, c, a);
-        EXPECT_EQ(side_of_triangle(a, c, b, a), -side);
+        const int side = side_of_triangle(a, b, c, {a, 1});
+        EXPECT_EQ(side_of_triangle(a, c, b, {a, 1}), -side);
         const double e = 0x1p-10;
         const double moved =
             orientation(a, b, c, glm::dvec4(a + glm::dvec3(e, e * e, e * e * e), 1));
@@ -110,7 +111,27 @@ TEST(SideOfTriangle, is_never_zero_in_its_plane_and_the_same_as_a_real_move_lead
     EXPECT_EQ(at({2, 2, 3}, {1, 2, 4}), -1); // (0, -1, 0)
     EXPECT_EQ(at({2, 2, 3}, {1, 3, 3}), 1);  // (0, 0, 1)
     EXPECT_EQ(at({2, 4, 3}, {1, 2, 4}), 1);  // (2, -1, 0)
-    EXPECT_EQ(side_of_triangle(a, {1, 3, 3}, {1, 2, 4}, {0.5, 9, 9}), -1);
+    EXPECT_EQ(side_of_triangle(a, {1, 3, 3}, {1, 2, 4}, {0.5, 9, 9, 1}), -1);
+}
+
+/// A place along a direction, far enough that nothing else counts, lies where the direction does.
+TEST(Sides, of_a_direction_are_those_of_places_far_along_it) {
+    std::mt19937 random(seed);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const glm::dvec3 a = any_place(random, false);
+        const glm::dvec3 b = any_place(random, false);
+        const glm::dvec3 c = any_place(random, false);
+        const glm::dvec3 along = any_place(random, false);
+        const glm::dvec4 light(any_place(random, false), trial % 2);
+        const glm::dvec4 far(0x1p60 * along, 1);
+        EXPECT_EQ(side_of_edge(light, a, b, {along, 0}), side_of_edge(light, a, b, far));
+        EXPECT_EQ(side_of_triangle(a, b, c, {along, 0}), side_of_triangle(a, b, c, far));
+    }
+    // In the plane x = 0, and moved off it.
+    const glm::dvec3 up{0, 1, 0};
+    EXPECT_EQ(side_of_edge({0, 0, 1, 1}, {0, 0, 0}, up, {0, 1, 1, 0}),
+              -side_of_edge({0, 0, 1, 1}, up, {0, 0, 0}, {0, 1, 1, 0}));
+    EXPECT_EQ(side_of_triangle({0, 0, 0}, up, {0, 0, 1}, {0, 1, 1, 0}), 1);
 }
 
 } // namespace

@@ -70,11 +70,13 @@ Facing facing_of(const Scene& casters, std::uint32_t triangle, bool by_shaders) 
 /// Collects the faces of one part after the other.
 class Collector {
 public:
+    /// `is_finite`: the volumes are.
     Collector(const Scene& casters, const VolumeFaces& drawn, const SplitFarEnds& split,
-              DrawnFaces& found)
+              bool is_finite, DrawnFaces& found)
         : casters_(casters), drawn_(drawn), split_(split), found_(found),
           welded_(weld_by_position(casters.positions)),
           far_end_(static_cast<std::uint32_t>(casters.positions.size())),
+          has_dark_caps_(is_finite || !casters.camera.is_orthographic()),
           facing_(casters.triangles.size(), Facing::no) {}
 
     void add(const Part& part) {
@@ -99,6 +101,7 @@ private:
     DrawnFaces& found_;
     std::vector<std::uint32_t> welded_;
     std::uint32_t far_end_;
+    bool has_dark_caps_; ///< at infinity, parallel lines of sight see none
     std::vector<Facing> facing_;
 
     std::uint32_t along(std::uint32_t direction) const { return 2 * far_end_ + direction; }
@@ -131,7 +134,8 @@ private:
                                         .corners = corners,
                                         .other_corner = {},
                                         .copies = copies});
-            if (part.caster.dark_cap) add_dark_cap(triangle, corners, certain, copies);
+            if (part.caster.dark_cap && has_dark_caps_)
+                add_dark_cap(triangle, corners, certain, copies);
         }
     }
 
@@ -254,11 +258,11 @@ private:
 
 DrawnFaces drawn_faces(const Volumes& volumes, const Counting& counting, const VolumeFaces& drawn) {
     const Scene& casters = volumes.drawn_casters();
-    const SplitFarEnds split =
-        std::isfinite(counting.extrusion) ? SplitFarEnds{} : split_far_ends(casters);
+    const bool is_finite = std::isfinite(counting.extrusion);
+    const SplitFarEnds split = is_finite ? SplitFarEnds{} : split_far_ends(casters);
     DrawnFaces found;
     found.far_points = points_towards_infinity(casters, split);
-    Collector collector(casters, drawn, split, found);
+    Collector collector(casters, drawn, split, is_finite, found);
     for (const Part& part : parts_of(casters, counting, drawn, volumes.flipped()))
         collector.add(part);
     return found;

@@ -38,11 +38,17 @@ FigureRange fragments_of_the_whole(const Tracer& tracer, const Silhouette& silho
     Frame whole;
     const Counting& counting = whole.counted.emplace().counting = {
         .dark_cap = make_plan(tracer.scene()).dark_cap, .flips = {.around_light = true}};
-    whole.depth_model = {.projection = DepthModel::Projection::infinite_reversed,
+    const bool is_parallel = frame.depth_model.parallel; // without an infinite projection
+    whole.depth_model = {.projection = is_parallel ? DepthModel::Projection::finite_reversed
+                                                   : DepthModel::Projection::infinite_reversed,
                          .near = frame.depth_model.near,
+                         .far = frame.depth_model.far,
+                         .parallel = is_parallel,
                          .floating = true,
                          .eye_relative = true,
-                         .subpixel_bits = frame.depth_model.subpixel_bits};
+                         .subpixel_bits = frame.depth_model.subpixel_bits,
+                         .front = is_parallel ? 0.5 : 0,
+                         .clamp = is_parallel};
     const Volumes volumes(tracer, silhouette, counting);
     const DrawnFaces faces = drawn_faces(volumes, counting, whole.counted->volume_faces);
     return count_fragments({volumes.drawn_casters(), nullptr, faces, whole, far}, tracer.threads());

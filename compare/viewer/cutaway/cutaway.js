@@ -55,11 +55,11 @@ var cutaway = (function () {
       notes.push('Some casters are counted in front of the surface, others behind it.');
     else if (behind && crossings > 0)
       notes.push('Counted behind the surface, where an exit adds one and an entry takes one.');
-    if (technique.test === 'depth_pass' && record.inside && record.inside.eye !== 0)
+    if (technique.test === 'depth_pass' && record.inside.eye !== 0)
       notes.push('The eye itself is inside ' + record.inside.eye +
                  (record.inside.eye === 1 ? ' volume' : ' volumes') +
                  ', whose entry lies behind it and is not counted.');
-    if (record.inside && crossings === 0) notes.push('No side or cap of a shadow volume meets this ray.');
+    if (crossings === 0) notes.push('No side or cap of a shadow volume meets this ray.');
     if (!record.seen) notes.push('The ray meets no surface: background.');
     if (!record.adds_up)
       notes.push('Rounding lost a crossing: those drawn do not add up to the exact counts.');

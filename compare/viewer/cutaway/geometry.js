@@ -79,12 +79,12 @@ var cutawayGeometry = (function () {
       events.push({ kind: 'far', depth: record.far, rank: 3 });
     events = events.map(function (event, i) { event.order = i; return event; })
       .sort(function (a, b) { return a.depth - b.depth || a.rank - b.rank || a.order - b.order; });
-    events.unshift({ kind: 'eye', depth: 0 });
+    // An orthographic camera's rays come from infinity.
+    events.unshift({ kind: 'eye', depth: record.orthographic ? -Infinity : 0 });
     if (technique.test === 'depth_fail' && technique.dark_caps !== 0)
       events.push({ kind: 'dark caps', depth: Infinity, status: technique.dark_cap,
                     test: technique.test });
-    // No volumes are counted before an orthographic camera.
-    var inside = record.inside ? record.inside.eye : 0;
+    var inside = record.inside.eye;
     events.forEach(function (event) {
       if (event.kind === 'crossing') inside += event.crossing.change;
       event.inside = inside; // after it
@@ -138,13 +138,13 @@ var cutawayGeometry = (function () {
     var last = Math.max.apply(null, depths) * 1.06 || 1;
     if (isFinite(record.far) && record.far !== null && record.far <= 1.4 * last)
       last = Math.max(last, record.far * 1.03);
-    var first = 0, light = plane.light;
-    if (depths.length <= 2) // only eye and near
+    var first = Math.min.apply(null, [0].concat(depths)), light = plane.light;
+    if (depths.length <= (record.orthographic ? 1 : 2)) // only eye and near
       last = Math.max(last, 8 * record.near, plane.directional ? 0 : light[0]);
     var lightIn = !plane.degenerate && !plane.directional && light[0] > -0.6 * last &&
       light[0] < 1.7 * last && light[1] < 3 * last;
     if (lightIn) {
-      first = Math.min(0, light[0] - 0.02 * last);
+      first = Math.min(first, light[0] - 0.02 * last);
       last = Math.max(last, light[0] * 1.02);
     }
     var highest = casters.reduce(function (height, caster) {
@@ -187,7 +187,10 @@ var cutawayGeometry = (function () {
         : null,
       scale: ordinal ? null : scaleY / scaleX, top: top,
       right: ordinal ? width - right : linear(last),
-      x: function (depth) { return isFinite(depth) ? between(depth) : width - right; },
+      x: function (depth) {
+        if (depth === -Infinity) return ordinal ? columnX(0) : linear(first);
+        return isFinite(depth) ? between(depth) : width - right;
+      },
       point: function (at) { return [between(at[0]), ray - at[1] * scaleY]; }
     };
   }

@@ -140,8 +140,8 @@ var cutawaySide = (function () {
     return line(ends[0], ends[1], 'ink', 3.6, { 'stroke-linecap': 'round' });
   }
 
-  function rayDrawn(record, place, width) {
-    var eye = [place.x(0), place.ray], end = width - 8;
+  function rayDrawn(record, events, place, width) {
+    var eye = [place.x(events[0].depth), place.ray], end = width - 8;
     var stop = record.seen ? place.x(record.seen.depth) : end;
     return line(eye, [stop, place.ray], 'ink', 1.8) +
       line([stop, place.ray], [end, place.ray], 'ink', 1.2, { 'stroke-dasharray': '1 3' }) +
@@ -176,7 +176,7 @@ var cutawaySide = (function () {
         }
       }
     }
-    put([place.x(0) - 12, place.ray + 24], 'eye', 12, 'ink');
+    put([place.x(events[0].depth) - 12, place.ray + 24], 'eye', 12, 'ink');
     put([place.x(record.near), place.ray - 40], 'near plane', 11.5, 'quiet');
     if (place.x(record.far) <= place.right) put([place.x(record.far), place.ray - 40], 'far plane',
                                                 11.5, 'quiet');
@@ -198,10 +198,10 @@ var cutawaySide = (function () {
     var panel = (plane.degenerate ? '' : shadowsDrawn(events, points, place) +
                                          sidesDrawn(events, points, place)) +
       planesDrawn(events, place, width) + capsDrawn(record, events, plane, place) +
-      bandDrawn(events, place) + rayDrawn(record, place, width) +
+      bandDrawn(events, place) + rayDrawn(record, events, place, width) +
       surfaceDrawn(record, plane, place) + dotsDrawn(events, place);
     return tag('svg', { x: 0, y: 0, width: width, height: place.bottom }, panel) +
-      eyeDrawn([place.x(0), place.ray]) + lightDrawn(record, place, width) +
+      eyeDrawn([place.x(events[0].depth), place.ray]) + lightDrawn(record, place, width) +
       labelsDrawn(record, events, points, place, width) +
       words([width - 8, 13], cutawayWords.scaleWords(place), 'quiet', 11.5, 'end');
   }

@@ -111,7 +111,7 @@ var cutawayStrip = (function () {
           words([at[0], marks + 40], isFinite(depth) ? short(depth) : 'at infinity', 'quiet',
                 10.5));
     });
-    if (record.inside) text += depthSteps(columns, columnCentre, steps, width);
+    text += depthSteps(columns, columnCentre, steps, width);
     var fates = fatesDrawn(columns, columnCentre, steps + 28, step, width);
     return { text: text + fates.text, bottom: steps + 28 + fates.height };
   }

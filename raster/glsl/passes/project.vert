@@ -1,7 +1,7 @@
 #version 450 core
 // The vertex shader shared by the passes: what coincides in the scene coincides in depth, bit for
 // bit. Vertices [0, finite_vertices) are the scene's; those after them are the same, moved away
-// from the light to infinity: w = 0.
+// from the light to infinity.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 mask_at; // of the scene's vertices, where it has masks
@@ -12,6 +12,7 @@ layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding 
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
+layout(location = 35) uniform float end_w; // w at infinity (ClipTransform)
 layout(location = 5) uniform int finite_vertices;
 
 out Surface {
@@ -19,6 +20,8 @@ out Surface {
 } surface;
 
 out Masked { vec2 at; } masked;
+
+out Depth { float in_clip; } depth;
 
 invariant gl_Position;
 
@@ -28,5 +31,6 @@ void main() {
     surface.from_light = away;
     masked.at = mask_at;
     gl_Position =
-        clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, 0));
+        clip_from_relative * (gl_VertexID < finite_vertices ? vec4(relative, 1) : vec4(away, end_w));
+    depth.in_clip = gl_Position.z;
 }

@@ -11,6 +11,8 @@ in Surface { vec3 from_light; } corner[];
 out Surface { vec3 from_light; } surface;
 in Masked { vec2 at; } corner_masked[];
 out Masked { vec2 at; } masked;
+in Depth { float in_clip; } corner_depth[];
+out Depth { float in_clip; } depth;
 
 invariant gl_Position;
 
@@ -20,6 +22,7 @@ void main() {
         gl_PrimitiveID = gl_PrimitiveIDIn;
         surface.from_light = corner[k].from_light;
         masked.at = corner_masked[k].at;
+        depth.in_clip = corner_depth[k].in_clip;
         EmitVertex();
     }
     EndPrimitive();

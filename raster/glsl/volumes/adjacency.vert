@@ -11,6 +11,8 @@ layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
 
+layout(location = 35) uniform float end_w; // w at infinity (ClipTransform)
+
 out Corner {
     vec3 world;
     vec4 here;
@@ -24,7 +26,7 @@ void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
     corner.world = position;
-    corner.at_infinity = clip_from_relative * vec4(away, 0);
+    corner.at_infinity = clip_from_relative * vec4(away, end_w);
     corner.index = gl_VertexID;
     gl_Position = clip_from_relative * vec4(relative, 1);
     corner.here = gl_Position;

@@ -7,6 +7,7 @@ layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: t
 layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
+layout(location = 35) uniform float end_w; // w at infinity (ClipTransform)
 layout(location = 8) uniform dvec3 light;
 
 invariant gl_Position;
@@ -19,7 +20,7 @@ vec4 projected(uint vertex, bool at_infinity) {
     vec3 position = position_of(vertex);
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
-    return clip_from_relative * (at_infinity ? vec4(away, 0) : vec4(relative, 1));
+    return clip_from_relative * (at_infinity ? vec4(away, end_w) : vec4(relative, 1));
 }
 
 // A corner of a face that is not drawn: all its corners coincide outside of the clip volume.

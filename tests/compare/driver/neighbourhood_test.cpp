@@ -28,13 +28,13 @@ glm::dvec3 through(const Neighbourhood& around, const glm::dvec2& place) {
 }
 
 /// The plane through the eye and two such rays.
-glm::dvec3 plane_through(const Neighbourhood& around, const glm::dvec2& a, const glm::dvec2& b) {
-    return glm::cross(through(around, a), through(around, b));
+SightPlane plane_through(const Neighbourhood& around, const glm::dvec2& a, const glm::dvec2& b) {
+    return {glm::cross(through(around, a), through(around, b)), 0};
 }
 
-std::vector<bool> part_of(const std::vector<glm::dvec3>& planes, const glm::dvec3& ray) {
+std::vector<bool> part_of(const std::vector<SightPlane>& planes, const glm::dvec3& ray) {
     std::vector<bool> part;
-    for (const glm::dvec3& plane : planes) part.push_back(glm::dot(plane, ray) < 0);
+    for (const SightPlane& plane : planes) part.push_back(plane.side(ray) < 0);
     return part;
 }
 
@@ -44,7 +44,7 @@ TEST(RaysBetween, lie_in_every_part_that_planes_divide_the_neighbourhood_into) {
     std::uniform_real_distribution<double> anywhere(-1, 1);
     const auto place = [&] { return glm::dvec2(anywhere(random), anywhere(random)); };
     for (int trial = 0; trial < 50; ++trial) {
-        std::vector<glm::dvec3> planes;
+        std::vector<SightPlane> planes;
         for (int i = 0; i < 1 + trial % 7; ++i)
             planes.push_back(plane_through(around, place(), place()));
         std::set<std::vector<bool>> found;
@@ -61,7 +61,7 @@ TEST(RaysBetween, lie_in_every_part_that_planes_divide_the_neighbourhood_into) {
 
 TEST(RaysBetween, lie_in_a_part_a_millionth_as_wide_as_the_neighbourhood) {
     const Neighbourhood around = around_a_pixel();
-    const std::vector<glm::dvec3> planes{plane_through(around, {0.3, -1}, {0.2, 1}),
+    const std::vector<SightPlane> planes{plane_through(around, {0.3, -1}, {0.2, 1}),
                                          plane_through(around, {0.300001, -1}, {0.200001, 1})};
     std::set<std::vector<bool>> found;
     for (const glm::dvec3& ray : rays_between(around, planes)) found.insert(part_of(planes, ray));

@@ -73,7 +73,7 @@ TEST_P(LedgerTableTest, the_table_holds_what_the_pixels_alone_say) {
         EXPECT_EQ(table.seen[i], record.seen);
         EXPECT_EQ(table.shown[i], cell.frame.triangle.at(x, y));
         const std::uint32_t ledger = table.ledger[i];
-        const RayCounts& counts = record.ledger->counts;
+        const RayCounts& counts = record.ledger.counts;
         const auto own =
             table.counts.begin() + static_cast<std::ptrdiff_t>(counts_of_ledger * ledger);
         const std::vector<std::int32_t> listed(own, own + counts_of_ledger);
@@ -81,15 +81,15 @@ TEST_P(LedgerTableTest, the_table_holds_what_the_pixels_alone_say) {
                                                      counts.at_surface, counts.at_far,
                                                      counts.at_infinity, record.let_through}));
         const std::uint32_t first = table.start[ledger];
-        ASSERT_EQ(table.start[ledger + 1] - first, record.ledger->crossings.size());
-        for (std::size_t k = 0; k < record.ledger->crossings.size(); ++k) {
-            const Crossing& crossing = record.ledger->crossings[k];
+        ASSERT_EQ(table.start[ledger + 1] - first, record.ledger.crossings.size());
+        for (std::size_t k = 0; k < record.ledger.crossings.size(); ++k) {
+            const Crossing& crossing = record.ledger.crossings[k];
             const std::uint32_t face = table.crossing_face[first + k];
             EXPECT_EQ(table.face[2 * face], crossing.triangle) << x << ", " << y;
             EXPECT_EQ(table.face[2 * face + 1], static_cast<std::uint32_t>(crossing.part));
             EXPECT_EQ(table.crossing_change[first + k], crossing.change);
             EXPECT_EQ(table.crossing_tally[first + k],
-                      static_cast<std::uint8_t>(tally(crossing, record.ledger->surface, record.seen,
+                      static_cast<std::uint8_t>(tally(crossing, record.ledger.surface, record.seen,
                                                       record.far, cell.frame.counted->counting,
                                                       cell.frame.depth_model)));
         }

@@ -143,8 +143,8 @@ bool is_alike_all_around(const TracedScene& traced, PixelPlace p) {
     if (centre.depth_margin.value_or(infinity) < 0.3) return false;
     for (const int y : {p.y - 2, p.y, p.y + 2})
         for (const int x : {p.x - 2, p.x, p.x + 2})
-            if (record_pixel(traced.traced, x, y).ledger->crossings.size() !=
-                centre.ledger->crossings.size())
+            if (record_pixel(traced.traced, x, y).ledger.crossings.size() !=
+                centre.ledger.crossings.size())
                 return false;
     return true;
 }

@@ -29,12 +29,23 @@ void for_regions(const Tracer& tracer, int step, const Visit& visit) {
         }
 }
 
-/// A bundled scene by its name, or with its light gone to infinity: "ordinary_under_a_sun". The
-/// direction is that from the middle of the scene to the light, so that shadows fall as they did.
-Scene scene_named(const std::string& name) {
-    const std::size_t sun = name.find("_under_a_sun");
-    Scene scene = load_scene(name.substr(0, sun), {});
-    if (sun == std::string::npos) return scene;
+/// A bundled scene by its name, before an orthographic camera, and with its light gone to infinity:
+/// "ordinary_in_parallel_under_a_sun". The direction is that from the middle of the scene to the
+/// light, so that shadows fall as they did.
+Scene scene_named(std::string name) {
+    const auto take = [&](const std::string& end) {
+        if (!name.ends_with(end)) return false;
+        name.resize(name.size() - end.size());
+        return true;
+    };
+    const bool has_sun = take("_under_a_sun");
+    const bool is_parallel = take("_in_parallel");
+    Scene scene = load_scene(name, {});
+    if (is_parallel) {
+        scene.camera.projection = Projection::orthographic;
+        scene.camera.half_height = 4;
+    }
+    if (!has_sun) return scene;
     Light& light = scene.lights[scene.light];
     light.kind = Light::Kind::directional;
     light.direction = glm::normalize(glm::dvec3(scene.positions.front()) - light.position);
@@ -91,7 +102,11 @@ TEST_P(RegionLedgerTest, the_crossings_add_up_to_the_exact_counts_at_every_pixel
 INSTANTIATE_TEST_SUITE_P(Bundled, RegionLedgerTest,
                          testing::Values("ordinary", "near_plane", "far_plane", "eye_inside",
                                          "ordinary_under_a_sun", "near_plane_under_a_sun",
-                                         "far_plane_under_a_sun", "eye_inside_under_a_sun"),
+                                         "far_plane_under_a_sun", "eye_inside_under_a_sun",
+                                         "ordinary_in_parallel", "near_plane_in_parallel",
+                                         "far_plane_in_parallel", "eye_inside_in_parallel",
+                                         "ordinary_in_parallel_under_a_sun",
+                                         "eye_inside_in_parallel_under_a_sun"),
                          [](const auto& scene) { return scene.param; });
 
 } // namespace

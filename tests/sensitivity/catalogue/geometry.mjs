@@ -6,7 +6,7 @@ const facing = 'if (side(scene, triangle, light) > 0) facing.push_back(triangle)
 const oneSide = 'sides.emplace_back(high, low, low + position_count);';
 const otherSide = 'sides.emplace_back(high, low + position_count, high + position_count);';
 const lit = '(of_light > 0 && of_eye > 0) || (of_light < 0 && of_eye < 0)';
-const around = 'return side_of_triangle(a, b, c, place) < 0 && side_of_edge(light, a, b, place) < 0 &&\n           side_of_edge(light, b, c, place) < 0 && side_of_edge(light, c, a, place) < 0;';
+const around = 'return sign * side_of_triangle(a, b, c, place) < 0 &&\n           sign * side_of_edge(light, a, b, place) < 0 &&\n           sign * side_of_edge(light, b, c, place) < 0 &&\n           sign * side_of_edge(light, c, a, place) < 0;';
 export const faults = [
   { name: 'one_light_cap_missing', file, right: cap, wrong: 'volume.light_cap.push_back(volume.light_cap.empty() ? glm::uvec3(corners.x) : corners);' },
   { name: 'last_light_caps_missing', file, right: cap, wrong: 'volume.light_cap.push_back(volume.light_cap.size() > 10 ? glm::uvec3(corners.x) : corners);' },
@@ -37,7 +37,7 @@ export const faults = [
   { name: 'lit_planes_through_light', file: 'raster/passes/lit_sides.cpp', right: lit, wrong: '(of_light >= 0 && of_eye > 0) || (of_light <= 0 && of_eye < 0)' },
   { name: 'lit_from_behind', file: 'raster/passes/lit_sides.cpp', right: lit, wrong: 'of_light * of_eye != 0' },
   { name: 'lit_fronts_only', file: 'raster/passes/lit_sides.cpp', right: lit, wrong: 'of_light > 0 && of_eye > 0' },
-  { name: 'eye_behind_planes_only', techniques: 'zpass_eye_count', file: 'raster/volumes/eye_count.cpp', right: around, wrong: 'return side_of_triangle(a, b, c, place) < 0 && side_of_edge(light, a, b, place) < 0 && side_of_edge(light, b, c, place) < 0;' },
+  { name: 'eye_behind_planes_only', techniques: 'zpass_eye_count', file: 'raster/volumes/eye_count.cpp', right: around, wrong: 'return sign * side_of_triangle(a, b, c, place) < 0 && sign * side_of_edge(light, a, b, place) < 0 && sign * side_of_edge(light, b, c, place) < 0;' },
   { name: 'near_caps_missing', techniques: 'zpass_capped', file: 'raster/volumes/near_cap.cpp', right: 'append_fan(loop_of(segments), cut.caps);', wrong: ';' },
   { name: 'cut_sides_missing', techniques: 'zpass_capped', file: 'raster/volumes/near_cap.cpp', right: 'for (int i = 0; i < surplus; ++i) append_fan(part.points, cut.sides);', wrong: 'static_cast<void>(surplus);' },
   { name: 'far_segments_missing', techniques: 'zpass_capped', file: 'raster/volumes/near_cap.cpp', right: 'add_segment(part);', wrong: ';' },

@@ -50,7 +50,7 @@ export const faults = [
   { name: 'depth_offset_1e-6', file: passes, right: 'transform.light = split(light);', wrong: 'transform.light = split(light); for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += 1e-6F * transform.clip_from_relative[k][3];' },
   { name: 'depth_offset_1e-4', file: passes, right: 'transform.light = split(light);', wrong: 'transform.light = split(light); for (int k = 0; k < 4; ++k) transform.clip_from_relative[k][2] += 1e-4F * transform.clip_from_relative[k][3];' },
   { name: 'light_low_dropped', file: 'raster/glsl/passes/project.vert', right: '(light_w * position - light_high) - light_low', wrong: '(light_w * position - light_high)', why: 'Only near_light has casters so close to its light that this tells: in pixels as near to the border of a shadow as the driver may move it.' },
-  { name: 'finite_ends_for_infinite', file: 'raster/glsl/passes/project.vert', right: 'vec4(away, 0)', wrong: 'vec4(relative + 10 * away, 1)' },
+  { name: 'finite_ends_for_infinite', file: 'raster/glsl/passes/project.vert', right: 'vec4(away, end_w)', wrong: 'vec4(relative + 10 * away, 1)' },
   { name: 'seen_triangle_not_asked', file: 'raster/glsl/passes/lit_side.glsl', right: 'if (seen != triangle_drawn[first_side + gl_PrimitiveID]) return false;', wrong: '' },
   { name: 'volume_fragments_doubled', ...fragments('2 * fragments') },
   { name: 'volume_fragments_halved', ...fragments('fragments / 2') },

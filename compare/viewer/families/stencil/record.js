@@ -9,11 +9,14 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0],
                          a[0] * b[1] - b[0] * a[1]];
 
-function rayDirection({ width, height, camera }, x, y) {
+/** Where the ray of a pixel starts, and its direction: one of both is the same for all. */
+function rayOf({ width, height, camera }, x, y) {
   const across = camera.half_height * width / height * (2 * (x + 0.5) / width - 1);
   const upward = camera.half_height * (1 - 2 * (y + 0.5) / height);
-  return [0, 1, 2].map((i) =>
-    (camera.forward[i] + across * camera.right[i]) + upward * camera.up[i]);
+  const aside = (centre) => [0, 1, 2].map((i) =>
+    (centre[i] + across * camera.right[i]) + upward * camera.up[i]);
+  return camera.orthographic ? { eye: aside(camera.eye), direction: camera.forward }
+    : { eye: camera.eye, direction: aside(camera.forward) };
 }
 
 const isBefore = (a, b) =>
@@ -182,16 +185,16 @@ function pixelRecord(opened, x, y) {
   const pixel = y * width + x;
   const rank = rankOf(opened.differing, pixel);
   const { camera, light } = sceneFile;
-  const direction = rayDirection(sceneFile, x, y);
+  const { eye, direction } = rayOf(sceneFile, x, y);
   const ledger = blocks.ledger[rank];
-  const seen = seenRecord(opened, blocks.seen[rank], camera.eye, direction);
+  const seen = seenRecord(opened, blocks.seen[rank], eye, direction);
   const listed = listedCrossings(opened, ledger);
-  const crossings = crossingsOf(opened, listed, camera.eye, direction, homogeneous(light));
+  const crossings = crossingsOf(opened, listed, eye, direction, homogeneous(light));
   const inside = insideOf(opened, ledger, seen);
   const tests = testsOf(opened, listed);
   return {
     schema: 'shadowproof/pixel/1', scene: scene.name, x, y, width, height: opened.height,
-    eye: camera.eye, direction, near: camera.near, far: sceneFile.far, light,
+    eye, direction, orthographic: camera.orthographic, near: camera.near, far: sceneFile.far, light,
     truth: visibilityNames[opened.visibility[pixel]],
     exactness: exactnessNames[blocks.exactness[rank]],
     seen,
