@@ -4,6 +4,7 @@
 #include "compare/driver/error_bounds.h"
 #include "compare/driver/lighting/error_budget.h"
 #include "compare/driver/setup_error.h"
+#include "reference/trace/faces.h"
 
 #include <algorithm>
 #include <array>
@@ -90,13 +91,13 @@ bool ColorJudge::is_as_true(int x, int y) const {
            });
 }
 
-glm::dvec3 ColorJudge::direction(int x, int y, const glm::dvec2& beside) const {
+glm::dvec3 ColorJudge::line(int x, int y, const glm::dvec2& beside) const {
     return line_of_sight(scene_.camera, x + 0.5 + beside.x, y + 0.5 + beside.y);
 }
 
 void ColorJudge::append_points(int x, int y, std::vector<SeenPoint>& points) const {
     for (const AddedLight& light : lights_)
-        points.push_back({direction(x, y), shown(x, y), light.claim.at(x, y) == Visibility::lit});
+        points.push_back({line(x, y), shown(x, y), light.claim.at(x, y) == Visibility::lit});
 }
 
 template <class Of>
@@ -178,16 +179,12 @@ std::vector<std::vector<Shading>> ColorJudge::shadings_at_cones(const PixelPlace
 /// View depth of the surface shown; where the truth is another, of its plane.
 double ColorJudge::depth(int x, int y) const {
     if (shown(x, y) == truth_.triangle.at(x, y)) return truth_.depth.at(x, y);
-    const glm::dvec3 a = corner(scene_, shown(x, y), 0) - scene_.camera.eye;
-    const glm::dvec3 e = corner(scene_, shown(x, y), 1) - corner(scene_, shown(x, y), 0);
-    const glm::dvec3 f = corner(scene_, shown(x, y), 2) - corner(scene_, shown(x, y), 0);
-    const glm::dvec3 normal = glm::cross(e, f);
-    return glm::dot(a, normal) / glm::dot(direction(x, y), normal);
+    return depth_on_triangle(scene_, shown(x, y), line(x, y));
 }
 
 double ColorJudge::lateral(int x, int y) const {
     return lateral_error(scene_, frame_.depth_model,
-                         scene_.camera.eye + depth(x, y) * direction(x, y));
+                         point_on(scene_.camera, line(x, y), depth(x, y)));
 }
 
 /// Of all lights, to which other vectors are interpolated each: at a place beside the pixel's
@@ -198,7 +195,7 @@ DrawnAttribute ColorJudge::drawn(int x, int y, const glm::dvec2& beside) const {
     DrawnAttribute largest;
     for (const AddedLight& light : lights_) {
         const DrawnAttribute drawn =
-            drawn_attribute(light.scene, shown(x, y), {direction(x, y, beside), aside, drawing});
+            drawn_attribute(light.scene, shown(x, y), {line(x, y, beside), aside, drawing});
         largest.share = std::max(largest.share, drawn.share);
         largest.aside = std::max(largest.aside, drawn.aside);
     }
@@ -212,12 +209,11 @@ void ColorJudge::add_quad(const PixelPlace& pixel, const Square& square,
     if (means_ == nullptr) return;
     const auto [column, row] = quad_neighbours(pixel.x, pixel.y, frame_.color.height);
     const auto way = [&](double columns, double rows) {
-        return direction(pixel.x, pixel.y, {columns, rows}) - direction(pixel.x, pixel.y);
+        return line(pixel.x, pixel.y, {columns, rows}) - line(pixel.x, pixel.y);
     };
     QuadRays quad{.to_column = way(column, 0), .to_row = way(0, row)};
     for (std::size_t i = 0; i < corners_of_square.size(); ++i)
-        quad.rays[i] =
-            direction(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
+        quad.rays[i] = line(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
     if (spread.share > 0) quad.share = pixel.quad_share;
     if (spread.aside) quad.stretch = pixel.quad_stretch;
     spread.quad = quad;
@@ -231,24 +227,23 @@ void ColorJudge::find_quad_errors(PixelPlace& pixel, double own_share) const {
         std::max({own_share, drawn(x, y, {column, 0}).share, drawn(x, y, {0, row}).share});
     const Drawing drawing = drawing_of(scene_, frame_.depth_model, scene_.camera.far);
     pixel.quad_stretch =
-        drawn_stretch(scene_, pixel.triangle, {direction(x, y), lateral(x, y), drawing});
+        drawn_stretch(scene_, pixel.triangle, {line(x, y), lateral(x, y), drawing});
 }
 
-double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& direction) const {
+double ColorJudge::facing(std::uint32_t triangle, const glm::dvec3& line) const {
     const glm::dvec3 a = corner(scene_, triangle, 0);
-    return glm::dot(direction,
+    return glm::dot(direction_of(scene_.camera, line),
                     glm::cross(corner(scene_, triangle, 1) - a, corner(scene_, triangle, 2) - a));
 }
 
 /// Nothing of the triangle lies past the horizon of its plane.
 PixelSpread ColorJudge::over(const PixelPlace& pixel, const Square& square, double share) const {
-    const double towards = facing(pixel.triangle, direction(pixel.x, pixel.y));
+    const double towards = facing(pixel.triangle, line(pixel.x, pixel.y));
     PixelSpread spread{.aside = true, .share = share};
-    spread.middle =
-        weights_along(scene_, pixel.triangle, direction(pixel.x, pixel.y, square.middle));
+    spread.middle = weights_along(scene_, pixel.triangle, line(pixel.x, pixel.y, square.middle));
     for (std::size_t i = 0; i < corners_of_square.size(); ++i) {
         const glm::dvec3 ray =
-            direction(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
+            line(pixel.x, pixel.y, square.middle + square.half * corners_of_square[i]);
         if (!(towards * facing(pixel.triangle, ray) > 0)) {
             spread = all_of_it;
             spread.share = share;

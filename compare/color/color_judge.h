@@ -40,7 +40,7 @@ public:
     bool shows_background(int x, int y) const { return shown(x, y) == no_triangle; }
     glm::dvec3 claim(int x, int y) const { return frame_.color.at(x, y); }
     /// The ray through the pixel's centre, or `beside` it by so many pixels.
-    glm::dvec3 direction(int x, int y, const glm::dvec2& beside = {0, 0}) const;
+    glm::dvec3 line(int x, int y, const glm::dvec2& beside = {0, 0}) const;
     /// Appends what the technique shows through the pixel's centre, one point per light, the chosen
     /// one last.
     void append_points(int x, int y, std::vector<SeenPoint>& points) const;
@@ -110,7 +110,7 @@ private:
     DrawnAttribute drawn(int x, int y, const glm::dvec2& beside = {0, 0}) const;
     void find_quad_errors(PixelPlace& pixel, double share) const;
     void add_quad(const PixelPlace& pixel, const Square& square, PixelSpread& spread) const;
-    double facing(std::uint32_t triangle, const glm::dvec3& direction) const;
+    double facing(std::uint32_t triangle, const glm::dvec3& line) const;
     PixelSpread over(const PixelPlace& pixel, const Square& square, double share) const;
     template <class Limit>
     bool somewhere(const PixelPlace& pixel, const Square& square, double share, int halvings,

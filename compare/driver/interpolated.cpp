@@ -75,20 +75,27 @@ glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::
 Interpolated interpolated_at(const Scene& scene, std::uint32_t triangle,
                              std::span<const Surface, 3> corners, const PixelSpread& spread) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
-    const glm::dvec3& eye = scene.camera.eye;
+    const Camera& camera = scene.camera;
+    const glm::dvec3& eye = camera.eye;
     const Surface* surface = corners.data();
-    const auto from_eye = at_corners([&](int k) { return corner(scene, triangle, k) - eye; });
-    const auto way_to = [&](const glm::dvec3& from) {
-        return (glm::dvec3(light) - light.w * eye) - light.w * from;
+    const auto places = at_corners([&](int k) { return corner(scene, triangle, k) - eye; });
+    const auto way_from_eye = [&](const glm::dvec3& place) {
+        return camera.is_orthographic() ? camera.forward : place;
+    };
+    const auto from_eye =
+        at_corners([&](int k) { return way_from_eye(places[static_cast<std::size_t>(k)]); });
+    const auto way_to = [&](const glm::dvec3& place) {
+        return (glm::dvec3(light) - light.w * eye) - light.w * place;
     };
     const auto to_light =
-        at_corners([&](int k) { return way_to(from_eye[static_cast<std::size_t>(k)]); });
+        at_corners([&](int k) { return way_to(places[static_cast<std::size_t>(k)]); });
     const auto normals = at_corners([&](int k) { return glm::dvec3(surface[k].normal); });
     const auto tangents =
         at_corners([&](int k) { return glm::dvec3(glm::vec3(surface[k].tangent)); });
     Interpolated at;
-    at.from_eye = blend(spread.middle, from_eye);
-    at.to_light = way_to(at.from_eye);
+    const glm::dvec3 place = blend(spread.middle, places);
+    at.from_eye = way_from_eye(place);
+    at.to_light = way_to(place);
     at.normal = blend(spread.middle, normals);
     at.tangent = blend(spread.middle, tangents);
     at.from_eye_off = off_by(from_eye, at.from_eye, spread);

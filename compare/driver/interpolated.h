@@ -32,7 +32,7 @@ glm::dvec3 weights_along(const Scene& scene, std::uint32_t triangle, const glm::
 
 /// Values at the middle, with error bounds. No vector is normalised.
 struct Interpolated {
-    glm::dvec3 from_eye{0, 0, 0}; ///< Q of shading.h
+    glm::dvec3 from_eye{0, 0, 0}; ///< Q of shading.h, or the direction of parallel lines of sight
     glm::dvec3 to_light{0, 0, 0}; ///< vector to the light, or its direction
     glm::dvec3 normal{0, 0, 0};
     glm::dvec3 tangent{0, 0, 0};

@@ -13,24 +13,36 @@ namespace shadowproof {
 
 namespace {
 
-/// Numbers that are linear in a ray's direction D: a value of the triangle where D meets its plane
-/// is D . value / D . all.
-struct LinearForms {
-    glm::dvec3 value{0, 0, 0};
-    glm::dvec3 all{0, 0, 0};
+/// A number that is linear in a line of sight: in its direction D or, of parallel ones, in its
+/// start S.
+struct LinearForm {
+    glm::dvec3 slope{0, 0, 0};
+    double constant = 0;
+
+    double at(const glm::dvec3& line) const { return glm::dot(line, slope) + constant; }
+    double change(const glm::dvec3& step) const { return glm::dot(step, slope); }
 };
 
-/// With the weights of the corners as in shading.h, step 1.
+/// A value of the triangle where a line meets its plane is the quotient of these.
+struct LinearForms {
+    LinearForm value;
+    LinearForm all;
+};
+
+/// With the weights of the corners as in shading.h, step 1: what D is multiplied with there is
+/// linear in a - S.
 LinearForms forms_of(const Scene& scene, std::uint32_t triangle, const glm::dvec3& values) {
+    const Camera& camera = scene.camera;
     const glm::dvec3 first = corner(scene, triangle, 0);
-    const glm::dvec3 a = first - scene.camera.eye;
     const glm::dvec3 e = corner(scene, triangle, 1) - first;
     const glm::dvec3 f = corner(scene, triangle, 2) - first;
-    LinearForms forms;
-    forms.all = glm::cross(e, f);
-    forms.value = values.x * forms.all + (values.y - values.x) * glm::cross(f, a) +
-                  (values.z - values.x) * glm::cross(a, e);
-    return forms;
+    const glm::dvec3 normal = glm::cross(e, f);
+    const glm::dvec3 along = (values.y - values.x) * f - (values.z - values.x) * e;
+    if (!camera.is_orthographic())
+        return {{values.x * normal + glm::cross(along, first - camera.eye), 0}, {normal, 0}};
+    const double all = glm::dot(camera.forward, normal);
+    const glm::dvec3 slope = -glm::cross(camera.forward, along);
+    return {{slope, values.x * all - glm::dot(slope, first)}, {glm::dvec3(0), all}};
 }
 
 /// A difference, and the size of the values that it is of: the neighbour's, which may lie beside
@@ -40,8 +52,9 @@ struct Step {
     double size = 0;
 };
 
-/// With u = U / W, both linear, the step from D by S is (U(S) W(D) - U(D) W(S)) / (W(D) W(D + S)).
-/// The numerator is linear in D and in S, and so extreme at corners of both.
+/// With u = U / W, both linear, the step from D by d is (u(d) W(D) - U(D) w(d)) / (W(D) W(D + d)),
+/// u and w being what they change by. The numerator is linear in D and in d, and so extreme at
+/// corners of both.
 Step step_of(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& step) {
     const std::array<glm::dvec3, 4> steps{step + quad.stretch * (quad.to_column + quad.to_row),
                                           step + quad.stretch * (quad.to_column - quad.to_row),
@@ -53,10 +66,10 @@ Step step_of(const LinearForms& forms, const QuadRays& quad, const glm::dvec3& s
     double most = 0; // of U(D + S)
     for (std::size_t i = 0; i < quad.rays.size(); ++i)
         for (std::size_t k = 0; k < steps.size(); ++k) {
-            const double all = glm::dot(quad.rays[i], forms.all);
-            const double all_step = glm::dot(steps[k], forms.all);
-            const double value = glm::dot(quad.rays[i], forms.value);
-            const double value_step = glm::dot(steps[k], forms.value);
+            const double all = forms.all.at(quad.rays[i]);
+            const double all_step = forms.all.change(steps[k]);
+            const double value = forms.value.at(quad.rays[i]);
+            const double value_step = forms.value.change(steps[k]);
             const Interval product = around(value_step * all - value * all_step);
             const bool first = i == 0 && k == 0;
             own = first ? around(all) : hull(own, around(all));

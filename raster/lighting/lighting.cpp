@@ -143,9 +143,11 @@ LightingProgram make_step(const GlFunctions& gl, const PassPlace& place, const C
     LightingProgram made{link(gl, stages), step.where,
                          is_added ? LightingStep::Blend::add : step.blend};
     set_transform(gl, made.program, place.transform);
-    const TwoFloats eye = split(scene.camera.eye);
+    const glm::dvec4 to_eye = homogeneous_eye(scene.camera);
+    const TwoFloats eye = split(to_eye);
     gl.ProgramUniform3fv(made.program.name(), 28, 1, glm::value_ptr(eye.high));
     gl.ProgramUniform3fv(made.program.name(), 29, 1, glm::value_ptr(eye.low));
+    gl.ProgramUniform1f(made.program.name(), 36, static_cast<float>(to_eye.w));
     const glm::mat3 rounded(axes);
     gl.ProgramUniformMatrix3fv(made.program.name(), 5, 1, GL_FALSE, glm::value_ptr(rounded));
     set_light(gl, made.program, scene, axes);

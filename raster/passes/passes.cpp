@@ -209,6 +209,11 @@ void set_transform(const GlFunctions& gl, const Program& program, const ClipTran
     gl.ProgramUniform3fv(program.name(), 3, 1, glm::value_ptr(transform.light.high));
     gl.ProgramUniform3fv(program.name(), 4, 1, glm::value_ptr(transform.light.low));
     gl.ProgramUniform1f(program.name(), 11, transform.light_w);
+}
+
+void set_volume_transform(const GlFunctions& gl, const Program& program,
+                          const ClipTransform& transform) {
+    set_transform(gl, program, transform);
     gl.ProgramUniform1f(program.name(), 35, transform.end_w);
 }
 
@@ -217,7 +222,7 @@ Program link_projection(const GlFunctions& gl, std::string_view fragment,
     Program program = between == Between::geometry_shader
                           ? link_files(gl, {"project.vert", "surface.geom", fragment})
                           : link_files(gl, {"project.vert", fragment});
-    set_transform(gl, program, transform);
+    set_volume_transform(gl, program, transform);
     gl.ProgramUniform1i(program.name(), 5,
                         geometry.ends_at_infinity ? static_cast<GLint>(geometry.position_count)
                                                   : std::numeric_limits<GLint>::max());

@@ -99,6 +99,9 @@ Geometry upload(const GlFunctions& gl, const Scene& scene, std::span<const glm::
 
 /// Sets the uniforms shared by all vertex shaders that transform as project.vert does.
 void set_transform(const GlFunctions& gl, const Program& program, const ClipTransform& transform);
+/// Those, and what those that move corners to infinity have besides.
+void set_volume_transform(const GlFunctions& gl, const Program& program,
+                          const ClipTransform& transform);
 
 /// The stage between a program's vertex and fragment shaders.
 enum class Between : std::uint8_t { nothing, geometry_shader };

@@ -95,7 +95,7 @@ VolumePass geometry_shader_pass(const Making& making) {
     made->indices = make_filled_buffer(making.gl, std::array{std::as_bytes(std::span(indices))});
     made->count = static_cast<GLsizei>(indices.size());
     made->program = link_files(making.gl, {"adjacency.vert", "volume.geom", "volume.frag"});
-    set_transform(making.gl, made->program, making.transform);
+    set_volume_transform(making.gl, made->program, making.transform);
     const auto draw = [made, making](bool flipped) {
         const GlFunctions& gl = making.gl;
         const GLuint program = made->program.name();
@@ -170,7 +170,7 @@ VolumePass degenerate_quads_pass(const Making& making) {
     made->quads = link_files(making.gl, {"degenerate_quads.vert", "volume.frag"});
     made->caps = link_files(making.gl, {"degenerate_caps.vert", "volume.frag"});
     for (const Program* program : {&made->quads, &made->caps})
-        set_transform(making.gl, *program, making.transform);
+        set_volume_transform(making.gl, *program, making.transform);
     making.gl.ProgramUniform1i(made->caps.name(), 9, made->cap_vertices);
     const auto update = [made, making] {
         set_light(making, made->quads);

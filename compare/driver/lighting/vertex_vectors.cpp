@@ -104,11 +104,13 @@ VertexVectors vertex_vectors(const Scene& scene, std::uint32_t triangle,
     Corners halves;
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        const glm::dvec3 from_eye = corner(scene, triangle, k) - eye;
-        CornerVector to_light = difference((glm::dvec3(light) - light.w * eye) - light.w * from_eye,
+        const glm::dvec3 place = corner(scene, triangle, k) - eye;
+        CornerVector to_light = difference((glm::dvec3(light) - light.w * eye) - light.w * place,
                                            glm::length(glm::dvec3(light)));
         const CornerVector l = normalised(to_light);
-        const CornerVector e = normalised(difference(-from_eye, glm::length(eye)));
+        const CornerVector e =
+            normalised(scene.camera.is_orthographic() ? difference(-scene.camera.forward, 1)
+                                                      : difference(-place, glm::length(eye)));
         CornerVector half{l.value + e.value, l.off + e.off + 2 * v};
         if (origin == VectorOrigin::unit_at_vertices) {
             to_light = l;

@@ -16,6 +16,7 @@ layout(location = 1) uniform vec3 origin_high; // of the relative coordinates: t
 layout(location = 2) uniform vec3 origin_low;  // the remainder of its rounding to float
 layout(location = 28) uniform vec3 eye_high;
 layout(location = 29) uniform vec3 eye_low;
+layout(location = 36) uniform float eye_w; // 0: eye_high and eye_low are the direction to it
 layout(location = 3) uniform vec3 light_high;
 layout(location = 4) uniform vec3 light_low;
 layout(location = 11) uniform float light_w; // 0: light_high and light_low are the direction to it
@@ -61,7 +62,7 @@ void make_vectors(vec3 to_light, vec3 to_eye) {
 void main() {
     precise vec3 relative = (position - origin_high) - origin_low;
     precise vec3 away = (light_w * position - light_high) - light_low;
-    precise vec3 from_eye = (position - eye_high) - eye_low;
+    precise vec3 from_eye = (eye_w * position - eye_high) - eye_low;
     surface.from_eye = lit_from_world * from_eye;
     surface.to_light = lit_from_world * -away;
     surface.normal = lit_from_world * normal;

@@ -37,6 +37,7 @@ Technique bump_one_pass_technique() {
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
             .squares_thrice = true,
+            .sees_in_parallel = true,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};

@@ -27,6 +27,7 @@ Technique bump_reflective_technique() {
             .needs_bump_maps = true,
             .needs_environment = true,
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};

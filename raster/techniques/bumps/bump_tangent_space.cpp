@@ -30,6 +30,7 @@ Technique bump_tangent_space_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .needs_bump_maps = true,
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .settings = {"normalise", "cube-size", "newton-steps", "bumps", "vectors", "tangents"},
             .recipe = zfail_reversed_recipe,
             .lighting = lighting};

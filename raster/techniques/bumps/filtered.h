@@ -34,6 +34,7 @@ Technique filtered_technique(std::string_view name, std::string_view summary,
         .needs_bump_maps = true,
         .filters_bumps = true,
         .depth_model = reversed_depths,
+        .sees_in_parallel = true,
         .settings = {"normalise", "cube-size", "newton-steps", "vectors", "tangents", "anisotropy"},
         .recipe = zfail_reversed_recipe,
         .lighting = filtered_lighting<filter>};
