@@ -33,8 +33,11 @@ struct Counting {
         near_plane, ///< the number of volumes around the pixel's point on the near plane
     };
     Start start = Start::zero;
-    bool light_cap = true;     ///< the light-facing triangles themselves are drawn
-    bool dark_cap = true;      ///< they are also drawn at infinity, where the projection keeps them
+    bool light_cap = true; ///< the light-facing triangles themselves are drawn
+    bool dark_cap = true;  ///< they are also drawn at infinity, where the projection keeps them
+    /// Dark caps at infinity are counted before all faces, not after sides and caps: where parallel
+    /// lines of sight end, all or none of them are met.
+    bool caps_first = false;
     int bits = 8;              ///< of the counter
     bool holes_filled = false; ///< open casters are closed before volumes are made of them
     /// Which triangles of casters are flipped (their winding reversed) before volumes are made of

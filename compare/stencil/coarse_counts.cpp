@@ -288,6 +288,9 @@ std::vector<CoarseCount> coarse_counts(const CountedClaim& judged,
     // Where the counter begins with what is drawn in the near plane, that is among the faces.
     const std::int64_t start = judged.counting().start == Counting::Start::eye ? depths.at_eye : 0;
     const bool is_closed = counts_closed_volumes(judged);
+    const bool starts_with_caps =
+        judged.frame.depth_model.parallel && std::isinf(judged.counting().extrusion) &&
+        tally_of_dark_caps(judged.counting(), judged.frame.depth_model) == Tally::counted;
     std::vector<CoarseCount> counts;
     for (std::size_t i = 0; i < places.size(); ++i) {
         CoarseCount& count = counts.emplace_back();
@@ -295,6 +298,11 @@ std::vector<CoarseCount> coarse_counts(const CountedClaim& judged,
         count.may_be_seen = surfaces[i].may_be_seen;
         count.tied = surfaces[i].tied;
         count.counter = {start, start, start};
+        if (starts_with_caps) {
+            // Of all casters, or of those that are counted behind the surface.
+            const std::int64_t caps = depths.at_infinity.at(places[i].x, places[i].y);
+            count.counter += {judged.counting().casters.empty() ? caps : 0, caps, caps};
+        }
         count.counter += sums[i].counted;
         if (!is_closed) continue;
         const std::int64_t before = judged.frame.depth_model.clamp

@@ -10,6 +10,7 @@ namespace {
 StencilRecipe recipe(const Scene& scene, const Plan& plan) {
     StencilRecipe made = zfail_reversed_recipe(scene, plan);
     made.counting.operation = Counting::Operation::saturate;
+    made.counting.caps_first = scene.camera.is_orthographic();
     return made;
 }
 
@@ -24,6 +25,7 @@ Technique zfail_saturate_technique() {
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .by_nature = {Cause::counter},
             .depth_model = reversed_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

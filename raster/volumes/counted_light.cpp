@@ -203,17 +203,22 @@ bool CountedLight::has_caps_at_infinity() const {
     return scene_.camera.is_orthographic() && std::isinf(recipe_.counting.extrusion);
 }
 
+std::uint8_t CountedLight::stencil_start() const {
+    const bool stops = recipe_.counting.operation == Counting::Operation::saturate;
+    return static_cast<std::uint8_t>(stops ? std::min<std::int64_t>(start_, 0xff) : start_);
+}
+
 void CountedLight::begin() const {
     begin_frame(gl_, target_, geometry_, recipe_.depth_model);
 }
 
 void CountedLight::draw_surfaces() const {
     draw_surface(gl_, surface_, target_, geometry_, recipe_.depth_model,
-                 visible_depths(scene_.camera, recipe_), static_cast<std::uint8_t>(start_));
+                 visible_depths(scene_.camera, recipe_), stencil_start());
 }
 
 void CountedLight::clear_stencil() const {
-    shadowproof::clear_stencil(gl_, target_, static_cast<std::uint8_t>(start_));
+    shadowproof::clear_stencil(gl_, target_, stencil_start());
 }
 
 void CountedLight::count() {

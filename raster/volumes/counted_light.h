@@ -64,6 +64,7 @@ private:
     static std::vector<glm::vec3> split_points(const Scene& scene, const StencilRecipe& recipe,
                                                std::vector<std::unique_ptr<Part>>& parts);
     bool has_caps_at_infinity() const;
+    std::uint8_t stencil_start() const;
     VolumePass make_volumes(const Part& part) const;
     void count_in_stencil();
     void count_in_sum();

@@ -107,7 +107,7 @@ void sort_as_drawn(std::vector<PossibleFace>& faces, const Counting& counting) {
                      [&](const PossibleFace& a, const PossibleFace& b) { return key(a) < key(b); });
 }
 
-/// Calls step(by, certain) for each face in drawing order, dark caps before flipped faces.
+/// Calls step(by, certain) for each face in drawing order, dark caps before flipped faces or first.
 template <class Step>
 void draw(const std::vector<PossibleFace>& faces, std::int64_t dark_caps, const Counting& counting,
           const Step& step) {
@@ -117,8 +117,13 @@ void draw(const std::vector<PossibleFace>& faces, std::int64_t dark_caps, const 
         for (; face != faces.end() && (flipped || !face->face.flipped); ++face)
             step(weight(counting, face->face) * face->face.change, face->certain);
     };
+    const auto draw_caps = [&] {
+        for (std::int64_t i = 0; i < dark_caps; ++i)
+            step(-weight(Counting::Test::depth_fail), true);
+    };
+    if (counting.caps_first) draw_caps();
     draw_while(any_order);
-    for (std::int64_t i = 0; i < dark_caps; ++i) step(-weight(Counting::Test::depth_fail), true);
+    if (!counting.caps_first) draw_caps();
     draw_while(true);
 }
 
