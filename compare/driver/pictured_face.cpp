@@ -320,7 +320,7 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
 }
 
 Drawing drawing_of_layers(Drawing drawing) {
-    drawing.near = 0;
+    drawing.near = drawing.parallel_range > 0 ? -infinity : 0;
     drawing.far = infinity;
     return drawing;
 }

@@ -67,6 +67,11 @@ DepthModel reversed_parallel_depths(const Scene& scene) {
             .front = 0.5};
 }
 
+/// Far beyond what floats tell from infinity, and far from their own end.
+double w_at_infinity(const Camera& camera) {
+    return camera.is_orthographic() ? 0x1p-60 : 0;
+}
+
 ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) {
     const glm::dmat4 projection = clip_from_view(scene.camera, depth_model);
     ClipTransform transform;
@@ -80,8 +85,7 @@ ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model) 
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     transform.light = split(light);
     transform.light_w = static_cast<float>(light.w);
-    // Far beyond what floats tell from infinity, and far from their own end.
-    if (scene.camera.is_orthographic()) transform.end_w = 0x1p-60F;
+    transform.end_w = static_cast<float>(w_at_infinity(scene.camera));
     return transform;
 }
 

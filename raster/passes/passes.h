@@ -42,6 +42,8 @@ struct ClipTransform {
     /// infinity straight away from the eye, and have no place in the picture but by its w.
     float end_w = 0;
 };
+/// Of corners that the CPU moves there, too.
+double w_at_infinity(const Camera& camera);
 /// In an infinite projection, row z equals row w in all coefficients of directions, so corners at
 /// infinity get z == w bit for bit and are not clipped.
 ClipTransform clip_transform(const Scene& scene, const DepthModel& depth_model);

@@ -17,7 +17,7 @@ Technique zfail_infinite_technique() {
     return {.name = "zfail_infinite",
             .summary = "counts volume faces behind the surface, under an infinite projection",
             .source = "Everitt & Kilgard 2002; omni-directional shadows with geometry shaders",
-            .needs = "closed volumes",
+            .needs = "closed volumes, and a perspective camera",
             .cost = 0.99,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = infinite_depths,

@@ -36,6 +36,7 @@ Technique zp_plus_technique() {
             .fails_at = {Cause::near_plane, Cause::precision, Cause::counter, Cause::open_mesh,
                          Cause::alpha, Cause::light_inside},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe,
             .remark = remark};
 }

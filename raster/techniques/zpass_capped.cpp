@@ -28,6 +28,7 @@ Technique zpass_capped_technique() {
             .cost = 1.14,
             .fails_at = {Cause::precision, Cause::counter, Cause::open_mesh, Cause::alpha},
             .depth_model = finite_depths,
+            .sees_in_parallel = true,
             .recipe = recipe};
 }
 

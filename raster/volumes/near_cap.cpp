@@ -1,5 +1,6 @@
 #include "raster/volumes/near_cap.h"
 
+#include "raster/passes/passes.h"
 #include "scenes/mesh/topology.h"
 
 #include <algorithm>
@@ -109,7 +110,7 @@ private:
             from = infinite ? light_.w * position - glm::dvec3(light_) : position - camera.eye;
         }
         return {glm::dot(camera.right, from), glm::dot(camera.up, from),
-                -glm::dot(camera.forward, from), infinite ? 0 : 1};
+                -glm::dot(camera.forward, from), infinite ? w_at_infinity(camera) : 1};
     }
 
     /// Linear in place(node), positive beyond the near plane.
@@ -216,7 +217,10 @@ NearCut cut_at_near_plane(const Scene& scene, std::span<const std::uint32_t> wel
     return cut;
 }
 
-double ledge_near(double near, double far) {
+double ledge_near(const DepthModel& model) {
+    const double near = model.near;
+    const double far = model.far;
+    if (model.parallel) return (near - ledge * far) / (1 - ledge);
     return (1 - ledge) * far * near / (far - ledge * near);
 }
 

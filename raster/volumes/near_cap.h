@@ -2,6 +2,7 @@
 // misses nothing (Kilgard 2001, "A New Robust Technique").
 #pragma once
 
+#include "scenes/depth_model.h"
 #include "scenes/mesh/split_far_ends.h"
 #include "scenes/scene.h"
 
@@ -41,6 +42,7 @@ inline constexpr double ledge = 0x1p-6;
 /// The near distance of a projection whose depths, drawn into [0, 1], equal those of the near
 /// distance `near` drawn into [ledge, 1]: (f - n) F N / (f F - n N - n' (F - N)) with n' = 0,
 /// n = ledge, f = 1 (the source prints the last term with the other sign).
-double ledge_near(double near, double far);
+/// Parallel depths are linear: (n' - n F) / (1 - n), n' being `near`.
+double ledge_near(const DepthModel& model);
 
 } // namespace shadowproof

@@ -22,7 +22,7 @@ namespace {
 /// The projection into [0, 1] whose depths equal those drawn into [ledge, 1].
 glm::mat4 clip_from_view_on_ledge(const Scene& scene, const DepthModel& depth_model) {
     Camera camera = scene.camera;
-    camera.near = ledge_near(depth_model.near, depth_model.far);
+    camera.near = ledge_near(depth_model);
     return glm::mat4(clip_from_view_finite(camera, depth_model.far));
 }
 
@@ -110,6 +110,11 @@ glm::dvec3 origin_of_occluders(const Scene& scene, bool near_light) {
     return near_light ? chosen_light(scene).position : scene.camera.eye;
 }
 
+/// Half of the part of the near plane that is in the picture.
+glm::dvec2 extent_of_near_plane(const Camera& camera) {
+    return half_extent(camera) * (camera.is_orthographic() ? 1 : camera.near);
+}
+
 /// With view coordinates (x, y, depth), a homogeneous light (l, w) and the near plane's depth n,
 /// the shadow of a point p falls on (p (l.depth - w n) - l (p.depth - n)) / (l.depth - w p.depth):
 /// homogeneous, its sign chosen so that the divisor is positive for what lies on the plane's side
@@ -124,7 +129,7 @@ glm::dmat4 clip_from_occluder(const Scene& scene, bool near_light) {
                        glm::dot(camera.forward, from_eye));
     const double to_plane = light.w * camera.near - l.z;
     const double sign = to_plane < 0 ? -1 : 1;
-    const glm::dvec2 extent = half_extent(camera) * camera.near;
+    const glm::dvec2 extent = extent_of_near_plane(camera);
     // Rows: coefficients of a point relative to the origin, and the constant.
     const auto across = [&](const glm::dvec3& axis, double of_light, double half) {
         const glm::dvec4 along(camera.forward, near_light ? 0 : -camera.near);
@@ -190,8 +195,7 @@ bool places_occluders(const Scene& scene) {
     const glm::dvec4 light = homogeneous(chosen_light(scene));
     const glm::dvec3 from_eye = glm::dvec3(light) - light.w * camera.eye;
     const double to_plane = std::abs(light.w * camera.near - glm::dot(camera.forward, from_eye));
-    const glm::dvec2 half = half_extent(camera);
-    const double reach = camera.near * std::sqrt(1 + glm::dot(half, half)) +
+    const double reach = glm::length(glm::dvec3(extent_of_near_plane(camera), camera.near)) +
                          glm::length(camera.eye - origin_of_occluders(scene, near_light));
     const std::array sizes{camera.width, camera.height};
     return std::ranges::all_of(std::array{0, 1}, [&](int axis) {

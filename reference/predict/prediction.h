@@ -44,8 +44,8 @@ struct PossibleFace {
 
 /// All values that a counter may have: it starts with `start`, counts `faces`, in any order, and
 /// `dark_caps` at infinity. They are drawn as techniques do: sides and caps, then the flipped
-/// faces; but see Counting::caps_first. A wrapping counter is not wrapped here, but where it is stored. In ascending order; takes
-/// time linear in faces times values.
+/// faces; but see Counting::caps_first. A wrapping counter is not wrapped here, but where it is
+/// stored. In ascending order; takes time linear in faces times values.
 std::vector<std::int64_t> possible_counts(std::vector<PossibleFace> faces, std::int64_t start,
                                           std::int64_t dark_caps, const Counting& counting);
 

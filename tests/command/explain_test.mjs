@@ -94,16 +94,26 @@ test('a drawing for a map holds its comparison, and one for a traced claim its r
   assert.ok(traced.svg.includes(`meets triangle ${hits[0].triangle}, ${digits(hits[0].t)}`));
 });
 
-test('before an orthographic camera no volumes are counted, and the drawing says none', () => {
-  const { text, record, svg } = explained('ordinary', '256,300',
-                                          ['--ortho', '8', '--technique', 'traced_skip,cube_map_six_pass']);
-  assert.doesNotMatch(text, /shadow volumes/);
-  assert.equal(record.inside, null);
-  assert.deepEqual(record.crossings, []);
+test('before an orthographic camera lines come from infinity, and volumes are counted from there', () => {
+  const { text, record, svg } = explained('eye_inside', '256,200',
+                                          ['--ortho', '8', '--technique', 'zpass,zfail_reversed']);
+  assert.equal(record.orthographic, true);
+  const sums = { eye: record.inside.eye };
+  const within = (depth) => record.crossings.filter((crossing) => crossing.depth < depth)
+    .reduce((sum, { change }) => sum + change, sums.eye);
+  assert.equal(within(record.near), record.inside.near);
+  assert.equal(within(record.far), record.inside.far);
+  assert.equal(within(Infinity), record.inside.infinity);
+  assert.ok(record.crossings.some(({ depth }) => depth < record.near));
   const along = record.seen.point.map((x, i) => (x - record.eye[i]) / record.seen.depth);
   along.forEach((x, i) => assert.ok(Math.abs(x - record.direction[i]) < 1e-9));
-  assert.match(svg, /<svg/);
-  assert.doesNotMatch(svg, /No side or cap/);
+  const [zpass, zfail] = record.techniques;
+  assert.notEqual(zpass.predicted, zfail.predicted);
+  assert.equal(zpass.cause, 'near_plane');
+  assert.equal(zfail.predicted, record.inside.surface);
+  assert.match(text, /shadow volumes along the ray/);
+  assert.match(svg, /at infinity/);
+  assert.doesNotMatch(svg, /NaN|Infinity/);
 });
 
 test('a drawing that cannot be written is an error that names the file', () => {

@@ -49,6 +49,7 @@ std::string words_of(const Comparison& comparison) {
         words += fmt::format(", {} counters unexplained, first at ({},{})",
                              comparison.evidence.unexplained, comparison.evidence.first_x,
                              comparison.evidence.first_y);
+    for (const std::string& clause : comparison.summary.unexplained) words += " " + clause;
     if (comparison.first)
         words += fmt::format(", first at ({},{})", comparison.first->x, comparison.first->y);
     return words;

@@ -1,7 +1,9 @@
 #include "compare/stencil/figures/near_layers.h"
 
 #include "scenes/driver.h"
+#include "scenes/roundoff.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -68,6 +70,10 @@ Projected projected(const Scene& scene, const glm::dvec3& point, const NearDrawi
             7 * v *
             glm::dvec3(across_terms(camera.right, light.x), across_terms(camera.up, light.y),
                        n * terms(light.w * camera.forward, from_light ? 0 : light.z, from_origin));
+        // In perspective, w is the plane's depth times this, as the last one has it.
+        if (camera.is_orthographic())
+            p.shadow.w_error =
+                7 * v * terms(light.w * camera.forward, from_light ? 0 : light.z, from_origin);
         p.on_side_error = 7 * v * terms(camera.forward, from_light ? to_plane : n, from_origin);
     } else {
         p.shadow.error = glm::dvec3(6 * v * std::sqrt(3.0) * glm::length(glm::dvec3(p.shadow.at)));
@@ -100,9 +106,18 @@ bool is_flat_from_light(const Scene& casters, std::uint32_t triangle) {
     return std::abs(volume) <= 3 * 5 * double_roundoff * terms;
 }
 
+// A shadow on the plane is a sum of terms as large as the products of a caster's place and the
+// light's, with some 16 roundings in all, over the light's distance from the plane.
 bool is_in_near_plane(const Scene& casters) {
+    const Camera& camera = casters.camera;
     const glm::dvec4 light = viewed_light(casters);
-    return light.w * casters.camera.near == light.z;
+    const double to_plane = std::abs(light.w * camera.near - light.z);
+    double reach = 0;
+    for (const glm::dvec3 position : casters.positions)
+        reach = std::max(reach, glm::distance(position, camera.eye));
+    const double terms = reach * (to_plane + glm::length(glm::dvec3(light)));
+    const double pixel = 1 / pixels_of_length(camera, camera.near);
+    return to_plane * pixel <= 256 * 16 * double_roundoff * terms;
 }
 
 std::vector<ViewCorner> near_layer(const Scene& casters, std::uint32_t triangle,
@@ -127,6 +142,8 @@ std::vector<ViewCorner> near_layer(const Scene& casters, std::uint32_t triangle,
         // As in clipped_polygon.cpp.
         made.error = (1 - t) * from.error + t * to.error +
                      3 * v * glm::max(glm::abs(glm::dvec3(from.at)), glm::abs(glm::dvec3(to.at)));
+        made.w_error = (1 - t) * from.w_error + t * to.w_error;
+        if (casters.camera.is_orthographic()) made.w_error += 3 * v * std::max(from.at.w, to.at.w);
         made.made_by_clipping = true;
         layer.push_back(made);
     }

@@ -27,7 +27,8 @@ std::vector<ViewCorner> near_layer(const Scene& casters, std::uint32_t triangle,
 /// the near plane, do not determine its side: the cut may then have any result.
 bool is_flat_from_light(const Scene& casters, std::uint32_t triangle);
 
-/// Whether the light lies in the near plane, so that no shadow falls on it anywhere but in a line.
+/// Whether the light lies in the near plane, so that no shadow falls on it anywhere but in a line,
+/// or so near it that doubles do not tell to 1/256 pixel where one falls.
 bool is_in_near_plane(const Scene& casters);
 
 } // namespace shadowproof

@@ -15,16 +15,19 @@ namespace shadowproof::tests {
 namespace {
 
 /// Window depth of view depth t, drawn into [least, 1].
-double window_depth(double t, double near, double far, double least) {
-    return least + (1 - least) * far * (t - near) / (t * (far - near));
+double window_depth(double t, double near, double far, double least, bool parallel = false) {
+    return least + (1 - least) * (parallel ? 1 : far / t) * (t - near) / (far - near);
 }
 
 TEST(NearCap, depths_on_the_ledge_equal_those_of_the_scene) {
     for (const double near : {0.001, 0.1, 1.0})
         for (const double far : {2.0, 100.0, 1e5})
             for (const double t : {1.0, 1.5, 1.99})
-                EXPECT_NEAR(window_depth(t, ledge_near(near, far), far, 0),
-                            window_depth(t, near, far, ledge), 1e-15);
+                for (const bool parallel : {false, true})
+                    EXPECT_NEAR(window_depth(
+                                    t, ledge_near({.near = near, .far = far, .parallel = parallel}),
+                                    far, 0, parallel),
+                                window_depth(t, near, far, ledge, parallel), 1e-15);
 }
 
 TEST(NearCap, the_source_s_sign_would_part_them) {
