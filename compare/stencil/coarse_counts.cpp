@@ -112,6 +112,14 @@ private:
         return face;
     }
 
+    /// Clamped to the near plane's depth, a face is no longer before what lies there.
+    NearnessRange clamped(NearnessRange range) const {
+        if (!judged_.frame.depth_model.clamp) return range;
+        const double most =
+            nearness_of_depth(judged_.frame.depth_model, judged_.traced.scene().camera.near);
+        return {std::min(range.low, most), std::min(range.high, most)};
+    }
+
     static void limit(StepSums& steps, std::int64_t most) {
         steps.low = std::max(steps.low, -most);
         steps.high = std::min(steps.high, most);
@@ -122,7 +130,7 @@ private:
                      const ShownPixel& pixel) const {
         const Chance covered = covered_by(drawn, face, pixel);
         if (!covered.possible) return {};
-        const NearnessRange range = nearness_of(face, pixel, roundings_);
+        const NearnessRange range = clamped(nearness_of(face, pixel, roundings_));
         const Chance front = hides_itself || is_own(drawn, pixel) || is_at_infinity(drawn)
                                  ? Chance{}
                                  : is_in_front(range, pixel);

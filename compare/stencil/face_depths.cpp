@@ -67,6 +67,11 @@ DepthRange FaceDepths::face(const Crossing& crossing, const glm::dvec3& line) co
     range.include(crossing.depth, setup_error_at(crossing));
     for (const glm::dvec3& other : around_.corners)
         range.include(face_depth(scene_.camera, crossing, line, other), 0);
+    // Clamped to the near plane's depth, a face is no longer before what lies there.
+    if (frame_.depth_model.clamp) {
+        range.lower = std::max(range.lower, scene_.camera.near);
+        range.upper = std::max(range.upper, scene_.camera.near);
+    }
     return range;
 }
 

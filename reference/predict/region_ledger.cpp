@@ -172,7 +172,7 @@ RegionLedger::RegionLedger(const RegionLedger& outer, const std::array<glm::dvec
         outer.sides_, vertices.x.size(), [&](std::size_t i) { return vertices.plane(i); }, corners);
     for (const Cap& cap : outer.caps_)
         if (cap.may_be_met(corners)) caps_.push_back(cap);
-    if (outer.ends_) ends_ = std::make_shared<RegionLedger>(*outer.ends_, corners);
+    if (outer.ends_) cut_off(RegionLedger(*outer.ends_, corners), outer.span_);
 }
 
 // A ray eye + t D crosses the side over p and q, as seen from the light L = (l, w), where
@@ -389,6 +389,9 @@ void RegionLedger::cross_ends(const glm::dvec3& line, std::vector<Crossing>& fou
         else
             found.push_back(crossing);
     }
+    std::erase_if(found, [&](const Crossing& crossing) {
+        return crossing.is_side() && (crossing.depth < span_.least || crossing.depth > span_.most);
+    });
 }
 
 } // namespace shadowproof

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,12 @@
 #include <vector>
 
 namespace shadowproof {
+
+/// View depths from the least to the most; all of them.
+struct DepthSpan {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+};
 
 /// The plane of a face of the volumes, as lines of sight meet it.
 struct FacePlane {
@@ -69,8 +76,12 @@ public:
 
     /// Ends the volumes where those of `ends` begin, which are those of the casters' triangles
     /// moved away from the light. Crossings of both over one edge are removed, and the light caps
-    /// of `ends` become dark caps.
-    void cut_off(RegionLedger ends) { ends_ = std::make_shared<RegionLedger>(std::move(ends)); }
+    /// of `ends` become dark caps. `span`: view depths between which all of them lie; sides that
+    /// would be crossed elsewhere are not crossed.
+    void cut_off(RegionLedger ends, const DepthSpan& span) {
+        ends_ = std::make_shared<RegionLedger>(std::move(ends));
+        span_ = span;
+    }
 
     /// One flag per triangle: Crossing::flipped of its light cap. Empty: none. Kept as a reference.
     void flip_caps(std::span<const std::uint8_t> flipped) { flipped_ = flipped; }
@@ -139,6 +150,7 @@ private:
     std::vector<Cap> caps_;
     std::span<const std::uint8_t> flipped_;
     std::shared_ptr<RegionLedger> ends_;
+    DepthSpan span_{};
     std::vector<Crossing> found_at_ends_;
 
     void cross_ends(const glm::dvec3& line, std::vector<Crossing>& found);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace shadowproof {
@@ -100,6 +101,15 @@ Volumes::Volumes(const Tracer& tracer, const Silhouette& silhouette, const Count
     }
     ends_ =
         std::make_unique<Variant>(extruded_scene(casters(), counting.extrusion), tracer.threads());
+    depths_ = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const std::vector<glm::vec3>* positions : {&casters().positions, far_ends()})
+        for (const glm::dvec3 position : *positions) {
+            const double depth = view_depth(casters().camera, position);
+            depths_.least = std::min(depths_.least, depth);
+            depths_.most = std::max(depths_.most, depth);
+        }
+    const double room = depths_.most - depths_.least; // for roundings; the others are far beyond
+    depths_ = {depths_.least - room, depths_.most + room};
 }
 Volumes::~Volumes() = default;
 Volumes::Volumes(Volumes&&) noexcept = default;
@@ -115,12 +125,19 @@ ShadowDepths Volumes::shadow_depths(const GroundTruth& truth, const ShadowDepths
     const ShadowDepths inside = others_ ? count_shadow_depths(*tracer_, truth, depths.far) : depths;
     if (!ends_) return inside;
     const ShadowDepths beyond = count_shadow_depths_at(ends_->tracer, truth.depth, depths.far);
-    return {difference(inside.at_surface, beyond.at_surface),
-            difference(inside.at_near, beyond.at_near),
-            difference(inside.at_far, beyond.at_far),
-            difference(inside.at_infinity, beyond.at_infinity),
-            inside.at_eye - beyond.at_eye,
-            depths.far};
+    ShadowDepths between{difference(inside.at_surface, beyond.at_surface),
+                         difference(inside.at_near, beyond.at_near),
+                         difference(inside.at_far, beyond.at_far),
+                         difference(inside.at_infinity, beyond.at_infinity),
+                         inside.at_eye - beyond.at_eye,
+                         depths.far};
+    // Finite volumes hold neither end of parallel lines of sight, whatever rounding makes of ends
+    // that lie in line with them.
+    if (casters().camera.is_orthographic()) {
+        between.at_eye = 0;
+        std::ranges::fill(between.at_infinity.pixels, 0);
+    }
+    return between;
 }
 
 const std::vector<glm::vec3>* Volumes::far_ends() const {
@@ -142,7 +159,9 @@ ShadowDepths Volumes::ideal_depths(const GroundTruth& truth, const ShadowDepths&
 RegionLedger Volumes::ledger(const std::array<glm::dvec3, 4>& corners) const {
     RegionLedger ledger(*tracer_, *silhouette_, corners);
     ledger.flip_caps(flipped_);
-    if (ends_) ledger.cut_off(RegionLedger(ends_->tracer, ends_->silhouette, corners));
+    if (ends_)
+        ledger.cut_off(RegionLedger(ends_->tracer, ends_->silhouette, corners),
+                       casters().camera.is_orthographic() ? depths_ : DepthSpan{});
     return ledger;
 }
 

@@ -73,6 +73,7 @@ private:
     std::vector<std::uint8_t> flipped_; ///< see flipped_triangles
     std::unique_ptr<Variant> others_;   ///< casters with holes filled, flipped, or left out
     std::unique_ptr<Variant> ends_;
+    DepthSpan depths_{};             ///< of casters and ends, and as much on either side
     std::unique_ptr<Variant> ideal_; ///< where neither the given nor the counted ones are
     bool are_ideal_;
     std::vector<FlatVolume> flat_;

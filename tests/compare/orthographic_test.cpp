@@ -268,5 +268,44 @@ TEST(OrthographicVolumes, that_hold_an_end_of_all_lines_of_sight_start_the_count
     }
 }
 
+/// A floor a step wide, and a plate ten thousand steps away towards the sun, whose shadow's border
+/// crosses it: what floats make of the sun's direction is carried all the way.
+Scene with_far_plate(double distance) {
+    Scene scene = from_above(1, 33);
+    Camera& camera = scene.camera;
+    camera.half_height = 0.5;
+    camera.eye = {0, 20, 0};
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.3711, 0.7177, 0.5893));
+    scene.positions = {{-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}, {2, 0, -2}};
+    scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const glm::dvec3 at = distance * to_sun;
+    for (const glm::dvec3& corner :
+         {glm::dvec3(0.031, 0, -0.017), glm::dvec3(9.7, 0, -4.1), glm::dvec3(5.3, 0, 8.9)})
+        scene.positions.emplace_back(at + corner);
+    scene.triangles.emplace_back(4, 6, 5);
+    scene.triangles.emplace_back(4, 5, 6);
+    scene.meshes = {{"floor", 0, 2, 0}, {"plate", 2, 2, 0}};
+    scene.materials = {{"plain"}};
+    scene.surfaces.clear();
+    scene.masks.clear();
+    Light& light = scene.lights[scene.light];
+    light.kind = Light::Kind::directional;
+    light.direction = -to_sun;
+    return scene;
+}
+
+TEST(OrthographicVolumes, of_a_sun_reach_as_far_as_its_direction_is_known) {
+    Gpu gpu(GlPlatform::osmesa);
+    for (const double distance : {30.0, 1e3, 1e4, 1e5}) {
+        SCOPED_TRACE(distance);
+        const TracedScene traced(with_far_plate(distance));
+        const std::vector<Visibility>& classes = traced.truth.visibility.pixels;
+        EXPECT_GT(std::ranges::count(classes, Visibility::lit), 1000);
+        EXPECT_GT(std::ranges::count(classes, Visibility::shadowed), 1000);
+        for (const char* name : {"zfail_reversed", "zfail_clamp", "zfail_half_edge"})
+            EXPECT_TRUE(is_explained(compared(traced, *find_technique(name), gpu))) << name;
+    }
+}
+
 } // namespace
 } // namespace shadowproof

@@ -65,7 +65,9 @@ TEST(OddGeometry, random_scenes_in_larger_pictures_are_refused_or_explained_to_t
     try_random_scenes(larger, 60);
 }
 
-/// Lines of sight through vertices, along edges and in planes of faces.
+/// Lines of sight through vertices, along edges and in planes of faces. Unexplained so far, of
+/// seeds beyond these: 20724, where the lamp is between two vertices of casters, and finite volumes
+/// end so near it that rounding parts a side from its far end.
 TEST(OddGeometry, random_scenes_seen_in_parallel_are_refused_or_explained_to_the_last_pixel) {
     try_random_scenes(in_parallel, 400);
 }
@@ -247,6 +249,29 @@ TEST(OddGeometry, a_flat_volume_in_the_surface_excuses_precision_at_any_depth) {
 /// Seen from the ray's plane, a triangle is met or not, even beyond the ray's end.
 TEST(OddGeometry, a_shadow_ray_in_a_triangles_plane_may_stop_at_it) {
     try_kept({422, 650}, from_casters);
+}
+
+/// Before the near plane depths are clamped to its own, and are no longer before what lies in it.
+/// No other counter is free for that, nor that one to hold anything.
+TEST(OddGeometry, faces_clamped_to_the_near_plane_are_behind_what_lies_in_it) {
+    try_kept({20448, 20486, 20827}, in_parallel);
+    Gpu gpu(GlPlatform::osmesa);
+    const TracedScene traced(scene_of_seed(20486, in_parallel));
+    const Frame frame = render(*find_technique("zfail_reversed"), traced.scene, traced.plan, gpu);
+    const auto with_counter = [&](int x, std::uint32_t count) {
+        Frame other = frame;
+        other.counted->counter.at(x, 10) = count;
+        return compared(traced, other).evidence.unexplained;
+    };
+    EXPECT_EQ(with_counter(11, 1), 0U) << "the exact count";
+    EXPECT_EQ(with_counter(11, 7), 1U);
+    EXPECT_EQ(with_counter(12, frame.counted->counter.at(12, 10) + 1), 1U);
+}
+
+/// A side that lies along all lines of sight is crossed at infinity, which finite volumes do not
+/// reach.
+TEST(OddGeometry, finite_volumes_hold_no_end_of_parallel_lines_of_sight) {
+    try_kept({21196}, in_parallel);
 }
 
 } // namespace
