@@ -201,3 +201,13 @@ for (const [scene, epsilon] of [['ordinary', 0.2], ['ordinary', 0.5], ['overlapp
     near(diagnosed(scene, claimed(scene, 'traced_epsilon', '--ray-epsilon', `${epsilon}`),
                    'ray_epsilon').parameters.epsilon, epsilon, 0.1);
   });
+
+test('shadow volumes before an orthographic camera, by what they lose', () => {
+  const view = ['--ortho', '8'];
+  const lost = (scene, technique, hypothesis) =>
+    diagnosed(scene, claimed(scene, technique, ...view), hypothesis, ...view);
+  const planes = (scene) => sceneOf(scene).cameras[0].perspective;
+  near(lost('eye_inside', 'zpass', 'zpass').parameters.near, planes('eye_inside').znear);
+  near(lost('far_plane', 'zfail', 'zfail_far').parameters.far, planes('far_plane').zfar);
+  assert.equal(lost('ordinary', 'zfail_no_light_cap', 'missing_cap').parameters.light_cap, 0);
+});
