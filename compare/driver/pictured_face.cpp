@@ -133,6 +133,27 @@ bool has_direction(const PictureMaking& making, const ViewCorner& corner) {
     return glm::length(corner.error) < 0.25 * glm::length(glm::dvec3(corner.at));
 }
 
+/// Whether the eye, as far as floats tell, lies on an edge, which may reach to infinity.
+bool has_eye_on_outline(const PictureMaking& making, const std::array<ViewCorner, 3>& corners) {
+    if (making.camera.is_orthographic()) return false;
+    const auto passes_eye = [](const ViewCorner& from, const ViewCorner& to) {
+        if (from.at.w == 0) return false;
+        const glm::dvec3 start(from.at);
+        const glm::dvec3 along = glm::dvec3(to.at) - to.at.w * start;
+        const double squared = glm::dot(along, along);
+        const double most = to.at.w == 0 ? infinity : 1;
+        const double t = squared > 0 ? std::clamp(-glm::dot(start, along) / squared, 0.0, most) : 0;
+        const double error =
+            glm::length(from.error) + (to.at.w == 0 ? t : 1) * glm::length(to.error);
+        return glm::length(start + t * along) <= error;
+    };
+    for (std::size_t k = 0; k < 3; ++k)
+        if (passes_eye(corners[k], corners[(k + 1) % 3]) ||
+            passes_eye(corners[(k + 1) % 3], corners[k]))
+            return true;
+    return false;
+}
+
 // A corner that clipping makes is put together with a weight that is itself rounded, in its
 // difference and quotient: by up to 2 v of the edge, which is up to 4 v of the larger corner,
 // beside the 3 v that clipped_polygon counts.
@@ -308,6 +329,8 @@ PicturedFace pictured_face(const PictureMaking& making, const std::array<glm::dv
     }
     face.possible = regions.possible;
     face.margin = regions.margin.value_or(infinity);
+    if (most.size() > 3 && has_eye_on_outline(making, seen))
+        face.times = static_cast<std::uint32_t>(most.size()) - 2;
     const std::array<PictureCorner, 3> pictured{picture_corner(making, seen[0]),
                                                 picture_corner(making, seen[1]),
                                                 picture_corner(making, seen[2])};

@@ -74,7 +74,10 @@ struct PicturedFace {
     bool edge_on = false;        ///< it may have any depth
     int change = 0; ///< +1: a ray enters the volume there, -1: it leaves it; 0: either may be drawn
     double margin = 0; ///< how far its corners may be drawn aside, in pixels; may be infinite
-    std::uint32_t copies = 1;        ///< how many faces it is (DrawnFace::copies)
+    std::uint32_t copies = 1; ///< how many faces it is (DrawnFace::copies)
+    /// How often it may be drawn at a pixel: where the eye lies on its outline, clipping leaves a
+    /// corner without a place, and the triangles of what is left may lie over each other.
+    std::uint32_t times = 1;
     std::uint32_t light_cap_of = 0;  ///< the first of the triangles whose surface it coincides with
     std::uint32_t own_triangles = 0; ///< how many those are: one of each copy of a light cap
     /// How near it is (nearness.h) at a pixel (x, y): nearness . (x, y, 1).

@@ -46,8 +46,7 @@ void try_random_scenes(const Oddities& oddities, std::uint64_t count) {
 }
 
 /// Closed bodies and open soups, suns at noon, floors of 8 km; lights inside, on and next to
-/// casters, and eyes inside them. Unexplained so far, of seeds beyond these: 3087 here, whose eye
-/// lies on an edge of a light cap.
+/// casters, and eyes inside them.
 TEST(OddGeometry, random_scenes_are_refused_or_explained_to_the_last_pixel) {
     try_random_scenes({}, 500);
 }
@@ -102,6 +101,7 @@ bool faces_are_explained(const TracedScene& traced, Frame frame, int more) {
 TEST(OddGeometry, a_clamped_light_cap_around_the_eye_is_drawn_or_not_and_no_other_face_is) {
     try_kept({527}, {});
     try_kept({35, 268, 382}, from_casters);
+    try_kept({3087}, {}); // the eye on an edge of two
     Gpu gpu(GlPlatform::osmesa);
     const Technique& technique = *find_technique("zfail_clamp");
     for (const std::uint64_t seed : {35U, 268U}) {

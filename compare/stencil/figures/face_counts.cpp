@@ -71,7 +71,8 @@ private:
         const int counted = face.stands_for_both ? certain.length() : 0;
         const int others = possible.length() - common(certain, possible).length();
         row.low += std::uint64_t{face.copies} * static_cast<std::uint64_t>(counted);
-        row.high += std::uint64_t{face.copies} * static_cast<std::uint64_t>(counted + others);
+        row.high +=
+            std::uint64_t{face.copies} * face.times * static_cast<std::uint64_t>(counted + others);
     }
 
     void add_row(const PicturedFace& face, int y, std::vector<double>& errors) {
@@ -85,7 +86,8 @@ private:
         std::int32_t* high = &counts_.high.at(0, y);
         if (face.in_front || face.edge_on) {
             const auto copies = static_cast<std::int32_t>(face.copies);
-            for (int x = possible.first; x < possible.end; ++x) high[x] += copies;
+            const auto most = static_cast<std::int32_t>(face.copies * face.times);
+            for (int x = possible.first; x < possible.end; ++x) high[x] += most;
             for (int x = certain.first; face.in_front && x < certain.end; ++x) low[x] += copies;
             return;
         }
