@@ -46,7 +46,8 @@ void try_random_scenes(const Oddities& oddities, std::uint64_t count) {
 }
 
 /// Closed bodies and open soups, suns at noon, floors of 8 km; lights inside, on and next to
-/// casters, and eyes inside them.
+/// casters, and eyes inside them. Unexplained so far, of seeds beyond these: one counter of zfail
+/// in 4143, under a lamp on an edge.
 TEST(OddGeometry, random_scenes_are_refused_or_explained_to_the_last_pixel) {
     try_random_scenes({}, 500);
 }
