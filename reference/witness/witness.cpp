@@ -249,13 +249,22 @@ int Witness::shadow_depth(const Point& q, std::uint32_t skip) const {
     return count;
 }
 
+namespace {
+
+Point moved_by_next_to_nothing(const Point& d) {
+    const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
+    return {d[0] + e, d[1] + e * e, d[2] + e * e * e};
+}
+
+} // namespace
+
 int Witness::shadow_depth_at_infinity(const glm::dvec3& line) const {
     const Point d = point(direction_of(camera_, line));
+    const Point moved = moved_by_next_to_nothing(d);
     if (directional_)
-        return shadow_depth(along(point(start_of(camera_, line)), mpq_class(1) << 2000, d),
+        return shadow_depth(along(point(start_of(camera_, line)), mpq_class(1) << 2000,
+                                  camera_.is_orthographic() ? moved : d),
                             no_triangle);
-    const mpq_class e = mpq_class(1) / (mpq_class(1) << 400);
-    const Point moved{d[0] + e, d[1] + e * e, d[2] + e * e * e};
     int count = 0;
     for (std::uint32_t i = 0; i < planes_.size(); ++i) {
         if (!planes_[i].casts || !planes_[i].has_area || side_of_light(i) <= 0) continue;
@@ -263,6 +272,21 @@ int Witness::shadow_depth_at_infinity(const glm::dvec3& line) const {
         if (!still || sgn(*still) <= 0) continue;
         const std::optional<mpq_class> s = meet(planes_[i], light_, moved);
         count += s && inside(planes_[i], along(light_, *s, moved)) ? 1 : 0;
+    }
+    return count;
+}
+
+int Witness::shadow_depth_at_eye() const {
+    const glm::dvec3& line = eye_line(camera_);
+    if (!camera_.is_orthographic()) return shadow_depth(on_ray(line, 0), no_triangle);
+    const Point forward = moved_by_next_to_nothing(point(camera_.forward));
+    if (directional_)
+        return shadow_depth(along(point(line), -(mpq_class(1) << 2000), forward), no_triangle);
+    int count = 0;
+    for (std::uint32_t i = 0; i < planes_.size(); ++i) {
+        if (!planes_[i].casts || !planes_[i].has_area || side_of_light(i) <= 0) continue;
+        const std::optional<mpq_class> s = meet(planes_[i], light_, forward);
+        count += s && sgn(*s) < 0 && inside(planes_[i], along(light_, *s, forward)) ? 1 : 0;
     }
     return count;
 }

@@ -48,8 +48,11 @@ public:
     /// line's end by (e, e^2, e^3) with e = 2^-400. `skip` does not count.
     int shadow_depth(const Point& q, std::uint32_t skip) const;
     /// The same for the point at infinity in a line's direction from a point light; for one 2^2000
-    /// away along the line where the light is directional.
+    /// away along the line where the light is directional: along a line whose direction is really
+    /// moved, where all lines have it.
     int shadow_depth_at_infinity(const glm::dvec3& line) const;
+    /// The same at the eye; where that is a direction, opposite to infinity.
+    int shadow_depth_at_eye() const;
 
     Point on_ray(const glm::dvec3& line, double depth) const;
     int side_of_eye(std::uint32_t triangle) const;   ///< 1: the front is seen
