@@ -133,9 +133,10 @@ bool has_direction(const PictureMaking& making, const ViewCorner& corner) {
     return glm::length(corner.error) < 0.25 * glm::length(glm::dvec3(corner.at));
 }
 
-/// Whether the eye, as far as floats tell, lies on an edge, which may reach to infinity.
+/// Whether the eye, as far as floats tell, lies on an edge, which may reach to infinity, and no
+/// near plane cuts it off.
 bool has_eye_on_outline(const PictureMaking& making, const std::array<ViewCorner, 3>& corners) {
-    if (making.camera.is_orthographic()) return false;
+    if (making.camera.is_orthographic() || making.drawing.near > 0) return false;
     const auto passes_eye = [](const ViewCorner& from, const ViewCorner& to) {
         if (from.at.w == 0) return false;
         const glm::dvec3 start(from.at);
