@@ -7,6 +7,7 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <new>
@@ -98,10 +99,13 @@ std::string words_of(int width, const Guide& guide) {
            (guide.list == nullptr ? "" : fmt::format(R"("guide":"{}",)", guide.name));
 }
 
-/// `how`: further members, each with a comma behind it. `beside`: what the list is coded by, too.
+/// What a list is coded by, too: none, one or two lists.
+using Beside = std::array<Numbers, 2>;
+
+/// `how`: further members, each with a comma behind it.
 template <class Code>
 std::string block(const NumberList& list, std::string_view as, const std::string& how,
-                  Numbers beside, Memo* memo, const Code& code) {
+                  const Beside& beside, Memo* memo, const Code& code) {
     const auto make = [&] {
         return fmt::format(R"({{"type":"{}","length":{},"as":"{}",{}"sum":{},"data":)", list.type,
                            list.values.size(), as, how, sum_of(list.values)) +
@@ -109,7 +113,8 @@ std::string block(const NumberList& list, std::string_view as, const std::string
     };
     return remembered(memo,
                       {bytes_for_memo(list.type), bytes_for_memo(as), bytes_for_memo(how),
-                       bytes_for_memo(list.values), bytes_for_memo(beside)},
+                       bytes_for_memo(list.values), bytes_for_memo(beside[0]),
+                       bytes_for_memo(beside[1])},
                       make);
 }
 
@@ -152,23 +157,27 @@ NumberList differing_list(const Image<std::uint8_t>& cause) {
 
 std::string areas_block(const NumberList& list, int width, const Guide& guide, Memo* memo) {
     const Numbers beside = values_of(guide);
-    return block(list, "areas", words_of(width, guide), beside, memo, [&] {
+    return block(list, "areas", words_of(width, guide), {beside}, memo, [&] {
         return coded_areas(list.values, static_cast<std::uint32_t>(width), beside, {});
     });
 }
 
 std::string differing_block(const NumberList& list, int width, const NumberList& differing,
-                            Memo* memo) {
+                            const Guide& guide, Memo* memo) {
     const Numbers mask = differing.values;
-    return block(list, "areas", words_of(width, {}) + R"("of":"differing",)", mask, memo, [&] {
-        return coded_areas(list.values, static_cast<std::uint32_t>(width), {}, mask);
-    });
+    const Numbers beside = values_of(guide);
+    return block(
+        list, "areas", words_of(width, guide) + R"("of":"differing",)", {mask, beside}, memo,
+        [&] { return coded_areas(list.values, static_cast<std::uint32_t>(width), beside, mask); });
 }
 
-std::string shades_block(const NumberList& list, int width, const Guide& guide, Memo* memo) {
+std::string shades_block(const NumberList& list, int width, int channels, const Guide& guide,
+                         Memo* memo) {
     const Numbers beside = values_of(guide);
-    return block(list, "shades", words_of(width, guide), beside, memo, [&] {
-        return coded_shades(list.values, static_cast<std::uint32_t>(width), 3, beside);
+    const std::string how = fmt::format(R"("channels":{},)", channels) + words_of(width, guide);
+    return block(list, "shades", how, {beside}, memo, [&] {
+        return coded_shades(list.values, static_cast<std::uint32_t>(width),
+                            static_cast<std::uint32_t>(channels), beside);
     });
 }
 

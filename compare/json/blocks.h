@@ -70,11 +70,12 @@ struct Guide {
 /// a memo what was coded before is not coded again.
 std::string areas_block(const NumberList& list, int width, const Guide& guide = {},
                         Memo* memo = nullptr);
-/// Of the pixels that differ; `differing` has a number for each pixel, not 0 where it does.
+/// Of the pixels that differ; `differing` has a number for each pixel, not 0 where it does. The
+/// guide has one for each pixel, too.
 std::string differing_block(const NumberList& list, int width, const NumberList& differing,
-                            Memo* memo = nullptr);
-/// Three bytes for each pixel.
-std::string shades_block(const NumberList& list, int width, const Guide& guide = {},
+                            const Guide& guide = {}, Memo* memo = nullptr);
+/// `channels` bytes for each pixel.
+std::string shades_block(const NumberList& list, int width, int channels, const Guide& guide = {},
                          Memo* memo = nullptr);
 std::string sequence_block(const NumberList& list, int columns = 1);
 std::string rows_block(const NumberList& list);

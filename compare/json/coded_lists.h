@@ -27,8 +27,9 @@ std::string coded_shades(Numbers values, std::uint32_t width, std::uint32_t chan
 /// their column.
 std::string coded_sequence(Numbers values, std::uint32_t columns);
 
-/// Rows of numbers that are not 0, with a 0 behind each. What a row has at its begin and at its end
-/// like the row before is taken from there, and only what lies between is coded, as a sequence.
+/// Rows of numbers that are not 0, with a 0 behind each. A row is coded as what makes it of the row
+/// before: where numbers give way to others. Guessed is what stood for the same number last, or
+/// else, as in a sequence, what followed the same numbers.
 std::string coded_rows(Numbers values);
 
 } // namespace shadowproof

@@ -1,12 +1,12 @@
-// The evidence of a cell: words and figures, which are sent between processes, and pictures and
-// data for the report, which are written by the process that makes them.
+// The evidence of a cell: words and figures, which are sent between processes, and data for the
+// report, which are written by the process that makes them.
 #pragma once
 
 #include "compare/json/memo.h"
+#include "reference/trace/trace.h"
 #include "scenes/frame.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +29,6 @@ struct EvidenceSummary {
                                           ///< predicted; any fails the cell
     std::string results; ///< members of the cell in results.json, as the text of a JSON object
     std::string words;   ///< for the cell's line on the console; empty: none
-    std::vector<std::string> pictures; ///< kinds of EvidenceReport::pictures
 };
 
 /// A named list of values for the viewer, encoded (compare/json/blocks.h).
@@ -38,21 +37,15 @@ using Blocks = std::vector<std::pair<std::string, std::string>>;
 /// What a report shows of the evidence. The memo is that of the scene.
 class EvidenceReport {
 public:
-    /// A picture of the report: "volumes" is written to volumes.png.
-    struct Picture {
-        std::string kind;
-        std::function<std::string(const Frame&, Memo&)> png; ///< the file's bytes
-    };
-
     EvidenceReport() = default;
     virtual ~EvidenceReport() = default;
     EvidenceReport(const EvidenceReport&) = delete;
     EvidenceReport& operator=(const EvidenceReport&) = delete;
 
-    virtual std::vector<Picture> pictures() const = 0;
     /// Members of the header of the cell's data, as the text of a JSON object.
     virtual std::string header() const = 0;
-    virtual Blocks blocks(const Frame& frame, Memo& memo) const = 0;
+    /// `truth`: the scene's, whose triangles are a block of the scene's data, "triangle".
+    virtual Blocks blocks(const Frame& frame, const GroundTruth& truth, Memo& memo) const = 0;
 };
 
 } // namespace shadowproof

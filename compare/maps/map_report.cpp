@@ -35,21 +35,26 @@ Json settings_of(const MapModel& model, double unit) {
     return json;
 }
 
-/// Brighter where the texel's surface is closer to the light; the texels as a chequered pattern.
-/// Black where the map is not asked.
-Image<Rgb> texel_picture(const Frame& frame, const std::vector<std::optional<PixelLookup>>& at) {
-    Image<Rgb> picture(frame.claim.width, frame.claim.height, Rgb{0, 0, 0});
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        if (!at[i]) continue;
-        const Texel& texel = at[i]->lookup.texel;
-        const double share = std::clamp(at[i]->stored / frame.mapped->model.far, 0.0, 1.0);
-        const double light = 1 - 0.75 * share - (((texel.x + texel.y) & 1) != 0 ? 0.12 : 0);
-        const auto gray = static_cast<std::uint8_t>(std::lround(255 * light));
-        // Faces are told apart by a tint.
-        const auto tinted = static_cast<std::uint8_t>(gray - gray / 8 * (texel.face % 3));
-        picture.pixels[i] = {tinted, gray, static_cast<std::uint8_t>(gray - gray / 5)};
+/// For each pixel a number of the texel that it asks, 0 where it asks none: one more than
+/// 6 * share + 2 * (face % 3) + parity. `share`: of the far plane's distance, in texel_shares
+/// steps; `parity`: by which texels beside each other are told apart.
+std::vector<std::uint8_t> asked_texels(const MapModel& model,
+                                       const std::vector<std::optional<PixelLookup>>& at) {
+    constexpr int texel_shares = 40;
+    std::vector<std::uint8_t> asked;
+    asked.reserve(at.size());
+    for (const std::optional<PixelLookup>& pixel : at) {
+        if (!pixel) {
+            asked.push_back(0);
+            continue;
+        }
+        const Texel& texel = pixel->lookup.texel;
+        const long share =
+            std::lround(texel_shares * std::clamp(pixel->stored / model.far, 0.0, 1.0));
+        asked.push_back(static_cast<std::uint8_t>(1 + 6 * share + 2 * (texel.face % 3) +
+                                                  ((texel.x + texel.y) & 1)));
     }
-    return picture;
+    return asked;
 }
 
 /// How many pixels a side of a face has in the report.
@@ -80,14 +85,14 @@ std::vector<std::uint8_t> pictured_faces(const MapEvidence& map) {
 
 class MapReport final : public EvidenceReport {
 public:
-    MapReport(const MapEvidence& map, std::vector<std::optional<PixelLookup>> at,
+    MapReport(const MapEvidence& map, const std::vector<std::optional<PixelLookup>>& at,
               const Image<std::uint8_t>& cause, double unit)
-        : header_(Json{{"map", header_of(map.model, unit)}}.dump()), at_(std::move(at)),
-          faces_(pictured_faces(map)), differing_(differing_list(cause)) {
-        for (std::size_t i = 0; i < at_.size(); ++i) {
+        : header_(Json{{"map", header_of(map.model, unit)}}.dump()), faces_(pictured_faces(map)),
+          texels_(asked_texels(map.model, at)), differing_(differing_list(cause)) {
+        for (std::size_t i = 0; i < at.size(); ++i) {
             if (cause.pixels[i] == no_difference) continue;
-            const PixelLookup pixel = at_[i].value_or(PixelLookup{});
-            asked_.push_back(at_[i] ? 1 : 0);
+            const PixelLookup pixel = at[i].value_or(PixelLookup{});
+            asked_.push_back(at[i] ? 1 : 0);
             face_.push_back(static_cast<std::uint8_t>(pixel.lookup.texel.face));
             x_.push_back(static_cast<std::uint32_t>(pixel.lookup.texel.x));
             y_.push_back(static_cast<std::uint32_t>(pixel.lookup.texel.y));
@@ -101,15 +106,10 @@ public:
         }
     }
 
-    std::vector<Picture> pictures() const override {
-        return {{"texels", [this](const Frame& frame, Memo& memo) {
-                     return to_png(texel_picture(frame, at_), &memo);
-                 }}};
-    }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& frame, Memo& memo) const override {
+    Blocks blocks(const Frame& frame, const GroundTruth& /*truth*/, Memo& memo) const override {
         const auto of_differing = [&](const auto& list) {
-            return differing_block(NumberList(list), frame.claim.width, differing_, &memo);
+            return differing_block(NumberList(list), frame.claim.width, differing_, {}, &memo);
         };
         const int side = pictured_size(frame.mapped->model);
         return {{"map_asked", of_differing(asked_)},
@@ -122,13 +122,14 @@ public:
                 {"map_lit", of_differing(lit_)},
                 {"map_width", of_differing(width_)},
                 {"map_foot", sequence_block(NumberList(foot_), 2)},
-                {"map_faces", areas_block(NumberList(faces_), side, {}, &memo)}};
+                {"map_faces", areas_block(NumberList(faces_), side, {}, &memo)},
+                {"texels", areas_block(NumberList(texels_), frame.claim.width, {}, &memo)}};
     }
 
 private:
     std::string header_;
-    std::vector<std::optional<PixelLookup>> at_;
     std::vector<std::uint8_t> faces_;
+    std::vector<std::uint8_t> texels_; ///< asked_texels
     NumberList differing_;
     // One per pixel that differs.
     std::vector<std::uint8_t> asked_;
@@ -163,14 +164,13 @@ EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures
     results["straddling"] = figures.straddling;
     results["ms"] = map.map_milliseconds;
     summary.results = Json{{"map", std::move(results)}}.dump();
-    summary.pictures = {"texels"};
     return summary;
 }
 
 std::shared_ptr<const EvidenceReport> report_map(const MapEvidence& map,
-                                                 std::vector<std::optional<PixelLookup>> at,
+                                                 const std::vector<std::optional<PixelLookup>>& at,
                                                  const Image<std::uint8_t>& cause, double unit) {
-    return std::make_shared<MapReport>(map, std::move(at), cause, unit);
+    return std::make_shared<MapReport>(map, at, cause, unit);
 }
 
 } // namespace shadowproof

@@ -3,7 +3,6 @@
 
 #include "compare/judge/evidence_report.h"
 #include "compare/maps/lookup.h"
-#include "compare/report/png.h"
 
 #include <cstdint>
 #include <memory>
@@ -33,7 +32,7 @@ EvidenceSummary summary_of_map(const MapEvidence& map, const MapFigures& figures
 
 /// `at`: one for each pixel, in rows from the top; none where the map is not asked.
 std::shared_ptr<const EvidenceReport> report_map(const MapEvidence& map,
-                                                 std::vector<std::optional<PixelLookup>> at,
+                                                 const std::vector<std::optional<PixelLookup>>& at,
                                                  const Image<std::uint8_t>& cause, double unit);
 
 } // namespace shadowproof

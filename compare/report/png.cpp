@@ -48,7 +48,7 @@ enum class ColorType : char { gray = 0, rgb = 2, palette = 3 }; ///< as the spec
 
 /// libpng has another compressor, whose files of these pictures are larger and take longer. Rows
 /// are not filtered but those of colours, which are stored as differences to the pixel before.
-std::string encoded(int width, int height, std::string_view pixels, ColorType type,
+std::string encoded(int width, int height, std::string_view pixels, ColorType type, int depth,
                     std::string_view palette, Memo* memo) {
     const std::size_t row = pixels.size() / static_cast<std::size_t>(std::max(height, 1));
     const bool differences = type == ColorType::rgb;
@@ -65,7 +65,7 @@ std::string encoded(int width, int height, std::string_view pixels, ColorType ty
     std::string header;
     append_number(header, static_cast<std::size_t>(width));
     append_number(header, static_cast<std::size_t>(height));
-    header += {8, static_cast<char>(type), 0, 0, 0};
+    header += {static_cast<char>(depth), static_cast<char>(type), 0, 0, 0};
     std::string bytes = "\x89PNG\r\n\x1a\n";
     append_chunk(bytes, "IHDR", header);
     if (!palette.empty()) append_chunk(bytes, "PLTE", palette);
@@ -81,24 +81,62 @@ std::string_view bytes_of(const std::vector<T>& list) {
     return {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T)};
 }
 
+/// The same picture with only those colours that are there, in their order.
+PalettePicture with_used_colors(const PalettePicture& picture) {
+    std::array<int, 256> place{};
+    for (const std::uint8_t index : picture.indices.pixels) place[index] = 1;
+    PalettePicture used;
+    for (std::size_t i = 0; i < picture.palette.size(); ++i) {
+        if (place[i] == 0) continue;
+        place[i] = static_cast<int>(used.palette.size());
+        used.palette.push_back(picture.palette[i]);
+    }
+    used.indices = converted<std::uint8_t>(picture.indices, [&](std::uint8_t index) {
+        return static_cast<std::uint8_t>(place[index]);
+    });
+    return used;
+}
+
+/// Bits of a pixel that tell so many colours apart, of those that a PNG may have.
+int bits_for(std::size_t colors) {
+    return colors <= 2 ? 1 : colors <= 4 ? 2 : colors <= 16 ? 4 : 8;
+}
+
+/// Rows of pixels of `depth` bits each, the first in a byte's highest; each row begins a byte.
+std::string packed_rows(const Image<std::uint8_t>& indices, int depth) {
+    std::string rows;
+    for (int y = 0; y < indices.height; ++y)
+        for (int x = 0; x < indices.width;) {
+            int byte = 0;
+            for (int left = 8; left > 0; ++x) {
+                left -= depth;
+                if (x < indices.width) byte |= indices.at(x, y) << left;
+            }
+            rows += static_cast<char>(byte);
+        }
+    return rows;
+}
+
 } // namespace
 
 std::string to_png(const Image<Visibility>& classes, Memo* memo) {
-    return encoded(classes.width, classes.height, bytes_of(classes.pixels), ColorType::gray, {},
+    return encoded(classes.width, classes.height, bytes_of(classes.pixels), ColorType::gray, 8, {},
                    memo);
 }
 
 std::string to_png(const Image<Rgb>& picture, Memo* memo) {
     static_assert(sizeof(Rgb) == 3);
-    return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, {},
+    return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, 8, {},
                    memo);
 }
 
 std::string to_png(const PalettePicture& picture, Memo* memo) {
     static_assert(sizeof(Rgb) == 3);
     assert(picture.palette.size() <= 256);
-    return encoded(picture.indices.width, picture.indices.height, bytes_of(picture.indices.pixels),
-                   ColorType::palette, bytes_of(picture.palette), memo);
+    const PalettePicture used = with_used_colors(picture);
+    const int depth = bits_for(used.palette.size());
+    return encoded(used.indices.width, used.indices.height, packed_rows(used.indices, depth),
+                   ColorType::palette, depth, bytes_of(used.palette), memo);
 }
 
 std::optional<std::string> png_damage(std::string_view bytes, std::uint64_t width,

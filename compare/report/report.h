@@ -9,6 +9,7 @@
 #include "compare/report/shared_files.h"
 #include "compare/words.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -62,19 +63,19 @@ inline constexpr const char* page_name = "index.html";
 inline constexpr const char* results_name = "results.json";
 inline constexpr const char* results_script_name = "results.js";
 
-/// Path, relative to the report's folder, of a cell's picture: kind is claim, difference, cause,
-/// volumes. That of an earlier cell where that is the same.
+/// Path, relative to the report's folder, of a cell's picture, by its kind. That of an earlier cell
+/// where that is the same.
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind);
 
-/// The kinds of the pictures of a cell that ran.
-std::vector<std::string> picture_kinds(const Cell& cell);
+/// The kinds of the pictures that each cell that ran has as files. The page draws all others.
+inline constexpr std::array<const char*, 3> picture_kinds{"claim", "difference", "cause"};
 
 /// The same for the picture that all cells of a scene share.
 std::string truth_path(const SceneResult& scene);
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.
-inline constexpr int results_format = 8;
+inline constexpr int results_format = 9;
 
 /// results.json of that schema.
 std::string to_json(const Report& report);

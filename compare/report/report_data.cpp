@@ -58,15 +58,20 @@ std::string scene_script(const SceneResult& scene) {
     for (const Mesh& mesh : scene.meshes)
         header["meshes"].push_back(
             {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
-    Blocks blocks{
-        {"visibility", areas_block(NumberList(scene.truth.visibility.pixels), scene.width)}};
+    const NumberList visibility(scene.truth.visibility.pixels);
+    const Guide by_visibility{"visibility", &visibility};
+    Blocks blocks{{"visibility", areas_block(visibility, scene.width)},
+                  {"triangle", areas_block(NumberList(scene.truth.triangle.pixels), scene.width,
+                                           by_visibility)},
+                  {"exactness", areas_block(NumberList(scene.truth.exactness.pixels), scene.width,
+                                            by_visibility)}};
     if (!scene.color.pixels.empty()) {
         const NumberList color = color_list(color_picture(scene.color));
-        blocks.emplace_back("color", shades_block(color, scene.width));
+        blocks.emplace_back("color", shades_block(color, scene.width, 3));
         if (!scene.mean_color.pixels.empty())
             blocks.emplace_back("mean_color",
                                 shades_block(color_list(color_picture(scene.mean_color)),
-                                             scene.width, {"color", &color}));
+                                             scene.width, 3, {"color", &color}));
     }
     return script("scene", folder_of(scene), header, blocks);
 }
@@ -88,7 +93,7 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
                                    "claim", claim));
     if (cell.evidence) {
         header = Json::parse(cell.evidence->header());
-        for (auto& named : cell.evidence->blocks(cell.frame, memo))
+        for (auto& named : cell.evidence->blocks(cell.frame, scene.truth, memo))
             blocks.push_back(std::move(named));
     }
     header["family"] = cell.family;
@@ -98,8 +103,10 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
         const NumberList right =
             color_list(color_picture(of_pixels ? scene.mean_color : scene.color));
         blocks.emplace_back("color", shades_block(color_list(color_picture(cell.frame.color)),
-                                                  scene.width, {"true_color", &right}, &memo));
+                                                  scene.width, 3, {"true_color", &right}, &memo));
         blocks.emplace_back("color_verdict", guided(NumberList(verdicts.pixels), "claim", claim));
+        const NumberList error(color_error_shades(*cell.comparison.colors).pixels);
+        blocks.emplace_back("color_error", shades_block(error, scene.width, 1, {}, &memo));
     }
     return script("cell", folder_of(scene) + "/" + cell.technique, header, blocks);
 }

@@ -22,7 +22,7 @@ void ReportFolder::add_cell(const SceneResult& scene, Cell& cell, int threads) c
 
 void ReportFolder::recall_cell(const SceneResult& scene, const Cell& cell) const {
     if (!cell.error.empty()) return;
-    for (const std::string& kind : picture_kinds(cell)) {
+    for (const char* const kind : picture_kinds) {
         const std::string path = own_path(scene, cell, kind);
         if (picture_path(scene, cell, kind) == path) shared_->place_of(path, files_.bytes_of(path));
     }

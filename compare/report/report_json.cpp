@@ -119,7 +119,7 @@ Json cell_of(const Report& report, const SceneResult& scene, const Cell& cell) {
                          {"cause", name_of(comparison.first->cause)}};
     const EvidenceSummary& evidence = comparison.summary;
     if (!evidence.results.empty()) json.update(Json::parse(evidence.results));
-    for (const std::string& kind : picture_kinds(cell))
+    for (const char* const kind : picture_kinds)
         json["images"][kind] = picture_path(scene, cell, kind);
     if (comparison.colors) json["color"] = color_of(*comparison.colors);
     json["cause_map"] = cell.cause_map;

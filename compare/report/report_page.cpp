@@ -17,8 +17,8 @@ std::string css_color(const Rgb& color) {
     return fmt::format("#{:02x}{:02x}{:02x}", color[0], color[1], color[2]);
 }
 
-/// Names, meanings and colours of causes and contradictions, so that the viewer has none of its
-/// own.
+/// Names, meanings and colours of causes and contradictions, and the dimmed colours of claims, so
+/// that the viewer has none of its own.
 Json legend() {
     Json legend{{"causes", Json::array()}, {"contradictions", Json::array()}};
     for (std::size_t i = 0; i < all_causes.size(); ++i)
@@ -28,6 +28,9 @@ Json legend() {
     for (const ContradictionWords& words : all_contradictions)
         legend["contradictions"].push_back(
             {{"name", words.name}, {"meaning", words.meaning}, {"color", css_color(words.color)}});
+    for (const Visibility claim :
+         {Visibility::background, Visibility::shadowed, Visibility::partly_lit, Visibility::lit})
+        legend["dimmed"][fmt::format("{}", static_cast<int>(claim))] = css_color(dimmed(claim));
     return legend;
 }
 

@@ -60,14 +60,6 @@ std::string script_path(const SceneResult& scene, const Cell& cell) {
     return folder_of(scene) + "/" + cell.technique + "/cell.js";
 }
 
-std::vector<std::string> picture_kinds(const Cell& cell) {
-    std::vector<std::string> kinds{"claim", "difference", "cause"};
-    const std::vector<std::string>& of_evidence = cell.comparison.summary.pictures;
-    kinds.insert(kinds.end(), of_evidence.begin(), of_evidence.end());
-    if (cell.comparison.colors) kinds.emplace_back("color_error");
-    return kinds;
-}
-
 std::string truth_path(const SceneResult& scene) {
     return folder_of(scene) + "/truth.png";
 }
@@ -92,50 +84,6 @@ PalettePicture cause_picture(const Cell& cell) {
         });
 }
 
-PalettePicture color_error_picture(const ColorCheck& colors) {
-    constexpr int shades = 128;
-    constexpr int octave = 8;
-    constexpr int least = -8; // log2 of the error of the first shade
-    constexpr std::uint8_t background = shades;
-    constexpr std::uint8_t beyond = shades + 1;
-    constexpr std::uint8_t unpredicted = shades + 2;
-    constexpr Rgb full{0xFF, 0xF4, 0xC8};
-    PalettePicture picture{Image<std::uint8_t>(colors.error.width, colors.error.height), {}};
-    for (int shade = 0; shade < shades; ++shade) {
-        Rgb color{};
-        for (std::size_t i = 0; i < color.size(); ++i)
-            color[i] = static_cast<std::uint8_t>(full[i] * shade / (shades - 1));
-        picture.palette.push_back(color);
-    }
-    picture.palette.push_back(dimmed(Visibility::background));
-    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::shading)]);
-    picture.palette.push_back(cause_colors[static_cast<std::size_t>(Cause::unexplained)]);
-    const auto shade_of = [](float error) {
-        if (!(error > 0)) return 0;
-        const double level = octave * (std::log2(double{error}) - least);
-        return std::clamp(static_cast<int>(std::lround(level)), 0, shades - 1);
-    };
-    for (std::size_t i = 0; i < picture.indices.pixels.size(); ++i) {
-        switch (colors.verdict.pixels[i]) {
-        case ColorVerdict::as_shown:
-            picture.indices.pixels[i] = background;
-            break;
-        case ColorVerdict::within:
-        case ColorVerdict::moved:
-            picture.indices.pixels[i] = static_cast<std::uint8_t>(shade_of(colors.error.pixels[i]));
-            break;
-        case ColorVerdict::beyond:
-            picture.indices.pixels[i] = beyond;
-            break;
-        case ColorVerdict::unpredicted:
-        case ColorVerdict::unexplained:
-            picture.indices.pixels[i] = unpredicted;
-            break;
-        }
-    }
-    return picture;
-}
-
 void write_scene(const SceneResult& scene, const FolderPart& report) {
     report.add(truth_path(scene), to_png(scene.truth.visibility));
     report.add(folder_of(scene) + "/scene.js", scene_script(scene));
@@ -156,13 +104,6 @@ void write_cell(const SceneResult& scene, Cell& cell, const FolderPart& report, 
     add("claim", [&] { return to_png(cell.frame.claim, &memo); });
     add("difference", [&] { return to_png(difference_picture(scene.truth, cell), &memo); });
     add("cause", [&] { return to_png(cause_picture(cell), &memo); });
-    if (cell.evidence)
-        for (const EvidenceReport::Picture& picture : cell.evidence->pictures())
-            add(picture.kind, [&, picture] { return picture.png(cell.frame, memo); });
-    if (cell.comparison.colors)
-        add("color_error", [&] { // which no two cells have alike
-            return to_png(color_error_picture(*cell.comparison.colors));
-        });
     parallel_for(static_cast<int>(jobs.size()), thread_count(threads),
                  [&](int job, int) { jobs[static_cast<std::size_t>(job)](); });
     for (const auto& [kind, bytes] : pictures) {

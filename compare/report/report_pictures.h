@@ -15,10 +15,6 @@ PalettePicture difference_picture(const GroundTruth& truth, const Cell& cell);
 /// The dimmed claim with each differing pixel in the colour of its cause.
 PalettePicture cause_picture(const Cell& cell);
 
-/// How far colours are from the truth, lighter for further: eight shades per octave, from a 256th
-/// of a step of 1/255 on. What is beyond its bound, or unpredicted, has its cause's colour.
-PalettePicture color_error_picture(const ColorCheck& colors);
-
 /// Where a cell's picture stands if no earlier one is the same, and its data, relative to the
 /// report's folder.
 std::string own_path(const SceneResult& scene, const Cell& cell, const std::string& kind);

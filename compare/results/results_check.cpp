@@ -135,14 +135,10 @@ void accepted_cause(const JsonPlace& place) {
 }
 
 void truth_images(const JsonPlace& place) {
-    object(place, {{"truth", text}, {"color", text, Need::optional}});
+    object(place, {{"truth", text}});
 }
 void cell_images(const JsonPlace& place) {
-    object(place, {{"claim", text},
-                   {"difference", text},
-                   {"cause", text},
-                   {"color", text, Need::optional},
-                   {"color_error", text, Need::optional}});
+    object(place, {{"claim", text}, {"difference", text}, {"cause", text}});
 }
 void place_in_picture(const JsonPlace& place) {
     object(place, {{"x", count}, {"y", count}});

@@ -112,9 +112,7 @@ public:
     void add_pixel(int x, int y, std::span<const std::uint64_t> words) {
         const std::uint32_t seen = in_.truth.triangle.at(x, y);
         const std::uint32_t shown = in_.frame.triangle.at(x, y);
-        table_.seen.push_back(seen);
         table_.shown.push_back(shown);
-        table_.exactness.push_back(static_cast<std::uint8_t>(in_.truth.exactness.at(x, y)));
         need(seen);
         need(shown);
         table_.ledger.push_back(ledger_of(words));
@@ -124,9 +122,9 @@ public:
         const auto of = [](const auto&... lists) {
             return (std::uint64_t{0} + ... + (lists.capacity() * sizeof(lists[0])));
         };
-        return of(table_.seen, table_.shown, table_.exactness, table_.ledger, table_.start,
-                  table_.counts, table_.adds_up, table_.predicted, table_.crossing_face,
-                  table_.crossing_change, table_.crossing_tally, table_.face);
+        return of(table_.shown, table_.ledger, table_.start, table_.counts, table_.adds_up,
+                  table_.predicted, table_.crossing_face, table_.crossing_change,
+                  table_.crossing_tally, table_.face);
     }
 
     LedgerTable finish() {

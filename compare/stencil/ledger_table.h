@@ -17,9 +17,7 @@ inline constexpr std::size_t counts_of_ledger = 6;
 
 struct LedgerTable {
     // One value per differing pixel, in rows from the top.
-    std::vector<std::uint32_t> seen;  ///< triangle truly seen, or no_triangle
-    std::vector<std::uint32_t> shown; ///< triangle that the technique shows, or no_triangle
-    std::vector<std::uint8_t> exactness;
+    std::vector<std::uint32_t> shown;  ///< triangle that the technique shows, or no_triangle
     std::vector<std::uint32_t> ledger; ///< index of its ledger
 
     // One value per ledger, or as many as stated.

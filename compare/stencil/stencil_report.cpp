@@ -1,7 +1,6 @@
 #include "compare/stencil/stencil_report.h"
 
 #include "compare/json/blocks.h"
-#include "compare/report/report_legend.h"
 #include "compare/stencil/ledger_table.h"
 #include "compare/words.h"
 
@@ -104,20 +103,16 @@ public:
         : header_(header.dump()), ledgers_(std::move(ledgers)), predicted_(std::move(predicted)),
           differing_(std::move(differing)) {}
 
-    std::vector<Picture> pictures() const override {
-        return {{"volumes", [](const Frame& frame, Memo& memo) {
-                     return to_png(volume_picture(frame), &memo);
-                 }}};
-    }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& frame, Memo& memo) const override {
+    Blocks blocks(const Frame& frame, const GroundTruth& truth, Memo& memo) const override {
         const Counting& counting = frame.counted->counting;
         const int width = frame.claim.width;
         const NumberList claim(frame.claim.pixels);
         const NumberList predicted = counter_list(predicted_, counting);
         const Guide by_predicted{"predicted", &predicted};
-        const auto of_differing = [&](const auto& list) {
-            return differing_block(NumberList(list), width, differing_, &memo);
+        const NumberList seen(truth.triangle.pixels);
+        const auto of_differing = [&](const auto& list, const Guide& guide = {}) {
+            return differing_block(NumberList(list), width, differing_, guide, &memo);
         };
         const auto rows = [](const auto& list, int columns = 1) {
             return sequence_block(NumberList(list), columns);
@@ -127,9 +122,7 @@ public:
                                           by_predicted, &memo)},
                 {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width,
                                       by_predicted, &memo)},
-                {"seen", of_differing(ledgers_.seen)},
-                {"shown", of_differing(ledgers_.shown)},
-                {"exactness", of_differing(ledgers_.exactness)},
+                {"shown", of_differing(ledgers_.shown, {"triangle", &seen})},
                 {"ledger", of_differing(ledgers_.ledger)},
                 {"ledger_counts", rows(ledgers_.counts, counts_of_ledger)},
                 {"ledger_exact", rows(ledgers_.adds_up)},
@@ -168,7 +161,6 @@ EvidenceSummary summary_of(const Frame& frame, const EvidenceCheck& check,
     }
     if (!volumes.holds()) summary.unexplained.push_back(words_of(volumes));
     summary.results = results.dump(-1, ' ', false, Json::error_handler_t::replace);
-    summary.pictures = {"volumes"};
     return summary;
 }
 
@@ -183,30 +175,6 @@ std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced,
         converted<std::uint32_t>(prediction.counts(),
                                  [&](std::int32_t count) { return stored(count, counting); }),
         differing_list(cause));
-}
-
-PalettePicture volume_picture(const Frame& frame) {
-    // As many faces as the picture can tell apart under each class of the claim.
-    constexpr int levels = 256 / 3;
-    constexpr Rgb full{0xFF, 0xC0, 0x40};
-    const Image<std::uint8_t>& faces = frame.counted->volumes;
-    const int most =
-        std::clamp<int>(*std::max_element(faces.pixels.begin(), faces.pixels.end()), 6, levels - 1);
-    PalettePicture picture{Image<std::uint8_t>(faces.width, faces.height), {}};
-    for (const Visibility claim :
-         {Visibility::lit, Visibility::shadowed, Visibility::background}) // as dimmed_index says
-        for (int level = 0; level < levels; ++level) {
-            Rgb color = dimmed(claim);
-            for (std::size_t i = 0; i < color.size(); ++i)
-                color[i] = static_cast<std::uint8_t>(
-                    std::min(255, color[i] + full[i] * std::min(level, most) / most));
-            picture.palette.push_back(color);
-        }
-    for (std::size_t i = 0; i < faces.pixels.size(); ++i)
-        picture.indices.pixels[i] =
-            static_cast<std::uint8_t>(dimmed_index(frame.claim.pixels[i]) * levels +
-                                      std::min<int>(faces.pixels[i], levels - 1));
-    return picture;
 }
 
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments) {

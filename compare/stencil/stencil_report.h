@@ -1,8 +1,7 @@
-// What a report shows of counted claims: figures, the picture of the volumes, ledgers.
+// What a report shows of counted claims: figures, the volumes' faces at each pixel, ledgers.
 #pragma once
 
 #include "compare/judge/evidence_report.h"
-#include "compare/report/png.h"
 #include "compare/stencil/figures/volume_check.h"
 #include "reference/predict/prediction.h"
 #include "reference/predict/traced_scene.h"
@@ -21,10 +20,6 @@ std::shared_ptr<const EvidenceReport> report_counters(const TracedScene& traced,
                                                       const Prediction& prediction,
                                                       const Image<std::uint8_t>& cause,
                                                       const MemoryBudget& left);
-
-/// The dimmed claim, overlaid with the number of volume faces that nothing hides at each pixel.
-/// Full colour is the largest number at any pixel, at least six.
-PalettePicture volume_picture(const Frame& frame);
 
 /// "saved 3.1 ms and 271,004 of 800,123 volume fragments against zfail_reversed"
 std::string words_of(const Savings& saved, std::uint64_t volume_fragments);

@@ -12,10 +12,6 @@ void ledger(const JsonPlace& place) {
     object(place, {{"equal", count}, {"in_band", count}, {"unexplained", count}});
 }
 
-void images(const JsonPlace& place) {
-    object(place, {{"volumes", text}});
-}
-
 void figure(const JsonPlace& place) {
     object(place, {{"shown", count}, {"low", count}, {"high", count}});
 }
@@ -70,8 +66,7 @@ void check_stencil_results(const JsonPlace& cell) {
     object(cell, {{"volume_fragments", count},
                   {"saved", saved, Need::optional},
                   {"ledger", ledger},
-                  {"volumes", volumes},
-                  {"images", images}});
+                  {"volumes", volumes}});
     require_sum(cell.at("ledger"),
                 sum(cell.value.at("ledger"), {"equal", "in_band", "unexplained"}),
                 cell.value.at("pixels").get<std::uint64_t>(), "\"pixels\"");

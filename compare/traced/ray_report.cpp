@@ -42,9 +42,9 @@ public:
     TracedReport(std::string header, RayRows rows)
         : header_(std::move(header)), rows_(std::move(rows)) {}
 
-    std::vector<Picture> pictures() const override { return {}; }
     std::string header() const override { return header_; }
-    Blocks blocks(const Frame& /*frame*/, Memo& /*memo*/) const override {
+    Blocks blocks(const Frame& /*frame*/, const GroundTruth& /*truth*/,
+                  Memo& /*memo*/) const override {
         return {{"ray", sequence_block(NumberList(rows_.ray), 9)},
                 {"met", sequence_block(NumberList(rows_.met), 4)},
                 {"at", sequence_block(NumberList(rows_.at), 3)}};

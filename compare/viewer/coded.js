@@ -166,8 +166,8 @@ const missLevel = (sum) => (sum < 6 ? sum : Math.min(missLevels - 1, 35 - Math.c
 const signNumber = (value) => (value < 0 ? 2 : value > 0 ? 1 : 0);
 
 /** A picture of shades into `values`; `guide` may be null. */
-function readShades(reader, values, { width }, { guide }) {
-  const channels = 3;
+function readShades(reader, values, { width, channels }, { guide }) {
+  if (!(channels === 1 || channels === 3)) return; // damaged: the sum will say so
   const row = width * channels;
   const rest = new Int32Array(values.length); // beyond the guide
   const misses = new Int32Array(values.length);
@@ -206,9 +206,12 @@ function readShades(reader, values, { width }, { guide }) {
   }
 }
 
+/** Of a hash, for a list of so many numbers. */
+const hashBits = (numbers) => Math.min(18, Math.max(8, 32 - Math.clz32(numbers)));
+
 /** What is known of the numbers of one column of a list: what followed others, by their hash. */
 function newColumn(numbers) {
-  const bits = Math.min(18, Math.max(8, 32 - Math.clz32(numbers)));
+  const bits = hashBits(numbers);
   return { afterTwo: new Uint32Array(1 << bits), afterOne: new Uint32Array(1 << bits),
            shift: 32 - bits, byTwo: newChances(32), byOne: newChances(32), isNew: newChances(32),
            steps: new NumberReader(), largest: 0, hits: 0 };
@@ -244,28 +247,69 @@ function readSequence(reader, values, { columns }) {
                          i >= 1 ? values[i - 1] : 0, i >= columns ? values[i - columns] : 0);
 }
 
+const rememberedEach = 4;
+
+/** The numbers that stood for others last, by their hash and the last first. */
+function newReplacements(numbers) {
+  const bits = hashBits(numbers);
+  return { last: new Uint32Array(rememberedEach << bits), shift: 32 - bits,
+           chances: newChances(4 * rememberedEach) };
+}
+
+/** The place in `last` of what stands for `number`, which is 0 there if it is none of those known. */
+function readReplacement(reader, { last, shift, chances }, number, kind) {
+  const first = rememberedEach * (Math.imul(4 * number + kind, 0x9e3779b1) >>> shift);
+  let k = 0;
+  let found = false;
+  while (k < rememberedEach && last[first + k] !== 0 && !found) {
+    found = reader.bit(chances, rememberedEach * kind + k);
+    ++k;
+  }
+  const value = found ? last[first + k - 1] : 0;
+  const moved = found ? k - 1 : rememberedEach - 1;
+  last.copyWithin(first + 1, first, first + moved);
+  last[first] = value;
+  return first;
+}
+
 /** Rows with a 0 behind each into `values`. */
 function readRows(reader, values) {
   const column = newColumn(values.length);
-  const [begins, removals, additions] = [new NumberReader(), new NumberReader(), new NumberReader()];
-  let before = 0; // where the row before begins, and its length
-  let lengthBefore = 0;
-  let common = 0;
-  for (let at = 0; at < values.length;) {
-    common += unfolded(begins.number(reader));
-    const removed = removals.number(reader);
-    const added = removed + unfolded(additions.number(reader));
-    const tail = lengthBefore - common - removed;
-    if (common < 0 || added < 0 || tail < 0 || at + common + added + tail >= values.length) return;
-    values.copyWithin(at, before, before + common);
-    for (let i = common; i < common + added; ++i) {
-      const one = i >= 1 ? values[at + i - 1] : 0;
-      values[at + i] = readNext(reader, column, i >= 2 ? values[at + i - 2] : 0, one, one);
+  const replacements = newReplacements(values.length);
+  const [counts, gaps, removals] = [new NumberReader(), new NumberReader(), new NumberReader()];
+  const additions = Array.from({ length: 8 }, () => new NumberReader());
+  let before = 0; // where the row before begins, and ends
+  let endBefore = 0;
+  for (let row = 0; row < values.length;) {
+    let at = row;
+    for (let edits = counts.number(reader); edits > 0; --edits) {
+      const gap = gaps.number(reader);
+      const removed = removals.number(reader);
+      const added = additions[Math.min(removed, 7)].number(reader);
+      if (before + gap + removed > endBefore || at + gap + added >= values.length ||
+          removed + added === 0) return;
+      values.copyWithin(at, before, before + gap);
+      at += gap;
+      before += gap;
+      for (let k = 0; k < added; ++k, ++at) {
+        const one = at > row ? values[at - 1] : 0;
+        const replaces = k < removed;
+        const inserts = removed === 0 && k === 0 && before < endBefore;
+        const kind = replaces ? (k === 0 ? 0 : 1) : inserts ? 2 : 3;
+        const place = readReplacement(reader, replacements,
+                                      replaces || inserts ? values[before + k] : one, kind);
+        if (replacements.last[place] === 0)
+          replacements.last[place] =
+            readNext(reader, column, at > row + 1 ? values[at - 2] : 0, one, one);
+        values[at] = replacements.last[place];
+      }
+      before += removed;
     }
-    values.copyWithin(at + common + added, before + common + removed, before + lengthBefore);
-    before = at;
-    lengthBefore = common + added + tail;
-    at += lengthBefore + 1;
+    if (at + endBefore - before >= values.length) return;
+    values.copyWithin(at, before, endBefore);
+    at += endBefore - before;
+    [before, endBefore] = [row, at];
+    row = at + 1;
   }
 }
 

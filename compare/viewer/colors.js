@@ -10,8 +10,12 @@ const colorVerdictWords = [
   'beyond the bound of what the error budget explains, and not what the technique’s arithmetic predicts',
   'more than 1/255 off, and right where the rasterizer may have drawn instead',
 ];
+const colorNotJudged = 0;
 const colorBeyond = 2;
 const isUnpredicted = (verdict) => verdict === 3 || verdict === 4;
+
+/** The lightest of the block color_error, whose shades are an octave apart. */
+const lastErrorShade = 16;
 
 /** "0.03", "24": steps of 1/255 in few digits. */
 const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);

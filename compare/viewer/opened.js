@@ -81,10 +81,10 @@ function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problem
                                            problems);
   const right = cell.color.filter ? truth?.mean_color : truth?.color;
   const claim = cellFile && decodedBlocks(
-    `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels }, problems,
+    `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels, color_error: pixels }, problems,
     { guides: { true_color: right, claim: blocks?.claim } });
   return { trueColor: right ?? null, claimedColor: claim?.color ?? null,
-           colorVerdict: claim?.color_verdict ?? null };
+           colorVerdict: claim?.color_verdict ?? null, colorError: claim?.color_error ?? null };
 }
 
 /** The blocks of a cell's file; those that stand in another cell's are taken from there. */
@@ -108,14 +108,15 @@ async function openCell(scene, cell) {
   const [sceneFile, cellFile] = await Promise.all([
     orProblem(handedOver(`${scene.folder}/scene.js`), problems),
     orProblem(handedOver(`${id}/cell.js`), problems)]);
-  const truth = sceneFile && decodedBlocks(`${scene.folder}/scene.js`, sceneFile.blocks,
-                                           { visibility: pixels }, problems);
+  const truth = sceneFile && decodedBlocks(
+    `${scene.folder}/scene.js`, sceneFile.blocks,
+    { visibility: pixels, ...familyOf(cell).sceneBlocks(pixels) }, problems);
   const own = await ownBlocks(scene, cellFile, problems);
   const causes = cellFile &&
     decodedBlocks(`${id}/cell.js`, own, { cause: pixels }, problems).cause;
   const blocks = cellFile && decodedBlocks(
     `${id}/cell.js`, own, lengthsOfCell(cell, pixels), problems,
-    { guides: { visibility: truth?.visibility },
+    { guides: truth,
       differing: causes?.map((cause) => (cause === noDifference ? 0 : 1)) });
   const opened = {
     scene, cell, id, problems, sceneFile, cellFile, causes,
@@ -124,6 +125,7 @@ async function openCell(scene, cell) {
     visibility: truth?.visibility ?? null,
     claim: blocks?.claim ?? null,
     share: blocks?.share ?? null,
+    sceneBlocks: truth,
     blocks,
     ...openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problems }),
   };

@@ -59,6 +59,8 @@ function pixelWord(opened, name, pixel) {
 
 const isDark = ([red, green, blue]) => 0.3 * red + 0.59 * green + 0.11 * blue < 120;
 const colorBytes = (color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
+/** That of a claim under marks. */
+const dimmedColor = (claim) => colorBytes(received.legend.dimmed[claim]);
 
 /** Black or white, whichever is read on the pixel's own colour. */
 function pixelInk(opened, name, pixel) {
@@ -79,25 +81,68 @@ function pixelInk(opened, name, pixel) {
   return isDark(color) ? '#ffffff' : '#000000';
 }
 
-/** Colours, three bytes for each pixel, as a canvas. */
-function colorPicture(colors, width, height) {
+/** A canvas whose bytes are set by `paint(data)`: red, green, blue and 255 of each pixel. */
+function paintedPicture(width, height, paint) {
   const canvas = element('canvas', { width, height });
   const context = canvas.getContext('2d');
   const image = context.createImageData(width, height);
-  for (let i = 0, from = 0; i < image.data.length; i += 4, from += 3) {
-    image.data[i] = colors[from];
-    image.data[i + 1] = colors[from + 1];
-    image.data[i + 2] = colors[from + 2];
-    image.data[i + 3] = 255;
-  }
+  image.data.fill(255);
+  paint(image.data);
   context.putImageData(image, 0, 0);
   return canvas;
 }
 
-/** The colours of a cell that has some, drawn: [name, canvas or null]. */
-const drawnColors = ({ cell, trueColor, claimedColor, width, height }) =>
-  (cell.color ? [['true_color', trueColor], ['claimed_color', claimedColor]].map(([name, colors]) =>
-    [name, colors && colorPicture(colors, width, height)]) : []);
+/** Colours, three bytes for each pixel, as a canvas. */
+const colorPicture = (colors, width, height) => paintedPicture(width, height, (data) => {
+  for (let i = 0, from = 0; i < data.length; i += 4, from += 3) {
+    data[i] = colors[from];
+    data[i + 1] = colors[from + 1];
+    data[i + 2] = colors[from + 2];
+  }
+});
+
+/** A number for each pixel as a canvas; `colorOf` says a number's colour: [red, green, blue]. */
+const drawnPicture = (width, height, numbers, colorOf) => paintedPicture(width, height, (data) => {
+  const pixels = new Uint32Array(data.buffer);
+  const colors = new Map(); // a pixel's four bytes as they lie, in one number
+  let last = -1;
+  let color = 0;
+  for (let i = 0; i < pixels.length; ++i) {
+    if (numbers[i] !== last) {
+      last = numbers[i];
+      color = colors.get(last);
+      if (color === undefined) {
+        [color] = new Uint32Array(Uint8Array.from([...colorOf(last), 255]).buffer);
+        colors.set(last, color);
+      }
+    }
+    pixels[i] = color;
+  }
+});
+
+/** How far colours are off, lighter for further; what is beyond its bound, or unpredicted, has its cause's colour. */
+function errorPicture({ colorError, colorVerdict, width, height }) {
+  const [unjudged, beyond, unpredicted] =
+    [dimmedColor(0), ...['shading', 'unexplained'].map((cause) => colorBytes(causeLegend(cause).color))];
+  const kinds = new Uint16Array(colorError.length);
+  for (let i = 0; i < kinds.length; ++i) kinds[i] = colorVerdict[i] << 8 | colorError[i];
+  return drawnPicture(width, height, kinds, (kind) => {
+    const verdict = kind >> 8;
+    return verdict === colorNotJudged ? unjudged : verdict === colorBeyond ? beyond
+      : isUnpredicted(verdict) ? unpredicted
+      : [0xff, 0xf4, 0xc8].map((value) => Math.trunc(value * (kind & 255) / lastErrorShade));
+  });
+}
+
+/** The colours of a cell that has some, drawn: [name, canvas or null, the block that is drawn]. */
+function drawnColors(opened) {
+  const { cell, trueColor, claimedColor, colorError, colorVerdict, width, height } = opened;
+  if (!cell.color) return [];
+  return [...[['true_color', trueColor], ['claimed_color', claimedColor]].map(([name, colors]) =>
+    [name, colors && colorPicture(colors, width, height), 'color']),
+    ['color_error', colorError && colorVerdict && errorPicture(opened),
+     colorError ? 'color_verdict' : 'color_error']];
+}
 
 async function loadedPictures(opened) {
   const { scene, cell, width, height } = opened;
@@ -109,9 +154,8 @@ async function loadedPictures(opened) {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
       : { problem: `the results name no picture of the ${titleOf(cell, name).toLowerCase()}` };
   }));
-  for (const [name, image] of drawn) {
+  for (const [name, image, block] of drawn) {
     const file = name === 'true_color' ? `${scene.folder}/scene.js` : `${opened.id}/cell.js`;
-    const block = name in pictureTitles ? 'color' : name;
     pictures[name] = image ? { image }
       : { problem: opened.problems.find((text) => text.startsWith(`${file}: block ${block} `)) ??
                    `${file} is missing or damaged` };

@@ -89,7 +89,7 @@ test('what a family adds to its cells is checked by that family, and by no other
   for (const [family, change, why] of [
     ['stencil', (cell) => delete cell.ledger, /lacks "ledger"/],
     ['stencil', (cell) => (cell.ledger.equal += 1), /ledger adds up to/],
-    ['stencil', (cell) => delete cell.images.volumes, /images lacks "volumes"/],
+    ['stencil', (cell) => delete cell.volumes, /lacks "volumes"/],
     ['map', (cell) => (cell.map.size = 0), /map\/size must be/],
     ['traced', (cell) => delete cell.rays, /lacks "rays"/],
     ['traced', (cell) => (cell.rays.unexplained += 1), /rays adds up to/],

@@ -7,16 +7,14 @@
 
 namespace shadowproof {
 
-/// What a report shows of the handmade cells' counters: the picture of their volumes alone.
+/// What a report shows of the handmade cells' counters: nothing beyond their pictures.
 class HandmadeEvidence final : public EvidenceReport {
 public:
-    std::vector<Picture> pictures() const override {
-        return {{"volumes", [](const Frame& frame, Memo& memo) {
-                     return to_png(volume_picture(frame), &memo);
-                 }}};
-    }
     std::string header() const override { return "{}"; }
-    Blocks blocks(const Frame& /*frame*/, Memo& /*memo*/) const override { return {}; }
+    Blocks blocks(const Frame& /*frame*/, const GroundTruth& /*truth*/,
+                  Memo& /*memo*/) const override {
+        return {};
+    }
 };
 
 /// Truth:      claim:      cause:

@@ -74,17 +74,52 @@ void write_areas(std::mt19937& random, const Size& size) {
     for (std::size_t i = 0; i < list.values.size(); ++i)
         if (mask.values[i] != 0) masked.values.push_back(list.values[i]);
     write(differing_block(masked, size.width, mask), masked.values, {}, mask.values);
+    write(differing_block(masked, size.width, mask, {"guide", &guide}), masked.values, guide.values,
+          mask.values);
 }
 
-void write_shades(std::mt19937& random, const Size& size) {
+void write_shades(std::mt19937& random, const Size& size, int channels) {
     NumberList list;
     list.type = "u8";
-    for (std::size_t i = 0; i < 3 * size.pixels(); ++i)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(channels) * size.pixels(); ++i)
         list.values.push_back((static_cast<std::uint32_t>(i) / 7 + diced(random, 3)) & 255U);
     NumberList guide{list};
     for (std::uint32_t& each : guide.values) each = (each + diced(random, 2)) & 255U;
-    write(shades_block(list, size.width), list.values, {}, {});
-    write(shades_block(list, size.width, {"guide", &guide}), list.values, guide.values, {});
+    write(shades_block(list, size.width, channels), list.values, {}, {});
+    write(shades_block(list, size.width, channels, {"guide", &guide}), list.values, guide.values,
+          {});
+}
+
+/// Rows of numbers of which some give way, are left out, come in, or change places; now and then a
+/// row is empty, or has a number twice.
+void write_rows(std::mt19937& random, std::uint32_t rows, std::uint32_t most) {
+    List row;
+    List all;
+    for (std::uint32_t k = 0; k < rows; ++k) {
+        for (std::uint32_t changes = diced(random, 5); changes > 0; --changes) {
+            const auto place = [&](std::size_t places) {
+                return static_cast<std::ptrdiff_t>(
+                    diced(random, static_cast<std::uint32_t>(places)));
+            };
+            const std::uint32_t number = 1 + diced(random, most);
+            const std::uint32_t way = diced(random, 4);
+            if (way == 0 || row.empty())
+                row.insert(row.begin() + place(row.size() + 1), number);
+            else if (way == 1)
+                row.erase(row.begin() + place(row.size()));
+            else if (way == 2)
+                row[static_cast<std::size_t>(place(row.size()))] = number;
+            else
+                std::swap(row[static_cast<std::size_t>(place(row.size()))], row.back());
+        }
+        if (diced(random, 20) == 0) row.clear();
+        all.insert(all.end(), row.begin(), row.end());
+        all.push_back(0);
+    }
+    NumberList list;
+    list.type = "u32";
+    list.values = all;
+    write(rows_block(list), all, {}, {});
 }
 
 void write_all() {
@@ -97,10 +132,13 @@ void write_all() {
                 write_areas(random, size);
                 const auto below = static_cast<std::uint32_t>(width);
                 write_areas(random, {width, height, static_cast<int>(diced(random, below))});
-                write_shades(random, size);
+                for (const int channels : {1, 3}) write_shades(random, size, channels);
                 const List values = areas(random, size);
                 write(sequence_block(NumberList(values), width), values, {}, {});
             }
+    for (const std::uint32_t rows : {0U, 1U, 2U, 10U, 300U})
+        for (const std::uint32_t most : {1U, 3U, 50U, 0xfffffffeU})
+            for (int round = 0; round < 3; ++round) write_rows(random, rows, most);
     NumberList even;
     even.type = "u8";
     even.values = List(2000, 1);

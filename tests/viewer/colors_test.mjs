@@ -226,18 +226,13 @@ test('a colour that nothing predicts is an alarm, and its pixel does not simply 
   assert.match(await text(page, '.legends'), /unpredicted\s+1\s/);
 });
 
-for (const path of ['bumpy_torus/bump_three_pass/color_error.png'])
-  test(`a picture that is missing is named: ${path}`, async () => {
-    const { page } = await opened((file) => rmSync(file(path)));
-    assert.match(await text(page, '.stage .broken'), new RegExp(`^${path} is missing or damaged$`));
+for (const block of ['color_error', 'color_verdict'])
+  test(`a damaged error of the colours is named: ${block}`, async () => {
+    const { page } = await opened((path) => damageBlock(path(cellFile), block));
+    assert.match(await text(page, '.stage .broken'),
+                 new RegExp(`bump_three_pass/cell\\.js: block ${block} is damaged`));
     assert.equal((await panes(page)).length, 9);
   });
-
-test('results that name no picture of the colours are told so', async () => {
-  const { page } = await opened((path) =>
-    changeResults(path, ({ images }) => { delete images.color_error; }));
-  assert.equal(await text(page, '.stage .broken'), 'the results name no picture of the colour error');
-});
 
 test('damaged colours are named, shown as unknown, and cost no ledger', async () => {
   const { page } = await opened((path) => damageBlock(path(cellFile), 'color'));

@@ -57,7 +57,7 @@ void serialize(Archive& archive, ColorCheck& check) {
             first_unpredicted_y, lights_before, means);
 }
 
-SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words, pictures)
+SHADOWPROOF_SEND_ALL(EvidenceSummary, unexplained, results, words)
 SHADOWPROOF_SEND_ALL(ShareFigures, partly_lit, wrongness)
 
 template <class Archive>

@@ -3,11 +3,13 @@
 
 /** The defaults of a section. */
 const plainSection = {
-  /** The lengths of its blocks in cell.js, by name; null: any. */
+  /** The lengths of the blocks that it needs of scene.js, by name. */
+  sceneBlocks: (pixels) => ({}),
+  /** The same of its blocks in cell.js; null: any. */
   blocks: (pixels, differing) => ({}),
   /** Titles of its pictures by their names, shown after the cause map. */
   pictures: {},
-  /** Those pictures that are drawn from blocks: [name, canvas or null]. */
+  /** The same, drawn: [name, canvas or null, the block that is drawn]. */
   drawn: (opened) => [],
   /** What one of its pictures says at a pixel, as a word that fits into it. */
   word: (opened, name, pixel) => '',

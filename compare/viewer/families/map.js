@@ -58,6 +58,19 @@ function mapDrawing({ blocks, cellFile: { map } }, { face, x, y }) {
   return canvas;
 }
 
+/**
+ * Brighter where the texel's surface is closer to the light; the texels as a chequered pattern, the
+ * faces told apart by a tint. Black where the map is not asked. The numbers are those of
+ * asked_texels in compare/maps/map_report.cpp.
+ */
+const texelPicture = (texels, width, height) => drawnPicture(width, height, texels, (number) => {
+  if (number === 0) return [0, 0, 0];
+  const share = Math.floor((number - 1) / 6) / 40;
+  const [face, parity] = [(number - 1) % 6 >> 1, (number - 1) % 2];
+  const gray = Math.round(255 * (1 - 0.75 * share - 0.12 * parity));
+  return [gray - (gray >> 3) * face, gray, gray - Math.floor(gray / 5)];
+});
+
 /** What the map holds for one of the pixels that differ, by its rank among them. */
 function mapRecord({ blocks, cellFile }, rank) {
   if (!blocks?.map_asked || !blocks.map_asked[rank]) return null;
@@ -80,9 +93,13 @@ addFamily('map', {
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
     map_stored: differing, map_own: differing, map_shown: differing, map_lit: differing,
     map_width: differing, map_foot: 2 * differing,
-    map_faces: null,
+    map_faces: null, texels: pixels,
   }),
   pictures: { texels: 'Texels asked' },
+  drawn({ blocks, width, height }) {
+    const texels = blocks?.texels;
+    return [['texels', texels ? texelPicture(texels, width, height) : null, 'texels']];
+  },
   facts: ({ map, pixels }) => (map ? [
     ['Map', `${map.size} texels a side, ${map.value === 'distance' ? 'distances' : 'depths'} in ${map.format}`],
     ['Planes of the light', `${short(map.near)} to ${short(map.far)}, in the file's units`],

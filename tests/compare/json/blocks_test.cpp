@@ -74,16 +74,18 @@ TEST(Blocks, a_memo_takes_no_block_for_another) {
     Memo memo;
     for (int round = 0; round < 2; ++round)
         for (Memo* const each : {static_cast<Memo*>(nullptr), &memo}) {
-            const std::vector<std::string> blocks{areas_block(values, 4, {}, each),
-                                                  areas_block(values, 6, {}, each),
-                                                  areas_block(bytes, 4, {}, each),
-                                                  areas_block(values, 4, {"guide", &guide}, each),
-                                                  areas_block(values, 4, {"other", &guide}, each),
-                                                  areas_block(values, 4, {"other", &other}, each),
-                                                  differing_block(values, 4, some, each),
-                                                  differing_block(values, 4, rest, each),
-                                                  shades_block(bytes, 4, {}, each),
-                                                  shades_block(bytes, 2, {}, each)};
+            const std::vector<std::string> blocks{
+                areas_block(values, 4, {}, each),
+                areas_block(values, 6, {}, each),
+                areas_block(bytes, 4, {}, each),
+                areas_block(values, 4, {"guide", &guide}, each),
+                areas_block(values, 4, {"other", &guide}, each),
+                areas_block(values, 4, {"other", &other}, each),
+                differing_block(values, 4, some, {}, each),
+                differing_block(values, 4, rest, {}, each),
+                differing_block(values, 4, rest, {"guide", &other}, each),
+                shades_block(bytes, 4, 1, {}, each),
+                shades_block(bytes, 2, 1, {}, each)};
             for (std::size_t i = 0; i < blocks.size(); ++i)
                 for (std::size_t k = 0; k < i; ++k) EXPECT_NE(blocks[i], blocks[k]) << i << k;
             EXPECT_EQ(blocks[3], areas_block(values, 4, {"guide", &guide}));

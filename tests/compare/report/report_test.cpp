@@ -196,7 +196,7 @@ TEST(ReportFolder, two_writings_have_the_same_bytes) {
     write_report(handmade_report(), scratch.path / "a");
     write_report(handmade_report(), scratch.path / "b");
     const auto a = files_of(scratch.path / "a");
-    EXPECT_EQ(a.size(), 4 + 2 * 7U); // page, results, manifest; two scenes of one cell each
+    EXPECT_EQ(a.size(), 4 + 2 * 6U); // page, results, manifest; two scenes of one cell each
     EXPECT_TRUE(a.contains("index.html"));
     EXPECT_EQ(a, files_of(scratch.path / "b"));
 }

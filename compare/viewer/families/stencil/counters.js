@@ -24,17 +24,25 @@ function counterColor(count) {
   return colors[Math.min(Math.abs(count), colors.length) - 1];
 }
 
-function counterPicture(values, width, height, bits) {
-  const canvas = element('canvas', { width, height });
-  const context = canvas.getContext('2d');
-  const pixels = context.createImageData(width, height);
-  const colors = new Map();
-  values.forEach((value, i) => {
-    if (!colors.has(value)) colors.set(value, [...counterColor(asCount(value, bits)), 255]);
-    pixels.data.set(colors.get(value), 4 * i);
-  });
-  context.putImageData(pixels, 0, 0);
-  return canvas;
+const counterPicture = (values, width, height, bits) =>
+  drawnPicture(width, height, values, (value) => counterColor(asCount(value, bits)));
+
+/** Faces at a pixel from which on the next picture tells no more apart. */
+const mostFaces = 84;
+
+/**
+ * The dimmed claim, overlaid with the number of volume faces that nothing hides at each pixel. Full
+ * colour is the largest number at any pixel, at least six.
+ */
+function volumePicture(faces, claim, width, height) {
+  const full = [0xff, 0xc0, 0x40];
+  let most = 6;
+  for (const count of faces) if (count > most) most = count;
+  most = Math.min(mostFaces, most);
+  const kinds = new Uint16Array(faces.length);
+  for (let i = 0; i < kinds.length; ++i) kinds[i] = claim[i] << 8 | Math.min(faces[i], most);
+  return drawnPicture(width, height, kinds, (kind) => dimmedColor(kind >> 8).map((value, k) =>
+    Math.min(255, value + Math.trunc(full[k] * (kind & 255) / most))));
 }
 
 const countersShown = 12;

@@ -75,10 +75,10 @@ const named = (opened, triangle) =>
 /** Where each ledger begins in the block of crossings. */
 function ledgerStarts(opened) {
   if (!opened.ledgerStarts) {
+    const { crossing } = opened.blocks;
     opened.ledgerStarts = [0];
-    opened.blocks.crossing.forEach((crossing, i) => {
-      if (crossing === 0) opened.ledgerStarts.push(i + 1);
-    });
+    for (let i = crossing.indexOf(0); i >= 0; i = crossing.indexOf(0, i + 1))
+      opened.ledgerStarts.push(i + 1);
   }
   return opened.ledgerStarts;
 }
@@ -178,16 +178,16 @@ function insideOf({ blocks }, ledger, seen) {
 
 /** The record of a pixel that differs. Throws an Error that names a block that is not there. */
 function pixelRecord(opened, x, y) {
-  const { scene, cell, sceneFile, cellFile, blocks, width } = opened;
+  const { scene, cell, sceneFile, cellFile, sceneBlocks, blocks, width } = opened;
   if (!sceneFile || !cellFile) throw new Error(opened.problems[0]);
-  for (const [name, array] of Object.entries({ visibility: opened.visibility, ...blocks }))
+  for (const [name, array] of Object.entries({ ...blocks, ...sceneBlocks }))
     if (!array) throw new Error(opened.problems.find((text) => text.includes(`block ${name} `)));
   const pixel = y * width + x;
   const rank = rankOf(opened.differing, pixel);
   const { camera, light } = sceneFile;
   const { eye, direction } = rayOf(sceneFile, x, y);
   const ledger = blocks.ledger[rank];
-  const seen = seenRecord(opened, blocks.seen[rank], eye, direction);
+  const seen = seenRecord(opened, sceneBlocks.triangle[pixel], eye, direction);
   const listed = listedCrossings(opened, ledger);
   const crossings = crossingsOf(opened, listed, eye, direction, homogeneous(light));
   const inside = insideOf(opened, ledger, seen);
@@ -196,7 +196,7 @@ function pixelRecord(opened, x, y) {
     schema: 'shadowproof/pixel/1', scene: scene.name, x, y, width, height: opened.height,
     eye, direction, orthographic: camera.orthographic, near: camera.near, far: sceneFile.far, light,
     truth: visibilityNames[opened.visibility[pixel]],
-    exactness: exactnessNames[blocks.exactness[rank]],
+    exactness: exactnessNames[sceneBlocks.exactness[pixel]],
     seen,
     margin: { depth: marginDepth(seen, crossings), pixels: distanceToOtherClass(opened, x, y) },
     inside, crossings, adds_up: blocks.ledger_exact[ledger] === 1,

@@ -23,17 +23,21 @@ function agreeingCounter(opened, pixel) {
 }
 
 addFamily('stencil', {
+  sceneBlocks: (pixels) => ({ triangle: pixels, exactness: pixels }),
   blocks: (pixels, differing) => ({
     predicted: pixels, read_back: pixels, faces: pixels,
-    seen: differing, shown: differing, exactness: differing, ledger: differing,
+    shown: differing, ledger: differing,
     ledger_counts: null, ledger_exact: null, ledger_predicted: null, crossing: null,
     face: null, triangle: null, vertex: null,
   }),
   pictures: { predicted: 'Counter predicted', read_back: 'Counter read back', volumes: 'Volumes' },
   drawn(opened) {
-    const { predicted, readBack, bits } = countersOf(opened);
-    return [['predicted', predicted], ['read_back', readBack]].map(([name, values]) =>
-      [name, values && counterPicture(values, opened.width, opened.height, bits)]);
+    const { predicted, readBack, faces, bits } = countersOf(opened);
+    const { claim, width, height } = opened;
+    return [...[['predicted', predicted], ['read_back', readBack]].map(([name, values]) =>
+      [name, values && counterPicture(values, width, height, bits), name]),
+      ['volumes', faces && claim && volumePicture(faces, claim, width, height),
+       claim ? 'faces' : 'claim']];
   },
   word(opened, name, pixel) {
     const { predicted, readBack, faces } = countersOf(opened);
