@@ -101,8 +101,8 @@ public:
             shown_.push_back(pixel.shown);
             lit_.push_back(static_cast<std::uint8_t>(pixel.lit));
             width_.push_back(static_cast<float>(pixel.width * unit));
-            foot_.push_back(static_cast<float>(pixel.footprint.x * unit));
-            foot_.push_back(static_cast<float>(pixel.footprint.y * unit));
+            foot_x_.push_back(static_cast<float>(pixel.footprint.x * unit));
+            foot_y_.push_back(static_cast<float>(pixel.footprint.y * unit));
         }
     }
 
@@ -121,7 +121,8 @@ public:
                 {"map_shown", of_differing(shown_)},
                 {"map_lit", of_differing(lit_)},
                 {"map_width", of_differing(width_)},
-                {"map_foot", sequence_block(NumberList(foot_), 2)},
+                {"map_foot_x", of_differing(foot_x_)},
+                {"map_foot_y", of_differing(foot_y_)},
                 {"map_faces", areas_block(NumberList(faces_), side, {}, &memo)},
                 {"texels", areas_block(NumberList(texels_), frame.claim.width, {}, &memo)}};
     }
@@ -141,7 +142,8 @@ private:
     std::vector<std::uint32_t> shown_;
     std::vector<std::uint8_t> lit_; ///< comparisons
     std::vector<float> width_;
-    std::vector<float> foot_; ///< two each
+    std::vector<float> foot_x_;
+    std::vector<float> foot_y_;
 
     static Json header_of(const MapModel& model, double unit) {
         Json header = settings_of(model, unit);

@@ -38,6 +38,17 @@ NumberList color_list(const Image<Rgb>& picture) {
     return NumberList(std::span(bytes, 3 * picture.pixels.size()));
 }
 
+/// no_difference where the claim has the truth's visibility, else 0.
+NumberList difference_list(const SceneResult& scene, const Cell& cell) {
+    std::vector<std::uint8_t> list;
+    list.reserve(cell.frame.claim.pixels.size());
+    for (std::size_t i = 0; i < cell.frame.claim.pixels.size(); ++i)
+        list.push_back(cell.frame.claim.pixels[i] == scene.truth.visibility.pixels[i]
+                           ? no_difference
+                           : std::uint8_t{0});
+    return NumberList(list);
+}
+
 } // namespace
 
 std::string scene_script(const SceneResult& scene) {
@@ -85,7 +96,7 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
         return areas_block(list, scene.width, {name, &by}, &memo);
     };
     Blocks blocks{{"claim", guided(claim, "visibility", truth)},
-                  {"cause", areas_block(causes, scene.width, {}, &memo)}};
+                  {"cause", guided(causes, "difference", difference_list(scene, cell))}};
     if (!cell.frame.share.pixels.empty())
         blocks.emplace_back("share",
                             guided(NumberList(std::vector<float>(cell.frame.share.pixels.begin(),

@@ -123,7 +123,7 @@ public:
                 {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width,
                                       by_predicted, &memo)},
                 {"shown", of_differing(ledgers_.shown, {"triangle", &seen})},
-                {"ledger", of_differing(ledgers_.ledger)},
+                {"ledger", of_differing(ledgers_.ledger, {"triangle", &seen})},
                 {"ledger_counts", rows(ledgers_.counts, counts_of_ledger)},
                 {"ledger_exact", rows(ledgers_.adds_up)},
                 {"ledger_predicted", rows(ledgers_.predicted)},

@@ -60,8 +60,13 @@ function checkCell(opened) {
                   'pixels differ that have no cause there');
 }
 
+/** noDifference where the claim has the truth's visibility, else 0; null where one is unknown. */
+const differenceOf = (visibility, claim) =>
+  (visibility && claim ? claim.map((value, i) => (value === visibility[i] ? noDifference : 0)) : null);
+
+/** Besides claim and cause, which others are decoded by. */
 const lengthsOfCell = (cell, pixels) =>
-  ({ claim: pixels, ...(cell.partly_lit === undefined ? {} : { share: pixels }),
+  ({ ...(cell.partly_lit === undefined ? {} : { share: pixels }),
      ...familyOf(cell).blocks(pixels, cell.differing) });
 
 /** What is claimed at a pixel: "lit", "partly lit (68.8 %)". */
@@ -112,18 +117,20 @@ async function openCell(scene, cell) {
     `${scene.folder}/scene.js`, sceneFile.blocks,
     { visibility: pixels, ...familyOf(cell).sceneBlocks(pixels) }, problems);
   const own = await ownBlocks(scene, cellFile, problems);
-  const causes = cellFile &&
-    decodedBlocks(`${id}/cell.js`, own, { cause: pixels }, problems).cause;
-  const blocks = cellFile && decodedBlocks(
-    `${id}/cell.js`, own, lengthsOfCell(cell, pixels), problems,
-    { guides: truth,
-      differing: causes?.map((cause) => (cause === noDifference ? 0 : 1)) });
+  const decoded = (lengths, how) =>
+    cellFile && decodedBlocks(`${id}/cell.js`, own, lengths, problems, how);
+  const { claim = null } = decoded({ claim: pixels }, { guides: truth }) ?? {};
+  const { cause: causes = null } = decoded(
+    { cause: pixels }, { guides: { difference: differenceOf(truth?.visibility, claim) } }) ?? {};
+  const blocks = cellFile && { claim, ...decoded(lengthsOfCell(cell, pixels), {
+    guides: { ...truth, claim },
+    differing: causes?.map((cause) => (cause === noDifference ? 0 : 1)) }) };
   const opened = {
     scene, cell, id, problems, sceneFile, cellFile, causes,
     width: scene.width, height: scene.height,
     differing: causes ? differingPixels(causes) : new Uint32Array(0),
     visibility: truth?.visibility ?? null,
-    claim: blocks?.claim ?? null,
+    claim,
     share: blocks?.share ?? null,
     sceneBlocks: truth,
     blocks,

@@ -79,7 +79,7 @@ function mapRecord({ blocks, cellFile }, rank) {
            shown: blocks.map_shown[rank], bias: cellFile.map.bias, size: cellFile.map.size,
            value: cellFile.map.value, slopeBias: cellFile.map.slope_bias ?? 0,
            offsetUnits: cellFile.map.offset_units ?? 0, lit: blocks.map_lit[rank],
-           width: blocks.map_width[rank], foot: blocks.map_foot.subarray(2 * rank, 2 * rank + 2),
+           width: blocks.map_width[rank], foot: [blocks.map_foot_x[rank], blocks.map_foot_y[rank]],
            filter: cellFile.map.filter ?? 0, average: cellFile.map.average,
            edges: cellFile.map.edges, format: cellFile.map.format,
            near: cellFile.map.near, far: cellFile.map.far };
@@ -92,7 +92,7 @@ addFamily('map', {
   blocks: (pixels, differing) => ({
     map_asked: differing, map_face: differing, map_x: differing, map_y: differing,
     map_stored: differing, map_own: differing, map_shown: differing, map_lit: differing,
-    map_width: differing, map_foot: 2 * differing,
+    map_width: differing, map_foot_x: differing, map_foot_y: differing,
     map_faces: null, texels: pixels,
   }),
   pictures: { texels: 'Texels asked' },

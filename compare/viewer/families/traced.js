@@ -1,16 +1,21 @@
 // The section of traced shadows: the shadow ray of a pixel that differs, drawn from its start to
 // the light, with what it met.
 
-/** The row of a pixel that differs, decoded. */
-function tracedRow({ blocks: { ray, met, at }, differing }, pixel) {
-  const row = rankOf(differing, pixel);
-  const [ox, oy, oz, dx, dy, dz, near, far, leaves] = ray.subarray(9 * row, 9 * row + 9);
-  const [seen, stopped, first, passed] = met.subarray(4 * row, 4 * row + 4);
-  const [depth, firstAt, passedAt] = at.subarray(3 * row, 3 * row + 3);
+/** The lists of cell.js, one number for each pixel that differs: compare/traced/ray_report.cpp. */
+const tracedLists = [
+  'origin_x', 'origin_y', 'origin_z', 'direction_x', 'direction_y', 'direction_z', 'near', 'far',
+  'leaves', 'seen', 'stopped', 'first', 'passed', 'depth', 'first_at', 'passed_at'];
+
+/** What a pixel that differs has in each list. */
+function tracedRow({ blocks, differing }, pixel) {
+  const rank = rankOf(differing, pixel);
+  const of = (name) => blocks[name][rank];
+  const vector = (name) => ['x', 'y', 'z'].map((axis) => of(`${name}_${axis}`));
   const hit = (triangle, t) => (triangle === noTriangle ? null : { triangle, t });
-  return { origin: [ox, oy, oz], direction: [dx, dy, dz], near, far, seen, stopped, depth,
-           shot: !Number.isNaN(near), leaves: Number.isNaN(leaves) ? null : leaves,
-           first: hit(first, firstAt), passed: hit(passed, passedAt) };
+  return { origin: vector('origin'), direction: vector('direction'), near: of('near'),
+           far: of('far'), seen: of('seen'), stopped: of('stopped'), depth: of('depth'),
+           shot: !Number.isNaN(of('near')), leaves: Number.isNaN(of('leaves')) ? null : of('leaves'),
+           first: hit(of('first'), of('first_at')), passed: hit(of('passed'), of('passed_at')) };
 }
 
 /** The ray as the command draws it, too. */
@@ -25,7 +30,8 @@ function tracedDrawing(row, unit) {
 }
 
 addFamily('traced', {
-  blocks: (pixels, differing) => ({ ray: 9 * differing, met: 4 * differing, at: 3 * differing }),
+  blocks: (pixels, differing) =>
+    Object.fromEntries(tracedLists.map((name) => [name, differing])),
   differing({ opened }, pixel) {
     const row = tracedRow(opened, pixel);
     const unit = opened.cellFile.ray_unit;
