@@ -177,6 +177,21 @@ test('what is not counted is struck through with its reason, and the sum is a se
     assert.ok(svg.includes(words), words);
 });
 
+test('no dashed line begins far outside, wherever the light is: dashes without end take seconds', () => {
+  const high = [0, 4e6, -8e5];
+  const all = { ...cases, 'light without end': recordOf(
+    [side(2, 1, { light: high, along: 1 - 1e-7 }), side(4, -1, { light: high, along: 1 - 1e-7 })],
+    { light: { name: 'sun', kind: 'directional', direction: [0, -4, 0.8] } }) };
+  let dashed = 0;
+  for (const [name, record] of Object.entries(all))
+    for (const [line] of cutaway(record, 0, 760).matchAll(/<line [^>]*stroke-dasharray[^>]*>/g))
+      for (const [, number] of line.matchAll(/ [xy][12]="([^"]+)"/g)) {
+        assert.ok(Math.abs(Number(number)) < 2000, `${name}: ${number}`);
+        ++dashed;
+      }
+  assert.ok(dashed > 100);
+});
+
 test('the drawing says whether it is to scale', () => {
   assert.match(cutaway(cases.plain, 0), />to scale</);
   assert.match(cutaway(cases['depths of every size'], 0), />not to scale: depths in their order only</);

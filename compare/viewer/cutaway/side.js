@@ -30,14 +30,38 @@ var cutawaySide = (function () {
     return text;
   }
 
+  /**
+   * The part of a line in the drawing and a little around it, or null: dashes of a line that is
+   * millions of pixels long take a browser seconds (Liang and Barsky, "A new concept and method for
+   * line clipping", 1984).
+   */
+  function partInside(a, b, place) {
+    var margin = 100, high = [place.right + margin, place.bottom + margin];
+    var begin = 0, end = 1; // of the line
+    [0, 1].forEach(function (axis) {
+      var along = b[axis] - a[axis];
+      var ends = [-margin, high[axis]].map(function (side) { return (side - a[axis]) / along; });
+      if (along === 0) {
+        if (a[axis] < -margin || a[axis] > high[axis]) end = -1;
+        return;
+      }
+      begin = Math.max(begin, Math.min(ends[0], ends[1]));
+      end = Math.min(end, Math.max(ends[0], ends[1]));
+    });
+    function at(t) { return [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]; }
+    return begin < end ? [begin === 0 ? a : at(begin), end === 1 ? b : at(end)] : null;
+  }
+
   function sidesDrawn(events, points, place) {
     var many = events.length > 18, text = '';
     events.forEach(function (event, k) {
       if (event.kind !== 'crossing' || !points[k].side) return;
       var p = points[k], faint = !event.status || event.status === 'counted' ? '0.95' : '0.55';
       if (many) faint = '0.35';
-      text += line(place.light, p.caster, 'light', 1,
-                   { 'stroke-dasharray': '2 4', 'stroke-opacity': many ? '0.3' : '0.75' });
+      var toCaster = partInside(place.light, p.caster, place);
+      if (toCaster)
+        text += line(toCaster[0], toCaster[1], 'light', 1,
+                     { 'stroke-dasharray': '2 4', 'stroke-opacity': many ? '0.3' : '0.75' });
       text += line(p.caster, p.away, 'shade', 1.3, { 'stroke-opacity': faint });
       text += tag('circle', { cx: p.caster[0], cy: p.caster[1], r: 2.4,
                               'class': 'cut-fill-ink', fill: colors.ink });
