@@ -44,7 +44,7 @@ public:
 
     /// Members of the header of the cell's data, as the text of a JSON object.
     virtual std::string header() const = 0;
-    /// `truth`: the scene's, whose triangles are a block of the scene's data, "triangle".
+    /// `truth`: the scene's, whose triangles are a block of the scene's data, "seen".
     virtual Blocks blocks(const Frame& frame, const GroundTruth& truth, Memo& memo) const = 0;
 };
 

@@ -124,10 +124,10 @@ std::string to_png(const Image<Visibility>& classes, Memo* memo) {
                    memo);
 }
 
-std::string to_png(const Image<Rgb>& picture, Memo* memo) {
+std::string to_png(const Image<Rgb>& picture) {
     static_assert(sizeof(Rgb) == 3);
     return encoded(picture.width, picture.height, bytes_of(picture.pixels), ColorType::rgb, 8, {},
-                   memo);
+                   nullptr);
 }
 
 std::string to_png(const PalettePicture& picture, Memo* memo) {

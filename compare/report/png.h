@@ -28,7 +28,7 @@ struct PalettePicture {
 /// compressed before are not compressed again.
 std::string to_png(const Image<Visibility>& classes, Memo* memo = nullptr);
 /// The same, 8 bits a colour.
-std::string to_png(const Image<Rgb>& picture, Memo* memo = nullptr);
+std::string to_png(const Image<Rgb>& picture);
 /// The same, with a palette of colours.
 std::string to_png(const PalettePicture& picture, Memo* memo = nullptr);
 

@@ -71,11 +71,11 @@ std::string scene_script(const SceneResult& scene) {
             {{"name", mesh.name}, {"first", mesh.first_triangle}, {"count", mesh.triangle_count}});
     const NumberList visibility(scene.truth.visibility.pixels);
     const Guide by_visibility{"visibility", &visibility};
-    Blocks blocks{{"visibility", areas_block(visibility, scene.width)},
-                  {"triangle", areas_block(NumberList(scene.truth.triangle.pixels), scene.width,
-                                           by_visibility)},
-                  {"exactness", areas_block(NumberList(scene.truth.exactness.pixels), scene.width,
-                                            by_visibility)}};
+    Blocks blocks{
+        {"visibility", areas_block(visibility, scene.width)},
+        {"seen", areas_block(NumberList(scene.truth.triangle.pixels), scene.width, by_visibility)},
+        {"exactness",
+         areas_block(NumberList(scene.truth.exactness.pixels), scene.width, by_visibility)}};
     if (!scene.color.pixels.empty()) {
         const NumberList color = color_list(color_picture(scene.color));
         blocks.emplace_back("color", shades_block(color, scene.width, 3));

@@ -111,6 +111,7 @@ public:
         const NumberList predicted = counter_list(predicted_, counting);
         const Guide by_predicted{"predicted", &predicted};
         const NumberList seen(truth.triangle.pixels);
+        const Guide by_seen{"seen", &seen};
         const auto of_differing = [&](const auto& list, const Guide& guide = {}) {
             return differing_block(NumberList(list), width, differing_, guide, &memo);
         };
@@ -122,8 +123,8 @@ public:
                                           by_predicted, &memo)},
                 {"faces", areas_block(NumberList(frame.counted->volumes.pixels), width,
                                       by_predicted, &memo)},
-                {"shown", of_differing(ledgers_.shown, {"triangle", &seen})},
-                {"ledger", of_differing(ledgers_.ledger, {"triangle", &seen})},
+                {"shown", of_differing(ledgers_.shown, by_seen)},
+                {"ledger", of_differing(ledgers_.ledger, by_seen)},
                 {"ledger_counts", rows(ledgers_.counts, counts_of_ledger)},
                 {"ledger_exact", rows(ledgers_.adds_up)},
                 {"ledger_predicted", rows(ledgers_.predicted)},

@@ -78,13 +78,29 @@ test('a script that ends early is damaged', async () => {
   await saysNothingAgrees(page);
 });
 
-for (const block of ['claim', 'read_back', 'ledger', 'crossing', 'vertex'])
+for (const block of ['claim', 'read_back', 'ledger', 'crossing', 'triangle', 'vertex'])
   test(`a damaged block is named: ${block}`, async () => {
     const { page } = await opened((path) => damageBlock(path(cellFile), block));
     assert.match(await alerts(page), new RegExp(`cell\\.js: block ${block} is damaged`));
     await saysNothingAgrees(page);
     assert.equal(await page.locator('.ledger').count(), 0);
   });
+
+for (const block of ['seen', 'exactness'])
+  test(`a damaged block of the scene is named: ${block}`, async () => {
+    const { page } = await opened((path) => damageBlock(path('near_plane/scene.js'), block));
+    assert.match(await text(page, '.inspector .alert'),
+                 new RegExp(`evidence cannot be shown: near_plane/scene\\.js: block ${block} is damaged`));
+    assert.equal(await page.locator('.ledger').count(), 0);
+  });
+
+test('results that name no picture are told so', async () => {
+  const { page } = await opened((path) => {
+    for (const name of ['results.json', 'results.js'])
+      rewrite(path(name), (old) => old.replaceAll(/"cause": ?"near_plane\/zpass\/cause.png"/g, '"other":""'));
+  });
+  assert.match(await text(page, '.stage .broken'), /^the results name no picture of the cause$/);
+});
 
 test('a block of another length is damaged', async () => {
   const { page } = await opened((path) => rewriteBytes(path('near_plane/scene.js'), (old) =>

@@ -82,6 +82,32 @@ TEST(ReportPictures, a_png_reads_back_as_it_was) {
     std::filesystem::remove(file);
 }
 
+TEST(ReportPictures, a_png_of_any_number_of_colours_and_any_width_reads_back_as_it_was) {
+    for (const std::size_t colors : {1U, 2U, 3U, 4U, 5U, 16U, 17U, 256U})
+        for (const int width : {1, 2, 3, 7, 8, 9, 300}) {
+            PalettePicture picture{Image<std::uint8_t>(width, 2), std::vector<Rgb>(256)};
+            for (std::size_t i = 0; i < 256; ++i) // each has its own
+                picture.palette[i] = {static_cast<std::uint8_t>(i),
+                                      static_cast<std::uint8_t>(7 * i),
+                                      static_cast<std::uint8_t>(255 - i)};
+            std::vector<std::uint8_t>& indices = picture.indices.pixels;
+            for (std::size_t i = 0; i < indices.size(); ++i) // the last of the palette first
+                indices[i] = static_cast<std::uint8_t>(255 - i % colors);
+            const std::string bytes = to_png(picture);
+            png_image image{};
+            image.version = PNG_IMAGE_VERSION;
+            ASSERT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+            ASSERT_EQ(image.width, static_cast<unsigned>(width));
+            image.format = PNG_FORMAT_RGB;
+            std::vector<Rgb> read(indices.size());
+            ASSERT_TRUE(png_image_finish_read(&image, nullptr, read.data(), 0, nullptr));
+            ASSERT_EQ(image.warning_or_error, 0U) << image.message;
+            for (std::size_t i = 0; i < read.size(); ++i)
+                ASSERT_EQ(read[i], picture.palette[indices[i]])
+                    << colors << " " << width << " " << i;
+        }
+}
+
 TEST(ReportPictures, a_scene_s_name_never_leaves_the_folder) {
     SceneResult scene;
     scene.name = "../../etc/pass wd";

@@ -176,18 +176,15 @@ function insideOf({ blocks }, ledger, seen) {
   return { eye, near, surface: seen ? surface : null, far, infinity, let_through: letThrough };
 }
 
-/** The record of a pixel that differs. Throws an Error that names a block that is not there. */
+/** The record of a pixel that differs. */
 function pixelRecord(opened, x, y) {
   const { scene, cell, sceneFile, cellFile, sceneBlocks, blocks, width } = opened;
-  if (!sceneFile || !cellFile) throw new Error(opened.problems[0]);
-  for (const [name, array] of Object.entries({ ...blocks, ...sceneBlocks }))
-    if (!array) throw new Error(opened.problems.find((text) => text.includes(`block ${name} `)));
   const pixel = y * width + x;
   const rank = rankOf(opened.differing, pixel);
   const { camera, light } = sceneFile;
   const { eye, direction } = rayOf(sceneFile, x, y);
   const ledger = blocks.ledger[rank];
-  const seen = seenRecord(opened, sceneBlocks.triangle[pixel], eye, direction);
+  const seen = seenRecord(opened, sceneBlocks.seen[pixel], eye, direction);
   const listed = listedCrossings(opened, ledger);
   const crossings = crossingsOf(opened, listed, eye, direction, homogeneous(light));
   const inside = insideOf(opened, ledger, seen);

@@ -23,7 +23,7 @@ function agreeingCounter(opened, pixel) {
 }
 
 addFamily('stencil', {
-  sceneBlocks: (pixels) => ({ triangle: pixels, exactness: pixels }),
+  sceneBlocks: (pixels) => ({ seen: pixels, exactness: pixels }),
   blocks: (pixels, differing) => ({
     predicted: pixels, read_back: pixels, faces: pixels,
     shown: differing, ledger: differing,
