@@ -38,23 +38,6 @@ Image<Rgb> color_picture(const Image<glm::vec3>& linear) {
     return converted<Rgb>(linear, [](const glm::vec3& color) { return pixel_of(color); });
 }
 
-Image<std::uint8_t> color_error_shades(const ColorCheck& colors) {
-    constexpr int octave = 1;
-    constexpr int least = -8; // log2 of the error of the first shade
-    constexpr int last = 16;
-    Image<std::uint8_t> shades(colors.error.width, colors.error.height);
-    for (std::size_t i = 0; i < shades.pixels.size(); ++i) {
-        const ColorVerdict verdict = colors.verdict.pixels[i];
-        const float error = colors.error.pixels[i];
-        if ((verdict != ColorVerdict::within && verdict != ColorVerdict::moved) || !(error > 0))
-            continue;
-        const double level = octave * (std::log2(double{error}) - least);
-        shades.pixels[i] =
-            static_cast<std::uint8_t>(std::clamp(static_cast<int>(std::lround(level)), 0, last));
-    }
-    return shades;
-}
-
 Image<Rgb> normal_picture(const Image<Shading>& shadings) {
     return converted<Rgb>(shadings,
                           [](const Shading& shading) { return direction_color(shading.bumped); });

@@ -11,10 +11,6 @@ namespace shadowproof {
 Image<Rgb> color_picture(const Image<glm::dvec3>& linear);
 Image<Rgb> color_picture(const Image<glm::vec3>& linear);
 
-/// How far colours are from the truth: one shade per octave, from the first, a 256th of a step of
-/// 1/255, to the last, 16. Of what is within its bound; elsewhere 0.
-Image<std::uint8_t> color_error_shades(const ColorCheck& colors);
-
 /// The bumped normals as normal maps show them, in world space: 0.5 + 0.5 n. Background is black.
 Image<Rgb> normal_picture(const Image<Shading>& shadings);
 

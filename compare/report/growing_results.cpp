@@ -64,7 +64,7 @@ void GrowingResults::write_members(bool behind_scenes) {
 
 void GrowingResults::add(const ResultsJson& scene) {
     write((empty_ ? "\n  " : ",\n  ") + text_of(scene, 2));
-    script_.write((empty_ ? "" : ",") + without_cause_maps(scene).dump());
+    script_.write((empty_ ? "" : ",") + quoted(packed_scene(scene)));
     empty_ = false;
 }
 

@@ -75,7 +75,7 @@ std::string truth_path(const SceneResult& scene);
 
 inline constexpr std::string_view results_schema = "shadowproof/results/1";
 /// Format of the data beside the results: a viewer reads only its own format.
-inline constexpr int results_format = 9;
+inline constexpr int results_format = 10;
 
 /// results.json of that schema.
 std::string to_json(const Report& report);

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <utility>
 
 namespace shadowproof {
@@ -116,22 +117,21 @@ std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo) 
         blocks.emplace_back("color", shades_block(color_list(color_picture(cell.frame.color)),
                                                   scene.width, 3, {"true_color", &right}, &memo));
         blocks.emplace_back("color_verdict", guided(NumberList(verdicts.pixels), "claim", claim));
-        const NumberList error(color_error_shades(*cell.comparison.colors).pixels);
-        blocks.emplace_back("color_error", shades_block(error, scene.width, 1, {}, &memo));
     }
     return script("cell", folder_of(scene) + "/" + cell.technique, header, blocks);
 }
 
 std::string results_script(const std::string& results_json) {
     Json results = Json::parse(results_json);
-    for (Json& scene : results["scenes"]) scene = without_cause_maps(std::move(scene));
+    for (Json& scene : results["scenes"]) scene = packed_scene(std::move(scene));
     return "shadowproof.results(" + results.dump() + ");\n";
 }
 
-Json without_cause_maps(Json scene) {
+std::string packed_scene(Json scene) {
     if (scene.contains("techniques"))
         for (Json& cell : scene["techniques"]) cell.erase("cause_map");
-    return scene;
+    const std::string text = scene.dump();
+    return packed(std::as_bytes(std::span(text)));
 }
 
 std::string packed_cause_map(const Comparison& comparison, Memo* memo) {

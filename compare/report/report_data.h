@@ -13,16 +13,17 @@ namespace shadowproof {
 /// scenes with the true colours.
 std::string scene_script(const SceneResult& scene);
 
-/// FOLDER/TECHNIQUE/cell.js: the claim of all pixels, with shares of light where it has some, and
+/// FOLDER/TECHNIQUE.cell.js: the claim of all pixels, with shares of light where it has some, and
 /// what its family's evidence has to show (EvidenceReport); where the technique has colours, those
 /// too, with their verdicts.
 std::string cell_script(const SceneResult& scene, const Cell& cell, Memo& memo);
 
-/// results.js: the results as a script, without the cause maps, which the cells' data hold. Besides
-/// results.json the only file with times.
+/// results.js: the results as a script, whose scenes are packed. Besides results.json the only file
+/// with times.
 std::string results_script(const std::string& results_json);
-/// A scene of the results as it stands there.
-nlohmann::ordered_json without_cause_maps(nlohmann::ordered_json scene);
+/// A scene of the results as it stands there: packed, without the cause maps, which the cells' data
+/// hold.
+std::string packed_scene(nlohmann::ordered_json scene);
 
 /// The cause map as it stands in results.json: packed, one byte per pixel.
 std::string packed_cause_map(const Comparison& comparison, Memo* memo = nullptr);

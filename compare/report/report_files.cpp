@@ -59,7 +59,7 @@ std::optional<std::string> take_over(const ReportFile& file, const ReportFolder&
     if (!damage) {
         bytes.replace(0, file.opening.size(), file.new_opening);
         bytes = with_own_blocks(bytes, [&](const std::string& technique) {
-            const fs::path other = file.from.parent_path().parent_path() / technique / "cell.js";
+            const fs::path other = file.from.parent_path() / (technique + ".cell.js");
             try {
                 return bytes_of(other);
             } catch (const std::system_error&) {

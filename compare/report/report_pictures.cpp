@@ -3,6 +3,8 @@
 #include "compare/report/report_data.h"
 #include "reference/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -48,7 +50,7 @@ std::string folder_of(const SceneResult& scene) {
 }
 
 std::string own_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
-    return folder_of(scene) + "/" + cell.technique + "/" + kind + ".png";
+    return fmt::format("{}/{}.{}.png", folder_of(scene), cell.technique, kind);
 }
 
 std::string picture_path(const SceneResult& scene, const Cell& cell, const std::string& kind) {
@@ -57,7 +59,7 @@ std::string picture_path(const SceneResult& scene, const Cell& cell, const std::
 }
 
 std::string script_path(const SceneResult& scene, const Cell& cell) {
-    return folder_of(scene) + "/" + cell.technique + "/cell.js";
+    return fmt::format("{}/{}.cell.js", folder_of(scene), cell.technique);
 }
 
 std::string truth_path(const SceneResult& scene) {

@@ -62,10 +62,11 @@ std::string_view reference_in(std::string_view block) {
                         block.size() - reference_begin.size() - reference_end.size());
 }
 
-/// "zpass" of "spot/zpass/cell.js".
+/// "zpass" of "spot/zpass.cell.js".
 std::string technique_of(const std::string& script) {
-    const std::size_t begin = script.find('/') + 1;
-    return script.substr(begin, script.rfind('/') - begin);
+    constexpr std::string_view end = ".cell.js";
+    const std::size_t begin = script.rfind('/') + 1;
+    return script.substr(begin, script.size() - end.size() - begin);
 }
 
 /// Where the same bytes stand: `here`, unless they stood elsewhere before.

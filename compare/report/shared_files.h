@@ -16,10 +16,10 @@ namespace shadowproof {
 /// begin anew.
 class SharedFiles {
 public:
-    /// Where a picture stands: at `path`, "spot/zpass/claim.png", unless an earlier one of its
+    /// Where a picture stands: at `path`, "spot/zpass.claim.png", unless an earlier one of its
     /// scene is the same.
     std::string place_of(const std::string& path, std::string_view bytes);
-    /// The script at `path`, "spot/zpass/cell.js", with each block that an earlier one of its scene
+    /// The script at `path`, "spot/zpass.cell.js", with each block that an earlier one of its scene
     /// has replaced by where that stands: {"from":"zpass/seen"}.
     std::string shared(const std::string& path, const std::string& script);
 

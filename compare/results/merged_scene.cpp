@@ -19,35 +19,42 @@ struct Move {
     std::string to;
 };
 
+/// What the names of its files begin with: "zpass." of a cell, nothing of a scene.
+std::string prefix_of(const std::string& technique) {
+    return technique.empty() ? "" : technique + ".";
+}
+
 /// Pictures of a scene or a cell. Each has a file of its own, also where it was another cell's.
-/// `below`: "/zpass" of a cell, nothing of a scene.
-void move_pictures(WholeScene& whole, Json& images, const std::string& below, const Move& move) {
+/// `technique`: of a cell; of a scene empty.
+void move_pictures(WholeScene& whole, Json& images, const std::string& technique,
+                   const Move& move) {
     for (auto& [name, path] : images.items()) {
         const auto was = path.get<std::string>();
-        path = fmt::format("{}{}/{}.png", move.to, below, name);
+        path = fmt::format("{}/{}{}.png", move.to, prefix_of(technique), name);
         whole.files.push_back({.from = move.report / was,
                                .to = path.get<std::string>(),
                                .width = whole.json.at("width").get<std::uint64_t>(),
                                .height = whole.json.at("height").get<std::uint64_t>(),
                                .opening = {},
                                .new_opening = {},
-                               .of_cell = !below.empty(),
-                               .place = below.empty() ? nullptr : &path});
+                               .of_cell = !technique.empty(),
+                               .place = technique.empty() ? nullptr : &path});
     }
 }
 
-/// `below`: "/zpass" of a cell, nothing of a scene.
-void move_script(WholeScene& whole, const char* function, const std::string& below,
+/// `technique`: of a cell; of a scene empty.
+void move_script(WholeScene& whole, const char* function, const std::string& technique,
                  const Move& move) {
     const auto opening = [&](const std::string& folder) {
-        return fmt::format("shadowproof.{}(\"{}{}\", ", function, folder, below);
+        return fmt::format("shadowproof.{}(\"{}{}{}\", ", function, folder,
+                           technique.empty() ? "" : "/", technique);
     };
-    const std::string file = fmt::format("{}/{}.js", below, function);
-    whole.files.push_back({.from = move.report / (move.from + file),
-                           .to = move.to + file,
+    const std::string file = fmt::format("{}{}.js", prefix_of(technique), function);
+    whole.files.push_back({.from = move.report / move.from / file,
+                           .to = move.to + "/" + file,
                            .opening = opening(move.from),
                            .new_opening = opening(move.to),
-                           .of_cell = !below.empty()});
+                           .of_cell = !technique.empty()});
 }
 
 /// A cell names the gate by which it was judged where it is not the one of the joined results.
@@ -91,8 +98,8 @@ WholeScene whole_scene(const Merged& merged, std::size_t index,
         const MergedCell& cell = scene.cells[i];
         if (could_not_run(cells.at(i))) continue;
         const Move move = move_of(cell.run, cell.scene);
-        move_pictures(whole, cells.at(i).at("images"), "/" + cell.what.name, move);
-        move_script(whole, "cell", "/" + cell.what.name, move);
+        move_pictures(whole, cells.at(i).at("images"), cell.what.name, move);
+        move_script(whole, "cell", cell.what.name, move);
     }
     return whole;
 }

@@ -18,7 +18,7 @@ namespace {
 using Json = ResultsJson;
 
 /// What a picture's path must begin with; the rest is "NAME.png", or where it may be another cell's
-/// "TECHNIQUE/NAME.png".
+/// "TECHNIQUE.NAME.png".
 void pictures_in(const JsonPlace& images, const std::string& folder, bool of_cells) {
     for (const auto& [name, path] : images.value.items()) {
         const JsonPlace place = images.at(name);
@@ -29,14 +29,14 @@ void pictures_in(const JsonPlace& images, const std::string& folder, bool of_cel
         std::string_view rest =
             begins ? std::string_view(whole).substr(folder.size() + 1) : std::string_view();
         rest = rest.substr(0, rest.size() - std::min<std::size_t>(rest.size(), 4));
-        const std::size_t slash = rest.find('/');
-        const bool beneath = slash == std::string_view::npos
+        const std::size_t dot = rest.find('.');
+        const bool beneath = dot == std::string_view::npos
                                  ? is_plain_name(rest)
-                                 : of_cells && is_technique_name(rest.substr(0, slash)) &&
-                                       is_plain_name(rest.substr(slash + 1));
+                                 : of_cells && is_technique_name(rest.substr(0, dot)) &&
+                                       is_plain_name(rest.substr(dot + 1));
         require(beneath, place,
                 fmt::format("the path of a picture, \"{}/{}NAME.png\"", folder,
-                            of_cells ? "TECHNIQUE/" : ""));
+                            of_cells ? "TECHNIQUE." : ""));
     }
 }
 

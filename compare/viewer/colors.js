@@ -14,8 +14,19 @@ const colorNotJudged = 0;
 const colorBeyond = 2;
 const isUnpredicted = (verdict) => verdict === 3 || verdict === 4;
 
-/** The lightest of the block color_error, whose shades are an octave apart. */
-const lastErrorShade = 16;
+/** Linear light of the bytes of sRGB (IEC 61966-2-1), in steps of 1/255. */
+const linearLight = Float64Array.from({ length: 256 }, (_, byte) => {
+  const value = byte / 255;
+  return 255 * (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+});
+
+/** How far the bytes of a pixel's colour are off in linear light, in steps of 1/255: of the channel furthest off. */
+function errorAt({ trueColor, claimedColor }, pixel) {
+  let most = 0;
+  for (let i = 3 * pixel; i < 3 * pixel + 3; ++i)
+    most = Math.max(most, Math.abs(linearLight[claimedColor[i]] - linearLight[trueColor[i]]));
+  return most;
+}
 
 /** "0.03", "24": steps of 1/255 in few digits. */
 const fewSteps = (value) => value.toFixed(value < 9.995 ? 2 : 0);
@@ -81,7 +92,7 @@ function checkColors({ cell, id, colorVerdict, problems }) {
   const { judged, beyond, unpredicted, moved = 0 } = cell.color;
   if (colorVerdict.length - counts[0] !== judged || counts[colorBeyond] !== beyond ||
       counts[3] + counts[4] !== unpredicted || counts[5] !== moved)
-    problems.push(`${id}/cell.js does not belong to results.js: ` +
+    problems.push(`${id}.cell.js does not belong to results.js: ` +
                   'its colours were judged otherwise there');
 }
 

@@ -7,8 +7,23 @@ window.shadowproof = {
   legend: (legend) => { received.legend = legend; },
   results: (results) => { received.results = results; },
   scene: (folder, scene) => { received.files.set(`${folder}/scene.js`, scene); },
-  cell: (id, cell) => { received.files.set(`${id}/cell.js`, cell); },
+  cell: (id, cell) => { received.files.set(`${id}.cell.js`, cell); },
 };
+
+/** A scene of the results; packed, it is base64 of a zlib stream. Throws where it is damaged. */
+async function unpackedScene(scene) {
+  if (typeof scene !== 'string') return scene;
+  const bytes = Uint8Array.from(atob(scene), (character) => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return JSON.parse(await new Response(stream).text());
+}
+
+/** What results.js handed over, with its scenes unpacked. Throws where it is missing or damaged. */
+async function unpackedResults() {
+  const { results } = received;
+  if (!results || !Array.isArray(results.scenes)) throw new Error('no results');
+  return { ...results, scenes: await Promise.all(results.scenes.map(unpackedScene)) };
+}
 
 /** What a script of the folder, "near_plane/scene.js", hands over; read once. */
 function handedOver(path) {

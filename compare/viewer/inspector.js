@@ -18,7 +18,7 @@ function verdictLine({ visibility, claim, share }, pixel, cause) {
 /** Throws an Error that names what could not be loaded, if any. */
 function requireData({ scene, id, sceneFile, cellFile, sceneBlocks, blocks, problems }) {
   if (!sceneFile || !cellFile) throw new Error(problems[0]);
-  for (const [file, arrays] of [[`${scene.folder}/scene.js`, sceneBlocks], [`${id}/cell.js`, blocks]])
+  for (const [file, arrays] of [[`${scene.folder}/scene.js`, sceneBlocks], [`${id}.cell.js`, blocks]])
     for (const [name, array] of Object.entries(arrays))
       if (!array) throw new Error(problems.find((text) => text.startsWith(`${file}: block ${name} `)));
 }

@@ -53,10 +53,10 @@ function checkCell(opened) {
   const { cell, id, causes, claim, visibility, problems } = opened;
   const counts = tallied(causes);
   if (received.legend.causes.some(({ name }, i) => counts[i] !== (cell.causes[name] ?? 0)))
-    problems.push(`${id}/cell.js: block cause does not hold the pixels that results.js counts`);
+    problems.push(`${id}.cell.js: block cause does not hold the pixels that results.js counts`);
   if (claim && visibility &&
       causes.some((cause, i) => cause === noDifference && claim[i] !== visibility[i]))
-    problems.push(`${id}/cell.js does not belong to results.js: ` +
+    problems.push(`${id}.cell.js does not belong to results.js: ` +
                   'pixels differ that have no cause there');
 }
 
@@ -86,10 +86,10 @@ function openColors({ scene, cell, id, sceneFile, cellFile, own, blocks, problem
                                            problems);
   const right = cell.color.filter ? truth?.mean_color : truth?.color;
   const claim = cellFile && decodedBlocks(
-    `${id}/cell.js`, own, { color: 3 * pixels, color_verdict: pixels, color_error: pixels }, problems,
+    `${id}.cell.js`, own, { color: 3 * pixels, color_verdict: pixels }, problems,
     { guides: { true_color: right, claim: blocks?.claim } });
   return { trueColor: right ?? null, claimedColor: claim?.color ?? null,
-           colorVerdict: claim?.color_verdict ?? null, colorError: claim?.color_error ?? null };
+           colorVerdict: claim?.color_verdict ?? null };
 }
 
 /** The blocks of a cell's file; those that stand in another cell's are taken from there. */
@@ -99,7 +99,7 @@ async function ownBlocks(scene, cellFile, problems) {
   for (const [name, block] of Object.entries(blocks)) {
     if (!block?.from) continue;
     const [technique, other] = block.from.split('/');
-    const path = `${scene.folder}/${technique}/cell.js`;
+    const path = `${scene.folder}/${technique}.cell.js`;
     if (!others.has(path)) others.set(path, orProblem(handedOver(path), problems));
     blocks[name] = (await others.get(path))?.blocks?.[other];
   }
@@ -112,13 +112,13 @@ async function openCell(scene, cell) {
   const pixels = scene.width * scene.height;
   const [sceneFile, cellFile] = await Promise.all([
     orProblem(handedOver(`${scene.folder}/scene.js`), problems),
-    orProblem(handedOver(`${id}/cell.js`), problems)]);
+    orProblem(handedOver(`${id}.cell.js`), problems)]);
   const truth = sceneFile && decodedBlocks(
     `${scene.folder}/scene.js`, sceneFile.blocks,
     { visibility: pixels, ...familyOf(cell).sceneBlocks(pixels) }, problems);
   const own = await ownBlocks(scene, cellFile, problems);
   const decoded = (lengths, how) =>
-    cellFile && decodedBlocks(`${id}/cell.js`, own, lengths, problems, how);
+    cellFile && decodedBlocks(`${id}.cell.js`, own, lengths, problems, how);
   const { claim = null } = decoded({ claim: pixels }, { guides: truth }) ?? {};
   const { cause: causes = null } = decoded(
     { cause: pixels }, { guides: { difference: differenceOf(truth?.visibility, claim) } }) ?? {};

@@ -120,28 +120,38 @@ const drawnPicture = (width, height, numbers, colorOf) => paintedPicture(width, 
   }
 });
 
+const lastErrorShade = 45;
+/** Black for half a step of 1/255 and less, then five shades an octave up to all 255 steps. */
+const errorShade = (error) =>
+  (error > 0.5 ? Math.min(lastErrorShade, Math.round(5 * (1 + Math.log2(error)))) : 0);
+
 /** How far colours are off, lighter for further; what is beyond its bound, or unpredicted, has its cause's colour. */
-function errorPicture({ colorError, colorVerdict, width, height }) {
-  const [unjudged, beyond, unpredicted] =
-    [dimmedColor(0), ...['shading', 'unexplained'].map((cause) => colorBytes(causeLegend(cause).color))];
-  const kinds = new Uint16Array(colorError.length);
-  for (let i = 0; i < kinds.length; ++i) kinds[i] = colorVerdict[i] << 8 | colorError[i];
-  return drawnPicture(width, height, kinds, (kind) => {
-    const verdict = kind >> 8;
-    return verdict === colorNotJudged ? unjudged : verdict === colorBeyond ? beyond
-      : isUnpredicted(verdict) ? unpredicted
-      : [0xff, 0xf4, 0xc8].map((value) => Math.trunc(value * (kind & 255) / lastErrorShade));
-  });
+function errorPicture(opened) {
+  const { colorVerdict, width, height } = opened;
+  const marks = [dimmedColor(0), ...['shading', 'unexplained'].map((cause) =>
+    colorBytes(causeLegend(cause).color))];
+  const [unjudged, beyond, unpredicted] = [0, 1, 2].map((mark) => lastErrorShade + 1 + mark);
+  const shades = colorVerdict.map((verdict, pixel) => (
+    verdict === colorNotJudged ? unjudged : verdict === colorBeyond ? beyond
+      : isUnpredicted(verdict) ? unpredicted : errorShade(errorAt(opened, pixel))));
+  return drawnPicture(width, height, shades, (shade) => marks[shade - unjudged] ??
+    [0xff, 0xf4, 0xc8].map((value) => Math.trunc(value * shade / lastErrorShade)));
 }
 
-/** The colours of a cell that has some, drawn: [name, canvas or null, the block that is drawn]. */
+/**
+ * The colours of a cell that has some, drawn: [name, canvas or null, the block that is lacking then,
+ * and whether that is the scene's].
+ */
 function drawnColors(opened) {
-  const { cell, trueColor, claimedColor, colorError, colorVerdict, width, height } = opened;
+  const { cell, trueColor, claimedColor, colorVerdict, width, height } = opened;
   if (!cell.color) return [];
-  return [...[['true_color', trueColor], ['claimed_color', claimedColor]].map(([name, colors]) =>
-    [name, colors && colorPicture(colors, width, height), 'color']),
-    ['color_error', colorError && colorVerdict && errorPicture(opened),
-     colorError ? 'color_verdict' : 'color_error']];
+  const picture = (colors) => colors && colorPicture(colors, width, height);
+  const right = cell.color.filter ? 'mean_color' : 'color';
+  return [
+    ['true_color', picture(trueColor), right, true],
+    ['claimed_color', picture(claimedColor), 'color', false],
+    ['color_error', trueColor && claimedColor && colorVerdict && errorPicture(opened),
+     !trueColor ? right : claimedColor ? 'color_verdict' : 'color', !trueColor]];
 }
 
 async function loadedPictures(opened) {
@@ -154,8 +164,8 @@ async function loadedPictures(opened) {
     pictures[name] = paths[name] ? await loadedImage(paths[name], width, height)
       : { problem: `the results name no picture of the ${titleOf(cell, name).toLowerCase()}` };
   }));
-  for (const [name, image, block] of drawn) {
-    const file = name === 'true_color' ? `${scene.folder}/scene.js` : `${opened.id}/cell.js`;
+  for (const [name, image, block, isOfScene = false] of drawn) {
+    const file = isOfScene ? `${scene.folder}/scene.js` : `${opened.id}.cell.js`;
     pictures[name] = image ? { image }
       : { problem: opened.problems.find((text) => text.startsWith(`${file}: block ${block} `)) ??
                    `${file} is missing or damaged` };

@@ -57,7 +57,7 @@ function sayUnreadable() {
               'Make the report again.'));
 }
 
-function start() {
+async function start() {
   setTheme(storedTheme());
   found('theme').addEventListener('click', switchTheme);
   found('help').addEventListener('click', toggleHelp);
@@ -66,8 +66,10 @@ function start() {
     event.preventDefault();
     found('main').focus();
   });
-  const { results } = received;
-  if (!results || !Array.isArray(results.scenes)) {
+  let results;
+  try {
+    results = await unpackedResults();
+  } catch {
     sayUnreadable();
     return;
   }

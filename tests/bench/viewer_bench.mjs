@@ -57,9 +57,9 @@ const tell = (what, ms) => console.log(
 /** Of each scene of the report "nested/zpass": the cell whose own data are largest. */
 const largestCells = () => readdirSync(folder).flatMap((scene) => {
   if (!existsSync(join(folder, scene, 'scene.js'))) return [];
-  const sizeOf = (technique) => bytesBelow(join(folder, scene, technique, 'cell.js'));
-  const cells = readdirSync(join(folder, scene))
-    .filter((name) => existsSync(join(folder, scene, name, 'cell.js')));
+  const sizeOf = (technique) => bytesBelow(join(folder, scene, `${technique}.cell.js`));
+  const cells = readdirSync(join(folder, scene)).filter((name) => name.endsWith('.cell.js'))
+    .map((name) => name.slice(0, -'.cell.js'.length));
   return cells.length === 0 ? [] : [`${scene}/${cells.reduce((a, b) => (sizeOf(a) >= sizeOf(b) ? a : b))}`];
 });
 

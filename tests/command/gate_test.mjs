@@ -187,7 +187,7 @@ test('JUnit is valid by the schemas of Ant and Jenkins, and a damaged file is no
   }
   assert.match(text, /<failure type="fails_as_predicted" message="[^"]*near_plane [\d,]+; first \(\d+,\d+\) near_plane/);
   const attached = [...text.matchAll(/\[\[ATTACHMENT\|([^\]]*)\]\]/g)].map(([, file]) => file);
-  assert.ok(attached.some((file) => /near_plane\/zpass\/difference\.png$/.test(file)));
+  assert.ok(attached.some((file) => /near_plane\/zpass\.difference\.png$/.test(file)));
   for (const file of attached) assert.ok(existsSync(file), file);
   const names = [...text.matchAll(/<testsuite [^>]* name="([^"]*)"/g)].map(([, name]) => name);
   assert.deepEqual(names, ['near_plane', 'near_plane-2', 'missing']);

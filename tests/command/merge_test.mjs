@@ -130,17 +130,17 @@ test('a report made again has the bytes of the first', () => {
 
 test('what is missing or damaged is named, and the report is made with it missing', () => {
   cpSync(join(scratch, 'whole'), join(scratch, 'hurt'), { recursive: true });
-  rmSync(join(scratch, 'hurt/near_plane/zpass/claim.png'));
+  rmSync(join(scratch, 'hurt/near_plane/zpass.claim.png'));
   truncateSync(join(scratch, 'hurt/ordinary/truth.png'), 120);
-  truncateSync(join(scratch, 'hurt/ordinary/zfail/cell.js'), 200);
+  truncateSync(join(scratch, 'hurt/ordinary/zfail.cell.js'), 200);
   cpSync(join(scratch, 'larger/ordinary/truth.png'), join(scratch, 'hurt/near_plane/truth.png'));
   const run = shadowproof(['report', '--from', 'hurt', '--out', 'mended']);
   assert.equal(run.code, 0, run.err);
-  for (const line of [/near_plane\/zpass\/claim\.png is missing/, /ordinary\/truth\.png is damaged/,
-                      /ordinary\/zfail\/cell\.js is damaged/,
+  for (const line of [/near_plane\/zpass\.claim\.png is missing/, /ordinary\/truth\.png is damaged/,
+                      /ordinary\/zfail\.cell\.js is damaged/,
                       /near_plane\/truth\.png is 65x64, but the results say 64x64/])
     assert.match(run.out, line);
-  assert.ok(!filesBelow(join(scratch, 'mended')).includes('near_plane/zpass/claim.png'));
+  assert.ok(!filesBelow(join(scratch, 'mended')).includes('near_plane/zpass.claim.png'));
 });
 
 test('results that are damaged are refused by pointer, whatever is wrong with them', () => {

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { before, test } from 'node:test';
+import { inflateSync } from 'node:zlib';
 import { filesBelow, isForPointLights, scratch, shadowproof } from './shadowproof.mjs';
 
 const techniques = JSON.parse(shadowproof(['list', '--json']).out).techniques
@@ -26,7 +27,7 @@ test('cells that have a picture or a block alike share it, and lack none', () =>
   const { scenes } = JSON.parse(readFileSync(join(scratch, 'a/results.json'), 'utf8'));
   const seen = { pictures: 0, shared: 0, blocks: 0, references: 0 };
   for (const { folder, techniques: cells } of scenes) {
-    const script = (name) => readFileSync(join(scratch, 'a', folder, name, 'cell.js'), 'latin1');
+    const script = (name) => readFileSync(join(scratch, 'a', folder, `${name}.cell.js`), 'latin1');
     const pictures = cells.flatMap(({ images }) => Object.values(images));
     assert.ok(pictures.every((path) => files.includes(path)));
     const distinct = [...new Set(pictures)].map((path) =>
@@ -56,8 +57,8 @@ test('a second run replaces the report whole and leaves nothing beside it', () =
   shadowproof(['verify', 'near_plane', '--technique', 'zpass', '--out', 'c']);
   shadowproof(['verify', 'ordinary', '--technique', 'zfail', '--out', 'c']);
   assert.deepEqual(filesBelow(join(scratch, 'c')), [
-    'index.html', 'manifest.json', 'ordinary/scene.js', 'ordinary/truth.png', 'ordinary/zfail/cause.png',
-    'ordinary/zfail/cell.js', 'ordinary/zfail/claim.png', 'ordinary/zfail/difference.png',
+    'index.html', 'manifest.json', 'ordinary/scene.js', 'ordinary/truth.png', 'ordinary/zfail.cause.png',
+    'ordinary/zfail.cell.js', 'ordinary/zfail.claim.png', 'ordinary/zfail.difference.png',
     'results.js', 'results.json']);
   assert.ok(filesBelow(scratch).every((file) => !/\.writing/.test(file)));
 });
@@ -77,6 +78,7 @@ test('results.js runs the results, but for the cause maps, which the cells have'
   let given;
   new Function('shadowproof', readFileSync(join(scratch, 'a/results.js'), 'utf8'))(
     { results: (results) => { given = results; } });
+  given.scenes = given.scenes.map((scene) => JSON.parse(inflateSync(Buffer.from(scene, 'base64'))));
   assert.deepEqual(given, results);
 });
 

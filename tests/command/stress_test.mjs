@@ -132,7 +132,7 @@ test('a point is shown again by its command: the same causes, and its pictures a
   assert.equal(cell.differing, point.differing);
   const [page, place] = point.pictures.split('#');
   assert.ok(existsSync(join(scratch, 'stress', page)));
-  assert.ok(existsSync(join(scratch, 'stress', 'pictures', place, 'claim.png')), place);
+  assert.ok(existsSync(join(scratch, 'stress', 'pictures', `${place}.claim.png`)), place);
 });
 
 test('settings of maps are taken from end to end too, on maps alone, and shown again by their flags', () => {

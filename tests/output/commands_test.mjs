@@ -102,7 +102,7 @@ test('a report lists its files, and a second one keeps and names what is not lis
     const made = run([program, ...command], { cwd: below });
     assert.equal(made.code, 0, made.err);
     assert.match(made.out, /^report: kept notes\.txt, /m);
-    assert.ok(existsSync(join(below, 'report/near_plane/zpass/claim.png')));
+    assert.ok(existsSync(join(below, 'report/near_plane/zpass.claim.png')));
   }
 });
 
@@ -152,7 +152,7 @@ test('two runs into one folder at once: one writes it, the other fails at once a
   const second = run(verify('--out', 'report'), { cwd: below });
   assertRefused(second, 'the second');
   assert.match(second.err, /report: is being written by process \d+ on \S+, since \S+; wait/);
-  assert.ok(existsSync(join(below, 'report/near_plane/zpass/claim.png')), 'the old one is there');
+  assert.ok(existsSync(join(below, 'report/near_plane/zpass.claim.png')), 'the old one is there');
   first.kill('SIGTERM');
   await new Promise((resolve) => first.on('close', resolve));
   assert.deepEqual(readdirSync(below), ['report']);

@@ -42,9 +42,9 @@ function assertWhole(below, where, damaged = false) {
   assert.equal(all['notes.txt'], 'mine', where);
   const [cell] = JSON.parse(all['results.json']).scenes[0].techniques;
   for (const file of ['claim.png', 'cell.js'])
-    assert.ok(damaged || own.includes(`near_plane/${cell.name}/${file}`), `${where}: ${file}`);
+    assert.ok(damaged || own.includes(`near_plane/${cell.name}.${file}`), `${where}: ${file}`);
   const other = cell.name === 'zpass' ? 'zfail' : 'zpass';
-  assert.deepEqual(own.filter((name) => name.startsWith(`near_plane/${other}/`)), [], where);
+  assert.deepEqual(own.filter((name) => name.startsWith(`near_plane/${other}.`)), [], where);
   return cell.name;
 }
 

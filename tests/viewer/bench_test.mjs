@@ -18,7 +18,7 @@ const { frontOf, placeLabels, overlap, textWidth, spreadOut, groupOf, changeOf, 
 
 /** What a run that kept the pictures of a point has written, each file empty. */
 const picturesOfOnePoint = ['pictures/results.json', 'pictures/results.js',
-                            'pictures/ordinary/bump_one_pass/cell.js'];
+                            'pictures/ordinary/bump_one_pass.cell.js'];
 /** XXH3, 128 bits, of no bytes. */
 const xxh3OfNothing = '99aa06d3014798d86001c324468d497f';
 

@@ -27,7 +27,7 @@ export const damageBlock = (path, name) => rewriteBytes(path, (old) =>
     `${before}${data[0] === '\\' ? '~~~~' : 'AAAA'}${data.slice(4).replace(/^\\*/, '')}"`));
 
 const scriptOf = (report, scene, technique) =>
-  readFileSync(join(report, scene, technique, 'cell.js'), 'latin1');
+  readFileSync(join(report, scene, `${technique}.cell.js`), 'latin1');
 
 /** The numbers of a block of a cell, or of its scene's file; `guides`: those that it may be guessed from. */
 function numbersIn(report, scene, technique, name, guides) {
@@ -121,6 +121,6 @@ export function changeBlock(report, scene, technique, name, change) {
   const block = `{"type":"u8","length":${values.length},"as":"sequence","columns":1,` +
     `"sum":${sumOf(values)},"data":"${quoted(sequenceOf([...values]))}"`;
   const elsewhere = new RegExp(`"${name}":\\{"from":"[^"]*"`);
-  rewriteBytes(join(report, scene, technique, 'cell.js'), (old) =>
+  rewriteBytes(join(report, scene, `${technique}.cell.js`), (old) =>
     old.replace(elsewhere.test(old) ? elsewhere : blockNamed(name), () => `"${name}":${block}`));
 }

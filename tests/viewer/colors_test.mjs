@@ -13,7 +13,7 @@ const techniques = ['bump_three_pass', 'bump_tangent_space', 'zfail_reversed'];
 const colorPanes = ['true_color', 'claimed_color', 'color_error'];
 const otherPanes = ['truth', 'claim', 'difference', 'cause', 'predicted', 'read_back', 'volumes'];
 const link = '#bumpy_torus/bump_three_pass';
-const cellFile = 'bumpy_torus/bump_three_pass/cell.js';
+const cellFile = 'bumpy_torus/bump_three_pass.cell.js';
 
 let folder;
 let cells;
@@ -226,19 +226,20 @@ test('a colour that nothing predicts is an alarm, and its pixel does not simply 
   assert.match(await text(page, '.legends'), /unpredicted\s+1\s/);
 });
 
-for (const block of ['color_error', 'color_verdict'])
-  test(`a damaged error of the colours is named: ${block}`, async () => {
-    const { page } = await opened((path) => damageBlock(path(cellFile), block));
-    assert.match(await text(page, '.stage .broken'),
-                 new RegExp(`bump_three_pass/cell\\.js: block ${block} is damaged`));
-    assert.equal((await panes(page)).length, 9);
+for (const [file, block] of [[cellFile, 'color_verdict'], ['bumpy_torus/scene.js', 'color']])
+  test(`what the error of the colours is drawn from is named where it is damaged: ${file}`, async () => {
+    const { page } = await opened((path) => damageBlock(path(file), block));
+    const error = page.locator('.stage figure', { hasText: 'Colour error' }).locator('.broken');
+    assert.ok((await error.innerText()).includes(`${file}: block ${block} is damaged`));
+    assert.equal((await panes(page)).length, block === 'color' ? 7 : 9);
   });
 
 test('damaged colours are named, shown as unknown, and cost no ledger', async () => {
   const { page } = await opened((path) => damageBlock(path(cellFile), 'color'));
   assert.match(await alerts(page), /cell\.js: block color is damaged/);
-  assert.match(await text(page, '.stage .broken'), /bump_three_pass\/cell\.js: block color is damaged/);
-  assert.equal((await panes(page)).length, 9);
+  const broken = await page.locator('.stage .broken').allInnerTexts();
+  assert.equal(broken.length, 2, 'the claimed colour, and the error');
+  for (const each of broken) assert.match(each, /bump_three_pass\.cell\.js: block color is damaged/);
   assert.match(await alerts(page), /The colours cannot be shown\./);
   assert.equal(await page.locator('.values.colors').count(), 0);
   assert.equal(await page.locator('.ledger').count(), 1);

@@ -10,7 +10,7 @@ let folder;
 let copies = 0;
 before(() => { folder = writeReport('report', ['near_plane']); });
 
-const cellFile = 'near_plane/zpass/cell.js';
+const cellFile = 'near_plane/zpass.cell.js';
 const link = '#near_plane/zpass?pixel=66,33';
 
 /** A copy of the report after `damage(path)` was done to it, opened at a cell. */
@@ -34,8 +34,8 @@ async function saysNothingAgrees(page) {
 }
 
 test('a missing picture is named in its place', async () => {
-  const { page } = await opened((path) => rmSync(path('near_plane/zpass/claim.png')));
-  assert.match(await alerts(page), /near_plane\/zpass\/claim\.png is missing or damaged/);
+  const { page } = await opened((path) => rmSync(path('near_plane/zpass.claim.png')));
+  assert.match(await alerts(page), /near_plane\/zpass\.claim\.png is missing or damaged/);
   assert.equal(await page.locator('canvas[data-picture="claim"]').count(), 0);
   assert.equal(await page.locator('canvas[data-picture="truth"]').count(), 1);
   await page.locator('#view-slide').click();
@@ -51,14 +51,14 @@ test('a picture that ends early is named', async () => {
 });
 
 test('a picture of another size is named with both sizes, never stretched', async () => {
-  const { page } = await opened((path) => writeFileSync(path('near_plane/zpass/cause.png'),
+  const { page } = await opened((path) => writeFileSync(path('near_plane/zpass.cause.png'),
     Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==', 'base64')));
   assert.match(await alerts(page), /cause\.png is 1×1 pixels; the results are of 160×160/);
 });
 
 test('a missing script of a cell is named; a differing pixel keeps no ledger and does not agree', async () => {
   const { page } = await opened((path) => rmSync(path(cellFile)));
-  assert.match(await alerts(page), /near_plane\/zpass\/cell\.js is missing/);
+  assert.match(await alerts(page), /near_plane\/zpass\.cell\.js is missing/);
   await saysNothingAgrees(page);
   await keepScreenshot(page, 'damaged', { fullPage: true });
   await page.locator('#goto').fill('0,0');
@@ -74,7 +74,7 @@ test('a missing script of a scene is named', async () => {
 
 test('a script that ends early is damaged', async () => {
   const { page } = await opened((path) => rewriteBytes(path(cellFile), (old) => old.slice(0, 2000)));
-  assert.match(await alerts(page), /near_plane\/zpass\/cell\.js is damaged/);
+  assert.match(await alerts(page), /near_plane\/zpass\.cell\.js is damaged/);
   await saysNothingAgrees(page);
 });
 
@@ -96,8 +96,10 @@ for (const block of ['seen', 'exactness'])
 
 test('results that name no picture are told so', async () => {
   const { page } = await opened((path) => {
-    for (const name of ['results.json', 'results.js'])
-      rewrite(path(name), (old) => old.replaceAll(/"cause": ?"near_plane\/zpass\/cause.png"/g, '"other":""'));
+    const results = resultsOf(path('.'));
+    const { images } = results.scenes[0].techniques.find(({ name }) => name === 'zpass');
+    assert.ok(delete images.cause);
+    writeFileSync(path('results.js'), `shadowproof.results(${JSON.stringify(results)});`);
   });
   assert.match(await text(page, '.stage .broken'), /^the results name no picture of the cause$/);
 });
@@ -113,17 +115,17 @@ test('a block of another length is damaged', async () => {
 
 test('a damaged cause map is named, and no pixel is said to agree', async () => {
   const { page } = await opened((path) => damageBlock(path(cellFile), 'cause'));
-  assert.match(await alerts(page), /near_plane\/zpass\/cell\.js: block cause is damaged/);
+  assert.match(await alerts(page), /near_plane\/zpass\.cell\.js: block cause is damaged/);
   assert.match(await alerts(page), /block ledger cannot be decoded without the cause map/);
   await saysNothingAgrees(page);
 });
 
 test('a cell of another run is not taken for one of this', async () => {
   const { page } = await opened((path) => {
-    const other = readFileSync(path('near_plane/zfail/cell.js'), 'latin1');
+    const other = readFileSync(path('near_plane/zfail.cell.js'), 'latin1');
     writeFileSync(path(cellFile), other.replace('near_plane/zfail', 'near_plane/zpass'), 'latin1');
   });
-  assert.match(await alerts(page), /zpass\/cell\.js/);
+  assert.match(await alerts(page), /zpass\.cell\.js/);
   assert.equal(await page.locator('.ledger').count(), 0);
 });
 
@@ -141,4 +143,8 @@ test('without its results the report says so', async () => {
   assert.match(await alerts(page), /results\.js, .*is missing or damaged/);
   const damaged = await opened((path) => rewrite(path('results.js'), (old) => old.slice(0, 500)), '');
   assert.match(await alerts(damaged.page), /results\.js, .*is missing or damaged/);
+  // A packed scene with one character changed.
+  const altered = await opened((path) => rewrite(path('results.js'), (old) =>
+    old.replace(/("scenes":\["[\w+/]{80})(.)/, (all, begin, one) => begin + (one === 'A' ? 'B' : 'A'))), '');
+  assert.match(await alerts(altered.page), /results\.js, .*is missing or damaged/);
 });

@@ -72,7 +72,7 @@ test(`the rays of pixels are those that explain has (seed ${seed})`, async () =>
 test('a damaged list of the rays is named in place of the evidence', async () => {
   const [each] = cells;
   const copy = copyOfReport(folder, 'damaged-rays');
-  damageBlock(join(copy, each.id, 'cell.js'), 'direction_y');
+  damageBlock(join(copy, `${each.id}.cell.js`), 'direction_y');
   const [x, y] = placeOf(each, differingOf(each)[0]);
   const { page } = await openReport(copy, { hash: `#${each.id}?pixel=${x},${y}` });
   assert.match(await text(page, '.inspector .alert'),

@@ -37,7 +37,7 @@ void take_over_pictures(const std::string& from, const MemoryAccount& memory, Be
     const std::string page = part.below + page_name + "#";
     for (BenchPoint& point : run.points)
         if (!whole || point.pictures.size() < page.size() ||
-            !taken.contains(point.pictures.substr(page.size()) + "/cell.js"))
+            !taken.contains(point.pictures.substr(page.size()) + ".cell.js"))
             point.pictures.clear();
 }
 

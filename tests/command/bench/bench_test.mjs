@@ -210,7 +210,7 @@ test('each point leads to its pictures, which move with the folder of the plot',
   assert.ok(!existsSync(join(scratch, 'without/pictures')));
   // A cell that somebody changed is no longer led to.
   const [changed] = drawn[0].pictures.split('#').slice(1);
-  writeFileSync(join(scratch, 'moved/pictures', changed, 'cell.js'), 'changed');
+  writeFileSync(join(scratch, 'moved/pictures', `${changed}.cell.js`), 'changed');
   assert.equal(redraw('moved', 'lacking').code, 0);
   assert.deepEqual(written('lacking/results.json').points.map(({ pictures }) => pictures),
                    run.points.map(({ pictures }) => (pictures === drawn[0].pictures ? undefined : pictures)));

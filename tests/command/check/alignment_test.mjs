@@ -109,7 +109,7 @@ for (const [scene, technique] of [
     const run = shadowproof(['verify', scene, '--size', `${size}x${size}`, '--technique', technique,
                              ...flags(technique), '--out', 'claims', '-q']);
     assert.ok(run.code <= 1, run.err);
-    const claim = readPng(join(scratch, `claims/${scene}/${technique}/claim.png`));
+    const claim = readPng(join(scratch, `claims/${scene}/${technique}.claim.png`));
     assert.equal(checked(scene, (x, y) => shade[claim.at(x, y)[0]]).code, 1);
   });
 

@@ -124,7 +124,7 @@ const claimOf = (scene, technique, ...settings) => {
   const run = shadowproof(['verify', scene, ...size, '--technique', technique, ...settings,
                            '--out', 'claims', '-q']);
   assert.ok(run.code <= 1, run.err);
-  const png = readPng(path(`claims/${scene}/${technique}/claim.png`));
+  const png = readPng(path(`claims/${scene}/${technique}.claim.png`));
   return { ...png, at: (x, y) => png.at(x, y)[0] };
 };
 

@@ -45,7 +45,7 @@ for (const scene of ['ordinary', 'near_plane', 'sun'])
 
 test('what is wrong in a JPEG picture has its name all the same', async () => {
   shadowproof(['verify', 'near_plane', '--technique', 'zpass', '--out', 'claims', '-q']);
-  await writeJpeg('mine.jpg', 'claims/near_plane/zpass/claim.png', 0.9);
+  await writeJpeg('mine.jpg', 'claims/near_plane/zpass.claim.png', 0.9);
   assert.equal(shadowproof(['check', 'near_plane', 'mine.jpg', '--out', 'checked']).code, 1);
   const { scenes: [{ techniques: [cell] }] } =
     JSON.parse(readFileSync(path('checked/results.json'), 'utf8'));

@@ -1,3 +1,4 @@
+#include "compare/json/blocks.h"
 #include "compare/output/write_file.h"
 #include "compare/report/escape.h"
 #include "compare/report/report_page.h"
@@ -129,7 +130,7 @@ TEST(ReportJson, the_figures_stand_where_the_contract_has_them) {
     EXPECT_EQ(cell["causes"], (nlohmann::json{{"edge", 1}, {"near_plane", 2}}));
     EXPECT_EQ(cell["first"], (nlohmann::json{{"x", 2}, {"y", 1}, {"cause", "near_plane"}}));
     EXPECT_EQ(cell["ledger"], (nlohmann::json{{"equal", 11}, {"in_band", 1}, {"unexplained", 0}}));
-    EXPECT_EQ(cell["images"]["cause"], "near_plane/zpass/cause.png");
+    EXPECT_EQ(cell["images"]["cause"], "near_plane/zpass.cause.png");
     EXPECT_EQ(json["scenes"][0]["images"]["truth"], "near_plane/truth.png");
 }
 
@@ -187,8 +188,22 @@ TEST(ReportFolder, results_js_hands_over_what_results_json_says_but_for_the_caus
     for (auto& scene : results.at("scenes"))
         for (auto& cell : scene.at("techniques")) maps += cell.erase("cause_map");
     EXPECT_GT(maps, 0U);
-    EXPECT_EQ(test::text_in(scratch.path / "report/results.js"),
-              "shadowproof.results(" + results.dump() + ");\n");
+    std::string script = test::text_in(scratch.path / "report/results.js");
+    const std::string begin = "shadowproof.results(";
+    const std::string end = ");\n";
+    ASSERT_TRUE(script.starts_with(begin) && script.ends_with(end));
+    script = script.substr(begin.size(), script.size() - begin.size() - end.size());
+    const auto given = nlohmann::ordered_json::parse(script);
+    ASSERT_EQ(given.at("scenes").size(), results.at("scenes").size());
+    for (std::size_t i = 0; i < given.at("scenes").size(); ++i) {
+        auto& scene = results.at("scenes").at(i);
+        const std::string expected = scene.dump();
+        const auto bytes = unpacked(given.at("scenes").at(i).get<std::string>(), expected.size());
+        ASSERT_TRUE(bytes);
+        EXPECT_EQ(std::string(bytes->begin(), bytes->end()), expected);
+        scene = given.at("scenes").at(i);
+    }
+    EXPECT_EQ(given, results);
 }
 
 TEST(ReportFolder, two_writings_have_the_same_bytes) {

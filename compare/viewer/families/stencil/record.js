@@ -56,7 +56,7 @@ function cornersOf(opened, triangle) {
   const { triangle: triangles, vertex } = opened.blocks;
   const rank = triangleRanks(opened).get(triangle);
   if (rank === undefined)
-    throw new Error(`${opened.id}/cell.js: block triangle lacks triangle ${triangle}`);
+    throw new Error(`${opened.id}.cell.js: block triangle lacks triangle ${triangle}`);
   return [1, 2, 3].map((k) => {
     const at = 3 * triangles[rank + k];
     return [vertex[at], vertex[at + 1], vertex[at + 2]];
