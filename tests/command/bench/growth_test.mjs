@@ -45,10 +45,14 @@ test('growth has a line for each technique along each axis', () => {
   const key = ({ axis, technique }) => `${axis} ${technique}`;
   assert.deepEqual(whole.map(key), scaling.map(key));
   whole.forEach((growth, i) => {
-    const isMeasured = growth.axis === 'lights';
-    assert.equal(growth.points.length, scaling[i].points.length);
+    const isMeasured = i === 0 || growth.axis === 'lights';
+    if (!isMeasured) assert.deepEqual(growth, scaling[i]);
     if (i === 0) assert.deepEqual(growth.points.slice(0, 2), scaling[i].points.slice(0, 2));
-    else if (!isMeasured) assert.deepEqual(growth, scaling[i]);
+    // On a slow moment a line ends early, and says so: what both have is of the same sizes.
+    const sizes = [growth, scaling[i]].map((line) => line.points.map(({ size }) => size));
+    const both = Math.min(...sizes.map((each) => each.length));
+    assert.ok(both > 0);
+    assert.deepEqual(sizes[0].slice(0, both), sizes[1].slice(0, both));
   });
   assert.deepEqual(whole.map(({ family }) => family), whole.map(({ technique }) =>
     ({ truth: 'truth', zfail: 'stencil', cube_map_six_pass: 'map' })[technique]));
