@@ -16,6 +16,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Of the parameter that tells where a map ends.
+const char* range_name(bool along_axes) {
+    return along_axes ? "far" : "range";
+}
+
 void consider_cube(Trial& trial, const LightSampling& view, const MapBias& bias) {
     MapWords words;
     words.parameters = {{"resolution", view.texels}};
@@ -28,8 +33,9 @@ void consider_cube(Trial& trial, const LightSampling& view, const MapBias& bias)
         words.text += ", whose faces are asked as if a texel narrower";
     }
     if (view.range < infinity) {
-        words.parameters.emplace_back("range", view.range);
-        words.text += fmt::format(", range {:.4g}", view.range);
+        const char* const name = range_name(view.range_along_axes);
+        words.parameters.emplace_back(name, view.range);
+        words.text += fmt::format(", {} {:.4g}", name, view.range);
         if (view.beyond_range == Visibility::shadowed) {
             words.parameters.emplace_back("dark_outside", 1);
             words.text += dark_beyond;
@@ -85,10 +91,10 @@ std::vector<LightSampling> with_filters(const Trial& trial, const LightSampling&
     return all;
 }
 
-void try_range(Trial& trial) {
-    const Scene& scene = trial.scene();
-    const Light& light = chosen_light(scene);
-    if (light.kind == Light::Kind::directional) return;
+namespace {
+
+void try_range(Trial& trial, bool along_axes) {
+    const Light& light = chosen_light(trial.scene());
     const GroundTruth& truth = trial.truth();
     Image<double> distance(truth.depth.width, truth.depth.height);
     double nearest = infinity;
@@ -96,7 +102,8 @@ void try_range(Trial& trial) {
     for (int y = 0; y < distance.height; ++y)
         for (int x = 0; x < distance.width; ++x) {
             if (truth.triangle.at(x, y) == no_triangle) continue;
-            const double d = glm::distance(seen_point(trial.traced(), x, y), light.position);
+            const double d =
+                reach_of(seen_point(trial.traced(), x, y) - light.position, along_axes);
             distance.at(x, y) = d;
             nearest = std::min(nearest, d);
             furthest = std::max(furthest, d);
@@ -107,7 +114,7 @@ void try_range(Trial& trial) {
         const bool dark = there == Visibility::shadowed;
         trial.search(
             {.hypothesis = "shadow_map",
-             .parameter = "range",
+             .parameter = range_name(along_axes),
              .predict =
                  [&truth, &trial, shared, there](double range) {
                      return changed(trial.traced(),
@@ -117,14 +124,43 @@ void try_range(Trial& trial) {
                                     });
                  },
              .words =
-                 [dark](double range) {
-                     return fmt::format("a shadow map that reaches {:.4g} from the light{}", range,
+                 [dark, along_axes](double range) {
+                     return fmt::format("a shadow map{} {:.4g} {}{}",
+                                        along_axes ? ", a cube whose faces reach" : " that reaches",
+                                        range, along_axes ? "along their axes" : "from the light",
                                         dark ? dark_beyond : "");
                  },
              .also = dark ? Parameters{{"dark_outside", 1}} : Parameters{}},
             nearest, furthest);
     }
 }
+
+} // namespace
+
+void try_range(Trial& trial) {
+    const Light::Kind kind = chosen_light(trial.scene()).kind;
+    if (kind == Light::Kind::directional) return;
+    try_range(trial, false);
+    if (kind == Light::Kind::point && !trial.is_settled()) try_range(trial, true);
+}
+
+namespace {
+
+/// Rays that miss more see more light, and never less.
+Predict with_epsilon(const TracedScene& traced, const MapBias& bias) {
+    return [&traced, within = lit_within(traced, {}, bias)](std::span<const Patch> patches,
+                                                            Image<Visibility>& picture) {
+        within(patches, picture);
+        for (const Patch& patch : patches)
+            for_each_pixel(patch, [&](int x, int y) {
+                if (const Visibility truth = traced.truth().visibility.at(x, y);
+                    truth == Visibility::lit)
+                    picture.at(x, y) = truth;
+            });
+    };
+}
+
+} // namespace
 
 void try_epsilon(Trial& trial) {
     const Scene from_light = seen_from_light(trial.scene(), LightSampling::Culled::none);
@@ -136,7 +172,7 @@ void try_epsilon(Trial& trial) {
         trial.consider(
             "ray_epsilon", {{"epsilon", best->bias.constant}},
             fmt::format("shadow rays miss what is closer than {:.3g}", best->bias.constant),
-            lit_within(trial.traced(), {}, best->bias));
+            with_epsilon(trial.traced(), best->bias));
 }
 
 void try_cube_maps(Trial& trial) {
@@ -146,7 +182,10 @@ void try_cube_maps(Trial& trial) {
     LightSampling ended; // at the range that explains something by itself
     if (const Parameters* found = trial.best_of("shadow_map")) {
         for (const auto& [name, value] : *found) {
-            if (name == "range") ended.range = value;
+            if (name == "range" || name == "far") {
+                ended.range = value;
+                ended.range_along_axes = name == "far";
+            }
             if (name == "dark_outside") ended.beyond_range = Visibility::shadowed;
         }
     }

@@ -156,7 +156,7 @@ LightSample sampled(const Scene& from_light, const LightSampling& view, const gl
         sample.own_stretch = glm::length(way) / sample.own_depth;
         sample.seen_stretch = glm::length(direction_of(at, texel));
     }
-    const bool is_beyond = !directional && glm::length(way) > view.range;
+    const bool is_beyond = !directional && reach_of(way, view.range_along_axes) > view.range;
     const bool is_outside =
         view.frustum && !view.frustum->holds(place_from_light(light, view.frustum->axes, point));
     if (is_beyond || is_outside) {
@@ -291,6 +291,11 @@ std::vector<LightSample> sample_light(const TracedScene& traced, const Tracer& l
                                                        light.kind == Light::Kind::directional));
     }
     return samples;
+}
+
+double reach_of(const glm::dvec3& way, bool along_axes) {
+    if (!along_axes) return glm::length(way);
+    return std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
 }
 
 Predict lit_within(const TracedScene& traced, const LightSampling& view, const MapBias& bias) {

@@ -71,11 +71,16 @@ struct LightSampling {
     /// another face: for faces that lie side by side in one picture.
     int inset = 0;
     double range = std::numeric_limits<double>::infinity(); ///< from the light
+    bool range_along_axes = false; ///< of a cube: each face ends so far along its axis
     Visibility beyond_range = Visibility::lit;
     std::optional<TexelPlane> plane{}; ///< instead of a cube
     std::optional<LightFrustum> frustum{};
     MapFilter filter{};
 };
+
+/// How far something lies from a point light, on `way` from it, by that which ends a map: its
+/// distance, or where ends lie along the axes of a cube's faces its depth in the face.
+double reach_of(const glm::dvec3& way, bool along_axes);
 
 /// In which numbers a map is compared.
 enum class BiasOf : std::uint8_t {

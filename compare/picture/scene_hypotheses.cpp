@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <vector>
 
 namespace shadowproof {
 
@@ -19,33 +20,45 @@ Predict truth_without(const Trial& trial, std::function<Scene()> make) {
     return truth_of(std::move(make), trial.traced().tracer().threads());
 }
 
-/// Whether a pixel sees a side of the mesh that faces the light; if none does, a missing mesh looks
-/// like one without a shadow.
-bool is_seen(const Trial& trial, std::size_t mesh) {
+/// The pixels that see a side of a mesh which faces the light.
+struct ShownMesh {
+    std::uint64_t pixels = 0;
+    std::uint64_t right = 0; ///< of these
+};
+
+ShownMesh shown_of(const Trial& trial, std::size_t mesh) {
     const Image<std::uint32_t>& seen = trial.truth().triangle;
-    for (std::size_t i = 0; i < seen.pixels.size(); ++i)
-        if (seen.pixels[i] != no_triangle && mesh_of(trial.scene(), seen.pixels[i]) == mesh &&
-            faces_light(trial.traced(), i))
-            return true;
-    return false;
+    ShownMesh shown;
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0; x < seen.width; ++x)
+            if (seen.at(x, y) != no_triangle && mesh_of(trial.scene(), seen.at(x, y)) == mesh &&
+                faces_light(trial.traced(), seen.index(x, y))) {
+                ++shown.pixels;
+                shown.right += trial.is_right(x, y) ? 1U : 0U;
+            }
+    return shown;
 }
 
-/// The truth without the mesh. In its place there is something else, whose colours are not the
-/// mesh's: no pixel there can be right.
+/// The truth without the mesh. In its place stands what is behind it, or a background as dark as
+/// shadow; read by the mesh's colours or by what light adds to it, either may be taken for the
+/// other, and so any pixel there may be wrong.
 Predict with_mesh_missing(const Trial& trial, std::size_t mesh) {
     const Scene& scene = trial.scene();
     const Predict without = truth_without(trial, [&scene, mesh] {
         return kept_by(scene,
                        [&](std::uint32_t triangle) { return mesh_of(scene, triangle) != mesh; });
     });
-    return [&scene, &seen = trial.truth().triangle, mesh, without](std::span<const Patch> patches,
-                                                                   Image<Visibility>& picture) {
+    return [&trial, mesh, without](std::span<const Patch> patches, Image<Visibility>& picture) {
         without(patches, picture);
         for (const Patch& patch : patches)
             for_each_pixel(patch, [&](int x, int y) {
-                const std::uint32_t triangle = seen.at(x, y);
-                if (triangle != no_triangle && mesh_of(scene, triangle) == mesh)
-                    picture.at(x, y) = Visibility::background;
+                const std::uint32_t triangle = trial.truth().triangle.at(x, y);
+                if (triangle == no_triangle || mesh_of(trial.scene(), triangle) != mesh) return;
+                Visibility& behind = picture.at(x, y);
+                if (trial.is_wrong(x, y))
+                    behind = trial.frame().claim.at(x, y);
+                else if (behind == Visibility::background)
+                    behind = Visibility::shadowed;
             });
     };
 }
@@ -67,21 +80,82 @@ struct LightMove {
     std::int64_t score = 0;
 };
 
-/// The best of all steps along the axes, again and again; steps halve where none is better.
+std::int64_t score_of(Trial& trial, const glm::dvec3& by) {
+    return trial.fit(with_light_moved(trial, by)).score();
+}
+
+/// The unit vectors between two or three axes.
+std::vector<glm::dvec3> diagonals(const std::array<glm::dvec3, 3>& axes) {
+    std::vector<glm::dvec3> ways;
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z)
+                if (std::abs(x) + std::abs(y) + std::abs(z) >= 2)
+                    ways.push_back(glm::normalize(double(x) * axes[0] + double(y) * axes[1] +
+                                                  double(z) * axes[2]));
+    return ways;
+}
+
+/// Steps along one axis after the other, again and again, and as far again in the direction in
+/// which they led (Hooke and Jeeves, "Direct search solution of numerical and statistical
+/// problems", 1961); where none is better, between the axes; where none is better still, steps
+/// halve.
 LightMove climbed(Trial& trial, const std::array<glm::dvec3, 3>& axes, double step, double least) {
-    constexpr int rounds = 16; // of six predictions
+    constexpr int rounds = 20; // of seven predictions, and of twenty more before steps halve
     LightMove best;
+    const auto look = [&](const glm::dvec3& by) {
+        const std::int64_t score = score_of(trial, by);
+        if (score > best.score) best = {by, score};
+    };
     for (int round = 0; round < rounds && step >= least; ++round) {
+        const LightMove from = best;
+        for (const glm::dvec3& axis : axes) {
+            const glm::dvec3 here = best.by;
+            for (const double sign : {-1.0, 1.0}) look(here + sign * step * axis);
+        }
+        if (best.score == from.score)
+            for (const glm::dvec3& way : diagonals(axes)) look(from.by + step * way);
+        if (best.score == from.score)
+            step /= 2;
+        else
+            look(best.by + (best.by - from.by));
+    }
+    return best;
+}
+
+/// The smallest move that fits no worse, by steps that halve where none leads to a smaller one.
+LightMove contracted(Trial& trial, const std::array<glm::dvec3, 3>& axes, LightMove best,
+                     double least) {
+    for (double step = glm::length(best.by) / 2; step >= least;) {
         const LightMove from = best;
         for (const glm::dvec3& axis : axes)
             for (const double sign : {-1.0, 1.0}) {
                 const glm::dvec3 by = from.by + sign * step * axis;
-                const std::int64_t score = trial.fit(with_light_moved(trial, by)).score();
-                if (score > best.score) best = {by, score};
+                if (glm::length(by) >= glm::length(best.by)) continue;
+                const std::int64_t score = score_of(trial, by);
+                if (score >= best.score) best = {by, score};
             }
-        if (best.score == from.score) step /= 2;
+        if (best.by == from.by) step /= 2;
     }
     return best;
+}
+
+/// The middle, along its way, of a smallest move and the largest that fits as well.
+LightMove centred(Trial& trial, const LightMove& smallest) {
+    constexpr int bisections = 8;
+    double fits = 1;
+    double fails = 2;
+    while (fails < 64 && score_of(trial, fails * smallest.by) >= smallest.score) {
+        fits = fails;
+        fails *= 2;
+    }
+    for (int i = 0; i < bisections; ++i) {
+        const double middle = (fits + fails) / 2;
+        (score_of(trial, middle * smallest.by) >= smallest.score ? fits : fails) = middle;
+    }
+    const glm::dvec3 by = (1 + fits) / 2 * smallest.by;
+    const std::int64_t score = score_of(trial, by);
+    return score >= smallest.score ? LightMove{by, score} : smallest;
 }
 
 } // namespace
@@ -113,15 +187,49 @@ void try_lights(Trial& trial) {
     }
 }
 
-/// One mesh after the other; each takes two traces of the sample.
+namespace {
+
+/// How many wrong pixels of the sample a mesh has to do with.
+struct Involved {
+    std::uint64_t seen = 0;        ///< it is what is seen
+    std::uint64_t falsely_lit = 0; ///< of these, lit in the picture alone
+    std::uint64_t shadowed = 0; ///< lit in the picture alone, and this is in the way of the light
+};
+
+/// By mesh. Of several casters in the way of a pixel's light one counts: where each of them alone
+/// would shadow the pixel, none of them mends it by throwing no shadow.
+std::vector<Involved> involved_meshes(const Trial& trial) {
+    const Scene& scene = trial.scene();
+    std::vector<Involved> meshes(scene.meshes.size());
+    std::vector<glm::dvec3> lines;
+    for (const Patch& patch : trial.sample())
+        for_each_pixel(patch, [&](int x, int y) {
+            const std::uint32_t seen = trial.truth().triangle.at(x, y);
+            if (!trial.is_wrong(x, y) || seen == no_triangle) return;
+            Involved& mesh = meshes[mesh_of(scene, seen)];
+            ++mesh.seen;
+            if (trial.frame().claim.at(x, y) != Visibility::lit) return;
+            ++mesh.falsely_lit;
+            const std::uint32_t occluder =
+                occluder_of(trial.traced().tracer(), line_of_sight(scene.camera, x + 0.5, y + 0.5));
+            if (occluder != no_triangle) ++meshes[mesh_of(scene, occluder)].shadowed;
+        });
+    return meshes;
+}
+
+} // namespace
+
+/// Those that have to do with enough of the wrong pixels to be considered at all, so that a scene
+/// may have any number of meshes: twenty at most show enough false light, and as many shadow it.
 void try_meshes(Trial& trial) {
-    constexpr std::size_t most_meshes = 24;
     const Scene& scene = trial.scene();
     const GroundTruth& truth = trial.truth();
-    for (std::size_t m = 0; m < std::min(scene.meshes.size(), most_meshes); ++m) {
+    const std::vector<Involved> involved = involved_meshes(trial);
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
+        const auto& [seen, falsely_lit, shadowed] = involved[m];
         const Parameters number{{"mesh", static_cast<double>(m)}};
-        if (mesh.receives)
+        if (mesh.receives && trial.is_enough(falsely_lit))
             trial.consider(
                 "receiver_missing", number, mesh.name + " shows no shadows",
                 changed(trial.traced(), [&scene, &truth, m](std::size_t i, Visibility was) {
@@ -129,16 +237,24 @@ void try_meshes(Trial& trial) {
                     return own && in_cone(truth, i) ? Visibility::lit : was;
                 }));
         if (scene.meshes.size() < 2) continue;
-        if (is_seen(trial, m))
+        const auto without_shadow = [&] {
+            if (mesh.casts && trial.is_enough(shadowed))
+                trial.consider("caster_missing", number, mesh.name + " casts no shadow",
+                               truth_without(trial, [&scene, m] {
+                                   Scene without = scene;
+                                   without.meshes[m].casts = false;
+                                   return without;
+                               }));
+        };
+        // Where the picture shows nothing of it, a missing mesh looks like one without a shadow.
+        // Of both, where they fit as well, the one comes first of which the picture shows more.
+        const ShownMesh shown = shown_of(trial, m);
+        const bool is_there = 2 * shown.right >= shown.pixels;
+        if (is_there) without_shadow();
+        if (trial.is_enough(shadowed + seen) && shown.pixels > 0)
             trial.consider("mesh_missing", number, mesh.name + " is not drawn",
                            with_mesh_missing(trial, m));
-        if (mesh.casts)
-            trial.consider("caster_missing", number, mesh.name + " casts no shadow",
-                           truth_without(trial, [&scene, m] {
-                               Scene without = scene;
-                               without.meshes[m].casts = false;
-                               return without;
-                           }));
+        if (!is_there) without_shadow();
     }
 }
 
@@ -229,12 +345,13 @@ void try_moved_light(Trial& trial) {
             climbed(trial, axes, share * glm::length(way), finest * glm::length(way));
         if (found.score > best.score) best = found;
     }
+    if (best.score <= 0) return;
+    // Shadows that move within an edge's band are not wrong: many moves fit as well as the best.
+    best = centred(trial, contracted(trial, axes, best, finest * glm::length(way)));
     const glm::dvec3& by = best.by;
-    if (best.score > 0)
-        trial.consider(
-            "light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
-            fmt::format("the light is moved by ({:.3g}, {:.3g}, {:.3g})", by.x, by.y, by.z),
-            with_light_moved(trial, by));
+    trial.consider("light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
+                   fmt::format("the light is moved by ({:.3g}, {:.3g}, {:.3g})", by.x, by.y, by.z),
+                   with_light_moved(trial, by));
 }
 
 } // namespace shadowproof

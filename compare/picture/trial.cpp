@@ -82,13 +82,14 @@ Fit Trial::fit(const Predict& predict) {
     return fit_in(sample_, predict);
 }
 
+bool Trial::is_enough(std::uint64_t explained) const {
+    return explained > 0 && explained * 20 >= sampled_wrong_;
+}
+
 void Trial::consider(std::string hypothesis, Parameters parameters, std::string words,
                      Predict predict) {
-    constexpr std::int64_t least_share = 20; // of the wrong pixels: less is chance
     const Fit found = fit(predict);
-    if (found.score() <= 0 ||
-        found.score() * least_share < static_cast<std::int64_t>(sampled_wrong_))
-        return;
+    if (found.score() <= 0 || !is_enough(static_cast<std::uint64_t>(found.score()))) return;
     considered_.push_back({{std::move(hypothesis), std::move(parameters), 0, 0, std::move(words)},
                            found,
                            std::move(predict)});
@@ -139,9 +140,16 @@ void Trial::search(const Parametric& family, double from, double to) {
     consider(family.hypothesis, std::move(parameters), family.words(value), family.predict(value));
 }
 
-bool Trial::is_settled() const {
-    return std::any_of(considered_.begin(), considered_.end(), [&](const Considered& each) {
-        return each.fit.explained == sampled_wrong_ && each.fit.contradicted == 0;
+const Fit& Trial::whole_fit(Considered& each) {
+    if (!each.whole)
+        each.whole = fit_in(all_patches(picture_.width, picture_.height), each.predict);
+    return *each.whole;
+}
+
+bool Trial::is_settled() {
+    return std::any_of(considered_.begin(), considered_.end(), [&](Considered& each) {
+        return each.fit.explained == sampled_wrong_ && each.fit.contradicted == 0 &&
+               whole_fit(each).contradicted == 0;
     });
 }
 
@@ -162,9 +170,8 @@ Diagnosed Trial::best(std::size_t most) {
     };
     sort();
     if (considered_.size() > most) considered_.resize(most);
-    const std::vector<Patch> all = all_patches(picture_.width, picture_.height);
     for (Considered& each : considered_) {
-        each.fit = fit_in(all, each.predict);
+        each.fit = whole_fit(each);
         each.diagnosis.explained = each.fit.explained;
         each.diagnosis.contradicted = each.fit.contradicted;
     }
@@ -172,7 +179,8 @@ Diagnosed Trial::best(std::size_t most) {
     std::erase_if(considered_, [](const Considered& each) { return each.fit.score() <= 0; });
     Diagnosed found;
     for (const Considered& each : considered_) found.hypotheses.push_back(each.diagnosis);
-    if (!considered_.empty()) considered_.front().predict(all, picture_);
+    if (!considered_.empty())
+        considered_.front().predict(all_patches(picture_.width, picture_.height), picture_);
     found.left = Image<std::uint8_t>(picture_.width, picture_.height);
     for (int y = 0; y < picture_.height; ++y)
         for (int x = 0; x < picture_.width; ++x)

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,7 +54,9 @@ public:
 
     /// On the sample.
     Fit fit(const Predict& predict);
-    /// Adds the hypothesis if it explains a twentieth of the sample's wrong pixels more than it
+    /// Whether so many wrong pixels of the sample are a twentieth of them: less is chance.
+    bool is_enough(std::uint64_t explained) const;
+    /// Adds the hypothesis if it explains enough of the sample's wrong pixels more than it
     /// contradicts.
     void consider(std::string hypothesis, Parameters parameters, std::string words,
                   Predict predict);
@@ -62,9 +65,9 @@ public:
     /// nothing by the next, the right one lies in between, and is found by bisection.
     void search(const Parametric& family, double from, double to);
 
-    /// Whether some hypothesis explains all of the sample and contradicts nothing: then no other
-    /// need be tried.
-    bool is_settled() const;
+    /// Whether some hypothesis explains all of the sample and contradicts nothing of the whole
+    /// picture: then no other need be tried.
+    bool is_settled();
     /// The parameters of the best hypothesis so far by that name; null where there is none.
     const Parameters* best_of(const std::string& hypothesis) const;
     /// The best, by the whole picture, and the wrong pixels that the first of them leaves.
@@ -75,6 +78,7 @@ private:
         Diagnosis diagnosis;
         Fit fit; ///< on the sample
         Predict predict;
+        std::optional<Fit> whole{}; ///< on the whole picture, once it was asked
     };
 
     const TracedScene& traced_;
@@ -87,6 +91,7 @@ private:
     std::vector<Considered> considered_;
 
     Fit fit_in(std::span<const Patch> patches, const Predict& predict);
+    const Fit& whole_fit(Considered& each);
     bool is_inside(int x, int y) const;
 };
 

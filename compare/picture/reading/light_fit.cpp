@@ -66,20 +66,30 @@ std::optional<Typical> shadow_of(std::span<const AngleGroup> groups,
     return typical(dark);
 }
 
+/// The pixels of a mesh that are of use.
+struct Useful {
+    std::vector<const Observed*> facing;
+    std::vector<glm::dvec3> averted;
+    double step = 0;          ///< typical
+    bool are_blended = false; ///< those at outlines may show others, too
+};
+
 /// Pixels at about one angle that tell what light adds.
 struct LitAtAngle {
     AngleGroup lit;
-    std::size_t truly_lit = 0; ///< pixels that are certainly so
-    std::size_t shown_lit = 0; ///< those of them that show light
-    double sine = 0;           ///< typical of them
-    bool is_dark = false;      ///< there is no light at this angle
+    std::size_t truly_lit = 0;   ///< pixels that are certainly so
+    std::size_t shown_lit = 0;   ///< those of them that show light
+    std::size_t false_light = 0; ///< pixels certainly in shadow that show light
+    double sine = 0;             ///< typical of them
+    bool is_dark = false;        ///< there is no light at this angle
+    bool is_blended = false;     ///< perhaps: all pixels lie at outlines, where others may show
 };
 
 /// What is certainly lit, where that is enough; else what is clearly brighter than shadow. Of two
 /// groups of these the brighter. What differs in nothing from the picture without light is no lit
 /// one; but what is dim for being lit little, rather than for a shadow, is seen to be no shadow,
 /// and textures are as dark as they are.
-LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
+LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, const Useful& useful,
                     bool are_differences) {
     LitAtAngle angle;
     AngleGroup truly_lit;
@@ -90,6 +100,7 @@ LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
         const double above = mesh.above_shadow(pixel->value);
         const double least_told = mesh.least_difference(pixel->step);
         if (above > least_told) brighter.push_back(pixel);
+        if (pixel->certainly == Visibility::shadowed && above > least_told) ++angle.false_light;
         if (pixel->certainly != Visibility::lit) continue;
         truly_lit.push_back(pixel);
         if (!are_differences || above > least_told / fewest_steps) certain.push_back(pixel);
@@ -97,14 +108,15 @@ LitAtAngle lit_ones(const MeshLight& mesh, const AngleGroup& all, double step,
     angle.truly_lit = truly_lit.size();
     angle.shown_lit = certain.size();
     if (!truly_lit.empty()) angle.sine = sine_at(truly_lit, mesh.normals, 0.5);
+    angle.is_blended = useful.are_blended && truly_lit.size() < enough_pixels;
     const AngleGroup& lit = certain.size() < enough_pixels ? brighter : certain;
-    const std::optional<TwoGroups> two = two_groups(lit, step);
+    const std::optional<TwoGroups> two = two_groups(lit, useful.step);
     angle.lit = two ? two->bright : lit;
     return angle;
 }
 
 /// Where most of what is truly lit shows no light, as black surfaces that only have highlights, an
-/// angle at which nearly nothing does tells that there is none.
+/// angle at which nearly nothing does tells that there is none; unless shadows show some.
 void leave_out_dark(std::span<LitAtAngle> angles) {
     std::size_t truly_lit = 0;
     std::size_t shown_lit = 0;
@@ -114,7 +126,7 @@ void leave_out_dark(std::span<LitAtAngle> angles) {
     }
     if (2 * shown_lit >= truly_lit) return;
     for (LitAtAngle& angle : angles)
-        if (angle.truly_lit >= enough_pixels &&
+        if (angle.truly_lit >= enough_pixels && angle.false_light < enough_pixels &&
             static_cast<double>(angle.shown_lit) < unusual * static_cast<double>(angle.truly_lit))
             angle.is_dark = true;
 }
@@ -158,7 +170,8 @@ double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
     return std::isfinite(slope) ? std::clamp(-slope, 0.0, most_fall_off) : 0;
 }
 
-LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
+/// The least light is told of what no outline is near alone.
+LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit, bool is_blended) {
     std::vector<double> added;
     std::vector<double> per_sine;
     for (const Observed* const pixel : lit) {
@@ -168,7 +181,7 @@ LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
     LightAt at;
     at.sine = sine_at(lit, mesh.normals, 0.5);
     at.typical = median(std::move(added));
-    if (!(at.typical > 0)) return at;
+    if (!(at.typical > 0) || is_blended) return at;
     // Of a normal distribution of logarithms, one of twenty lies beyond 1.6 deviations, and one of
     // two thousand beyond twice that.
     const double usual = at.sine * quantile(std::move(per_sine), unusual) / at.typical;
@@ -177,13 +190,13 @@ LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit) {
 }
 
 /// The same by how far pixels are from a highlight's middle, where enough are.
-void fit_highlight(const AngleGroup& lit, MeshLight& mesh) {
+void fit_highlight(const LitAtAngle& angle, MeshLight& mesh) {
     std::array<AngleGroup, highlight_groups> parts;
-    for (const Observed* const pixel : lit)
+    for (const Observed* const pixel : angle.lit)
         parts[highlight_group(pixel->lies[mesh.normals])].push_back(pixel);
     for (std::size_t i = 0; i < parts.size(); ++i)
         if (parts[i].size() >= enough_pixels)
-            mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i]));
+            mesh.in_highlight[i].push_back(fitted_at(mesh, parts[i], angle.is_blended));
 }
 
 /// Whether a pixel's surface faces away from the light, whichever normals are taken.
@@ -193,7 +206,8 @@ bool is_averted(const Observed& pixel) {
 }
 
 /// Whether what is truly dark differs from shadow, and is not as bright as light either: a texture,
-/// or ambient light that is not the same on all sides.
+/// or ambient light that is not the same on all sides. By how much shadows scatter does not count,
+/// which is what patterns do.
 bool is_patterned(const MeshLight& mesh, std::span<const Observed* const> pixels) {
     std::size_t dark = 0;
     std::size_t others = 0;
@@ -203,7 +217,7 @@ bool is_patterned(const MeshLight& mesh, std::span<const Observed* const> pixels
         const double above = mesh.above_shadow(pixel->value);
         const double lit = pixel->faces_light ? mesh.light_at(*pixel).typical : 0;
         const bool is_lit = lit > 0 && above >= 0.5 * lit;
-        others += std::abs(above) > mesh.least_difference(pixel->step) && !is_lit ? 1U : 0U;
+        others += std::abs(above) > fewest_steps * pixel->step && !is_lit ? 1U : 0U;
     }
     return static_cast<double>(others) > unusual * static_cast<double>(dark);
 }
@@ -227,17 +241,10 @@ void fit_light(std::span<const LitAtAngle> angles, MeshLight& mesh) {
         if (angle.is_dark) {
             mesh.light.push_back({angle.sine, 0, 0});
         } else if (!angle.lit.empty()) {
-            mesh.light.push_back(fitted_at(mesh, angle.lit));
-            fit_highlight(angle.lit, mesh);
+            mesh.light.push_back(fitted_at(mesh, angle.lit, angle.is_blended));
+            fit_highlight(angle, mesh);
         }
 }
-
-/// The pixels of a mesh that are of use.
-struct Useful {
-    std::vector<const Observed*> facing;
-    std::vector<glm::dvec3> averted;
-    double step = 0; ///< typical
-};
 
 Useful useful_of(std::span<const Observed* const> pixels) {
     Useful useful;
@@ -273,7 +280,7 @@ MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& sh
     const AngleGroups groups = by_angle(useful, normals);
     std::array<LitAtAngle, angle_groups> angles;
     std::transform(groups.begin(), groups.end(), angles.begin(), [&](const AngleGroup& group) {
-        return lit_ones(mesh, group, useful.step, shown == Shown::differences);
+        return lit_ones(mesh, group, useful, shown == Shown::differences);
     });
     leave_out_dark(angles);
     MeshLight falling = mesh;
@@ -297,7 +304,7 @@ std::vector<const Observed*> between_cones(const Useful& useful) {
 }
 
 /// By how much pixels between a spot's cones typically differ from what light is said to add, over
-/// that.
+/// that; infinity where too few are said to have any.
 double misfit_in_cone(const MeshLight& mesh, std::span<const Observed* const> between) {
     std::vector<double> errors;
     for (const Observed* const pixel : between) {
@@ -312,19 +319,18 @@ double misfit_in_cone(const MeshLight& mesh, std::span<const Observed* const> be
 /// Which shares of the light pixels show so far into a spot's cone, over what they would show with
 /// all of it; the largest is 1.
 std::vector<ConeShare> cone_of(const MeshLight& mesh, const Useful& useful) {
-    constexpr std::size_t parts = 16;
-    std::array<std::vector<double>, parts + 1> shares; // the last: within the inner cone
-    std::array<std::vector<double>, parts + 1> into_cone;
+    std::array<std::vector<double>, cone_parts + 1> shares; // the last: within the inner cone
+    std::array<std::vector<double>, cone_parts + 1> into_cone;
     for (const Observed* const pixel : useful.facing) {
         const double all = mesh.light_at(*pixel).typical / mesh.share_in_cone(*pixel);
         if (pixel->certainly != Visibility::lit || !(all > 0) || !std::isfinite(all)) continue;
-        const auto part = static_cast<std::size_t>(parts * pixel->into_cone);
+        const std::size_t part = cone_part(*pixel);
         shares[part].push_back(std::max(mesh.above_shadow(pixel->value) / all, 0.0));
         into_cone[part].push_back(pixel->into_cone);
     }
     std::vector<ConeShare> cone;
     double largest = 0;
-    for (std::size_t part = 0; part <= parts; ++part) {
+    for (std::size_t part = 0; part <= cone_parts; ++part) {
         if (shares[part].size() < enough_pixels) continue;
         cone.push_back({median(std::move(into_cone[part])), median(std::move(shares[part]))});
         largest = std::max(largest, cone.back().share);
@@ -335,8 +341,8 @@ std::vector<ConeShare> cone_of(const MeshLight& mesh, const Useful& useful) {
 }
 
 /// Where pixels lie between a spot's cones, how light falls off there is fitted in turn with how it
-/// depends on angles, which the other divides out. Where that does not say within a quarter how
-/// bright most are, it is not known.
+/// depends on angles, which the other divides out. In a part of the way where that does not say
+/// within a quarter how bright most are, it is not known.
 MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& shadow, Shown shown) {
     MeshLight best = fitted_by(normals, useful, shadow, shown, {});
     if (std::ranges::all_of(useful.facing,
@@ -355,7 +361,10 @@ MeshLight fitted_by(std::size_t normals, const Useful& useful, const Typical& sh
         least = misfit;
         best = mesh;
     }
-    best.knows_cone = least < 0.25;
+    std::array<AngleGroup, cone_parts> parts;
+    for (const Observed* const pixel : between) parts[cone_part(*pixel)].push_back(pixel);
+    for (std::size_t part = 0; part < cone_parts; ++part)
+        best.is_cone_unknown[part] = !(misfit_in_cone(best, parts[part]) < 0.25);
     return best;
 }
 
@@ -388,8 +397,10 @@ bool shows_light_on_averted(const MeshLight& mesh, std::span<const Observed* con
 
 } // namespace
 
-std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown) {
-    const Useful useful = useful_of(pixels);
+std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown,
+                                    bool blended) {
+    Useful useful = useful_of(pixels);
+    useful.are_blended = blended;
     std::optional<Typical> shadow = Typical{};
     if (shown != Shown::differences)
         shadow = shadow_of(by_angle(useful, 0), useful.averted, useful.step);

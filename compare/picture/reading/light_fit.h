@@ -24,6 +24,9 @@ enum class Shown : std::uint8_t {
 ///   - else the darker of two groups into which pixels at one angle fall.
 /// and of a texture that shows in the shadows nothing is told. Light is what is brighter, angle by
 /// angle, and as it falls off with distance; certainly lit, where enough pixels are.
-std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown);
+/// `blended`: pixels at outlines may show others, too, and of what is lit nowhere else the least
+/// light is not told.
+std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown,
+                                    bool blended = false);
 
 } // namespace shadowproof

@@ -1,5 +1,7 @@
 #include "compare/picture/reading/mesh_light.h"
 
+#include "compare/picture/surface_colors.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,23 +61,38 @@ double MeshLight::share_at(const Observed& pixel) const {
     return std::pow(pixel.distance, -fall_off) * share_in_cone(pixel);
 }
 
+namespace {
+
+/// Between the angles that are known, down to nothing where light only grazes; beyond the last as
+/// there.
+LightAt interpolated(const LightByAngle& known, double sine) {
+    LightAt below;
+    for (const LightAt& above : known) {
+        if (sine < above.sine) {
+            const double way = (sine - below.sine) / (above.sine - below.sine);
+            return {sine, glm::mix(below.typical, above.typical, way),
+                    glm::mix(below.least, above.least, way)};
+        }
+        below = above;
+    }
+    return below;
+}
+
+} // namespace
+
 LightAt MeshLight::light_at(const Observed& pixel) const {
     const Lie& lie = pixel.lies[normals];
     const LightByAngle& own = in_highlight[highlight_group(lie)];
     const LightByAngle& known = own.empty() ? light : own;
     const double sine = lie.sine;
     if (known.empty() || !(sine > 0)) return {};
-    LightAt below;
-    LightAt at = known.back();
-    for (const LightAt& above : known) {
-        if (sine < above.sine) {
-            const double way = (sine - below.sine) / (above.sine - below.sine);
-            at.typical = glm::mix(below.typical, above.typical, way);
-            at.least = glm::mix(below.least, above.least, way);
-            break;
-        }
-        below = above;
-    }
+    LightAt at = interpolated(known, sine);
+    // So near to a highlight's middle, other angles are known: nothing says that light is as even
+    // at this one.
+    const int group = angle_group(lie.sine);
+    if (!own.empty() && (group < angle_group(static_cast<float>(own.front().sine)) ||
+                         group > angle_group(static_cast<float>(own.back().sine))))
+        at.least = std::min(at.least, interpolated(light, sine).least);
     const double weaker = std::pow(pixel.distance, -fall_off);
     return {sine, at.typical * weaker * share_in_cone(pixel),
             at.least * weaker * least_in_cone(pixel)};
@@ -89,7 +106,7 @@ ShownLight MeshLight::shown_light(const Observed& pixel) const {
     const double above = above_shadow(pixel.value);
     const double share = above / lit.typical;
     if (share >= 0.5) return {share, true};
-    const bool is_known = knows_cone || !is_between_cones(pixel);
+    const bool is_known = !is_between_cones(pixel) || !is_cone_unknown[cone_part(pixel)];
     return {share, is_known && lit.least > least_told && above < 0.5 * lit.least};
 }
 

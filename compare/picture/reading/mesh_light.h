@@ -84,6 +84,13 @@ inline bool is_between_cones(const Observed& pixel) {
     return pixel.into_cone > 0 && pixel.into_cone < 1;
 }
 
+/// Equal parts of the way from a spot's outer cone to its inner one.
+inline constexpr std::size_t cone_parts = 16;
+/// That of a pixel; cone_parts within the inner cone.
+inline std::size_t cone_part(const Observed& pixel) {
+    return static_cast<std::size_t>(cone_parts * pixel.into_cone);
+}
+
 /// Which share of a spot's light is there, so far into its cone; the largest is 1.
 struct ConeShare {
     double into_cone = 0;
@@ -97,7 +104,8 @@ struct MeshLight {
     std::array<LightByAngle, highlight_groups> in_highlight; ///< where enough pixels tell it
     double fall_off = 0;         ///< with which power of the distance light gets weaker
     std::vector<ConeShare> cone; ///< by growing Observed::into_cone; empty: all is there at once
-    bool knows_cone = true; ///< whether that tells how bright pixels between a spot's cones are
+    /// Where the pixels do not tell how bright a part of the way between a spot's cones is.
+    std::array<bool, cone_parts> is_cone_unknown{};
 
     /// How much lighter than shadow: a distance of colours, negative where it is darker.
     double above_shadow(const glm::dvec3& value) const;

@@ -3,6 +3,7 @@
 #include "compare/picture/predict.h"
 #include "compare/picture/reading/borrowed_light.h"
 #include "compare/picture/reading/light_fit.h"
+#include "compare/picture/reading/noise.h"
 #include "compare/picture/reading/seen_pixels.h"
 #include "compare/picture/surface_colors.h"
 #include "scenes/error.h"
@@ -36,14 +37,14 @@ PixelsOfMeshes pixels_by_mesh(const SeenPixels& pixels) {
 }
 
 /// Of a picture of its own: a mesh that shows light alone may be lit as another one is.
-LightOfMeshes light_of_colors(const SeenPixels& pixels, const Scene& scene) {
+LightOfMeshes light_of_colors(const SeenPixels& pixels, const Scene& scene, bool blended) {
     LightOfMeshes meshes;
     std::vector<KnownLight> known;
     std::map<std::uint32_t, MeshSamples> unknown;
     for (const auto& [mesh, observed] : pixels_by_mesh(pixels)) {
         const bool textured = scene.meshes[mesh].textured;
         std::vector<MeshLight> fits =
-            fitted_light(observed, textured ? Shown::textured : Shown::plain);
+            fitted_light(observed, textured ? Shown::textured : Shown::plain, blended);
         if (!textured && fits.front().shadow && !fits.front().light.empty())
             known.push_back(known_light(fits.front(), observed));
         else if (!textured)
@@ -86,12 +87,13 @@ LightOf by_mask(const Picture& picture) {
 }
 
 /// Of the picture alone, or by how it differs from one without the light.
-LightOf by_light(const Scene& scene, const Picture& picture, const Twins& twins,
-                 SeenPixels& pixels) {
+LightOf by_light(const Scene& scene, const Picture& picture, const Twins& twins, SeenPixels& pixels,
+                 bool blended) {
     const Picture* const twin = twins.unlit ? &*twins.unlit : nullptr;
     observe(picture, twin, step_of(picture, twins), pixels);
+    if (twin != nullptr) widen_steps_by_noise(pixels);
     const LightOfMeshes meshes =
-        twin != nullptr ? light_of_differences(pixels) : light_of_colors(pixels, scene);
+        twin != nullptr ? light_of_differences(pixels) : light_of_colors(pixels, scene, blended);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) {
         return shown_light(meshes.at(seen.mesh), seen.observed);
     };
@@ -114,6 +116,7 @@ void doubt(MeshLight& fit) {
 /// By what is missing in the picture, which shadows take away as a light adds it.
 LightOf by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
     observe(*twins.unshadowed, &picture, step_of(picture, twins), pixels);
+    widen_steps_by_noise(pixels);
     for (std::optional<Seen>& seen : pixels.pixels)
         if (seen && seen->observed.certainly)
             seen->observed.certainly = seen->observed.certainly == Visibility::lit
@@ -129,15 +132,16 @@ LightOf by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixel
 }
 
 /// What light adds at a pixel is how the twins differ there.
-LightOf by_both(const Picture& picture, const Twins& twins) {
-    return [&picture, &twins, step = step_of(picture, twins)](const Seen& /*seen*/,
-                                                              std::size_t pixel) -> ShownLight {
+LightOf by_both(const Picture& picture, const Twins& twins, const SeenPixels& pixels) {
+    const double noise = least_beyond_noise(picture, twins, pixels);
+    return [&picture, &twins, step = step_of(picture, twins),
+            noise](const Seen& /*seen*/, std::size_t pixel) -> ShownLight {
         const glm::dvec3 dark = color_at(*twins.unlit, pixel);
         const glm::dvec3 bright = color_at(*twins.unshadowed, pixel);
         const glm::dvec3 light = bright - dark;
         const double own_step =
             picture.bits < 32 ? step : std::max(step, float_step(glm::length(bright)));
-        if (!(glm::length(light) > fewest_steps * own_step)) return {};
+        if (!(glm::length(light) > std::max(fewest_steps * own_step, noise))) return {};
         return {glm::dot(color_at(picture, pixel) - dark, light) / glm::dot(light, light), true};
     };
 }
@@ -204,12 +208,13 @@ bool is_antialiased(const TracedScene& traced, const SeenPixels& pixels,
     return any.are_mixed() || of_shadows.are_mixed();
 }
 
+/// `blended`: outlines in the picture show what lies on both sides.
 LightOf light_read_from(const Scene& scene, const PictureFiles& files, const Picture& picture,
-                        const Twins& twins, SeenPixels& pixels) {
+                        const Twins& twins, SeenPixels& pixels, bool blended) {
     if (!files.mask.empty()) return by_mask(picture);
-    if (twins.unlit && twins.unshadowed) return by_both(picture, twins);
+    if (twins.unlit && twins.unshadowed) return by_both(picture, twins, pixels);
     if (twins.unshadowed) return by_shadows(picture, twins, pixels);
-    return by_light(scene, picture, twins, pixels);
+    return by_light(scene, picture, twins, pixels, blended);
 }
 
 } // namespace
@@ -229,14 +234,14 @@ std::string advice_on_undecidable(const PictureFiles& files) {
            "black where shadowed (--mask)";
 }
 
+namespace {
+
 Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
-                   const Twins& twins) {
-    if (is_one_color(picture))
-        throw Error(files.mask.empty() ? files.picture : files.mask,
-                    "is of one colour, and shows no scene", "render it again");
+                   const Twins& twins, bool blended) {
     const Image<Visibility>& truth = traced.truth().visibility;
     SeenPixels pixels = seen_pixels(traced);
-    const LightOf light_of = light_read_from(traced.scene(), files, picture, twins, pixels);
+    const LightOf light_of =
+        light_read_from(traced.scene(), files, picture, twins, pixels, blended);
 
     Frame frame;
     frame.family = "picture";
@@ -266,6 +271,21 @@ Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const P
         throw Error(files.picture, "does not tell light from shadow at any pixel",
                     advice_on_undecidable(files));
     shadows.antialiased = is_antialiased(traced, pixels, shadows);
+    return frame;
+}
+
+} // namespace
+
+Frame read_shadows(const TracedScene& traced, const PictureFiles& files, const Picture& picture,
+                   const Twins& twins) {
+    if (is_one_color(picture))
+        throw Error(files.mask.empty() ? files.picture : files.mask,
+                    "is of one colour, and shows no scene", "render it again");
+    Frame frame = read_shadows(traced, files, picture, twins, false);
+    const bool is_alone = files.mask.empty() && !twins.unlit && !twins.unshadowed;
+    if (!is_alone || !frame.pictured->antialiased) return frame;
+    frame = read_shadows(traced, files, picture, twins, true);
+    frame.pictured->antialiased = true;
     return frame;
 }
 

@@ -1,0 +1,97 @@
+#include "compare/picture/reading/noise.h"
+
+#include "compare/picture/reading/typical_colors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace shadowproof {
+
+namespace {
+
+/// What is left of each pixel, over the unit that it is measured in; nothing where it is not asked.
+template <class Rest>
+using Rests = std::vector<std::optional<Rest>>;
+
+double length_of(double value) {
+    return std::abs(value);
+}
+double length_of(const glm::dvec3& value) {
+    return glm::length(value);
+}
+
+/// The standard deviation of what is left, from the median of what neighbours differ by. A normal
+/// number is beyond 0.6745 deviations half of the time, and noise that is the same in all channels
+/// is such a number, however long.
+template <class Rest>
+double deviation(const SeenPixels& pixels, const Rests<Rest>& rests) {
+    constexpr double median_of_normal = 0.6745;
+    std::vector<double> apart;
+    for (int y = 0; y < pixels.height; ++y)
+        for (int x = 0; x + 1 < pixels.width; ++x) {
+            const std::size_t i = pixels.index(x, y);
+            if (!rests[i] || !rests[i + 1]) continue;
+            if (pixels.pixels[i]->mesh == pixels.pixels[i + 1]->mesh)
+                apart.push_back(length_of(*rests[i] - *rests[i + 1]));
+        }
+    if (apart.size() < enough_pixels) return 0;
+    return median(std::move(apart)) / (median_of_normal * std::numbers::sqrt2);
+}
+
+/// So many deviations the largest of the picture's pixels is off, if noise is normal: by more with
+/// a chance of a tenth (Cramer, "Mathematical methods of statistics", 1946, section 28.6).
+double most_deviations(const SeenPixels& pixels) {
+    return std::sqrt(2 * std::log(std::max<double>(2, static_cast<double>(pixels.pixels.size()))));
+}
+
+} // namespace
+
+double least_beyond_noise(const Picture& picture, const Twins& twins, const SeenPixels& pixels) {
+    std::vector<double> lengths;
+    const auto light_at = [&](std::size_t i) {
+        return color_at(*twins.unshadowed, i) - color_at(*twins.unlit, i);
+    };
+    const auto is_of_use = [&](std::size_t i) {
+        return pixels.pixels[i] && pixels.pixels[i]->observed.faces_light &&
+               std::isfinite(glm::length(light_at(i)));
+    };
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i)
+        if (is_of_use(i)) lengths.push_back(glm::length(light_at(i)));
+    if (lengths.empty()) return 0;
+    const double much = 0.5 * quantile(std::move(lengths), 0.95);
+    Rests<double> rests(pixels.pixels.size());
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+        if (!is_of_use(i)) continue;
+        const glm::dvec3 light = light_at(i);
+        const double length = glm::length(light);
+        if (!(length > 0) || length < much) continue;
+        const double along =
+            glm::dot(color_at(picture, i) - color_at(*twins.unlit, i), light) / length;
+        if (std::isfinite(along)) rests[i] = along < 0.5 * length ? along : along - length;
+    }
+    // Picture less twin has the noise of two; picture less the middle of both that of one and a
+    // half, which must not reach half of the light.
+    const double off_middle = std::sqrt(0.75) * deviation(pixels, rests);
+    return 2 * most_deviations(pixels) * off_middle;
+}
+
+void widen_steps_by_noise(SeenPixels& pixels) {
+    Rests<glm::dvec3> rests(pixels.pixels.size());
+    for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+        const std::optional<Seen>& seen = pixels.pixels[i];
+        if (!seen || seen->observed.faces_light || !(seen->observed.step > 0)) continue;
+        const glm::dvec3 rest = seen->observed.value / double{seen->observed.step};
+        if (std::isfinite(glm::length(rest))) rests[i] = rest;
+    }
+    // Noise must not reach half of what light adds.
+    const double least = 2 * most_deviations(pixels) * deviation(pixels, rests);
+    const double factor = std::max(1.0, least / fewest_steps);
+    for (std::optional<Seen>& seen : pixels.pixels)
+        if (seen) seen->observed.step = static_cast<float>(factor * seen->observed.step);
+}
+
+} // namespace shadowproof
