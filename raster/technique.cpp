@@ -88,4 +88,11 @@ std::vector<std::string_view> shadowing_techniques() {
     return names_of(shadows);
 }
 
+bool suits(const Technique& technique, const Scene& scene) {
+    if (technique.map != nullptr && technique.map().model.shape == MapModel::Shape::spot &&
+        !fits_one_map(chosen_light(scene)))
+        return false; // the scene's notes say so
+    return can_draw(technique, scene) && (!technique.filters_bumps || asks_for_mipmaps(scene));
+}
+
 } // namespace shadowproof

@@ -83,9 +83,7 @@ inline bool can_draw(const Technique& technique, const Scene& scene) {
 }
 
 /// Whether it is for such a scene; if not, it is left out unless requested by name.
-inline bool suits(const Technique& technique, const Scene& scene) {
-    return can_draw(technique, scene) && (!technique.filters_bumps || asks_for_mipmaps(scene));
-}
+bool suits(const Technique& technique, const Scene& scene);
 
 /// Whether one of them filters the scene's bump maps, so that right colours are means over pixels.
 inline bool filter_bumps(std::span<const Technique* const> techniques, const Scene& scene) {

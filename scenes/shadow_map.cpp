@@ -69,11 +69,15 @@ void fit_sun(MapModel& model, const Scene& scene) {
     model.far = extent.z + 3 * margin;
 }
 
+bool fits_one_map(const Light& light) {
+    return light.kind != Light::Kind::spot || light.outer_cone <= widest_cone;
+}
+
 MapModel with_settings(MapModel model, const MapSettings& settings, const Scene& scene) {
     const Light& light = chosen_light(scene);
     const bool is_sun = model.shape == MapModel::Shape::sun;
     assert(is_sun == (light.kind == Light::Kind::directional));
-    if (model.shape == MapModel::Shape::spot && light.outer_cone > widest_cone)
+    if (model.shape == MapModel::Shape::spot && !fits_one_map(light))
         refuse(scene, "has a spot whose cone is too wide for one map",
                "leave spot maps out, or make its outerConeAngle at most 1.5");
     constexpr double documents_bias = 0.15;

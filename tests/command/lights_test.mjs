@@ -130,3 +130,25 @@ test('what does not cast casts no shadow, and what does not receive shows none',
   assert.ok(noBall > all, `${noBall} > ${all}`);
   assert.ok(bareFloor > noBall, `${bareFloor} > ${noBall}`);
 });
+
+test('a spot too wide for one map is judged without spot maps, unless they are named', () => {
+  const spot = JSON.parse(
+    readFileSync(new URL('../../scenes/bundled/spot.gltf', import.meta.url)));
+  const [lamp] = spot.extensions.KHR_lights_punctual.lights;
+  for (const [outer, isWide] of [[1.49, false], [1.55, true]]) {
+    lamp.spot.outerConeAngle = outer;
+    writeFileSync(join(scratch, 'wide.gltf'), JSON.stringify(spot));
+    const run = (...more) => shadowproof(['verify', 'wide.gltf', '--size', '48x48', '--json', 'wide.json', ...more]);
+    const { code, out, err } = run();
+    assert.ok(code <= 1, out + err);
+    const names = JSON.parse(readFileSync(join(scratch, 'wide.json'), 'utf8'))
+      .scenes[0].techniques.map(({ name }) => name);
+    assert.ok(names.includes('zpass') && names.includes('cube_map_six_pass'));
+    assert.equal(names.some((name) => name.startsWith('spot_map')), !isWide);
+    const note = /outerConeAngle of 1\.55 is too wide for one map: spot maps are left out/;
+    assert[isWide ? 'match' : 'doesNotMatch'](out, note);
+    const named = run('--technique', 'spot_map');
+    assert.equal(named.code === 3, isWide, named.out);
+    if (isWide) assert.match(named.out, /make its outerConeAngle at most 1\.5/);
+  }
+});

@@ -2,6 +2,7 @@
 
 #include "scenes/error.h"
 #include "scenes/load/common/default_view.h"
+#include "scenes/shadow_map.h"
 
 #include <fmt/format.h>
 
@@ -226,6 +227,13 @@ void note_range(const Document& document, const Carrier& carrier, Scene& scene) 
                         carrier.place.pointer(), range));
 }
 
+void note_wide_cone(const Carrier& carrier, const Light& light, Scene& scene) {
+    if (!fits_one_map(light))
+        scene.notes.push_back(fmt::format("{}/spot/outerConeAngle of {:g} is too wide for one map: "
+                                          "spot maps are left out",
+                                          carrier.place.pointer(), light.outer_cone));
+}
+
 } // namespace
 
 Camera choose_camera(const Document& document, const NodeGraph& graph, const SceneRequest& request,
@@ -265,6 +273,9 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
     // Where bumps are lit, those before it count, too.
     if (!lights.empty())
         for (std::size_t i = 0; i <= scene.light; ++i) note_range(document, lights[i], scene);
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (request.every_light || i == scene.light)
+            note_wide_cone(lights[i], scene.lights[i], scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
                                           described("light", scene.light, lights[scene.light])));
