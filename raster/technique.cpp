@@ -90,7 +90,7 @@ std::vector<std::string_view> shadowing_techniques() {
 
 bool suits(const Technique& technique, const Scene& scene) {
     if (technique.map != nullptr && technique.map().model.shape == MapModel::Shape::spot &&
-        !fits_one_map(chosen_light(scene)))
+        !std::ranges::all_of(added_lights(technique, scene), fits_one_map))
         return false; // the scene's notes say so
     return can_draw(technique, scene) && (!technique.filters_bumps || asks_for_mipmaps(scene));
 }

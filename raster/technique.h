@@ -64,12 +64,17 @@ inline bool is_for(const Technique& technique, Light::Kind kind) {
     return lights.empty() || std::find(lights.begin(), lights.end(), kind) != lights.end();
 }
 
-/// The first light that it is not for, of the one that is judged and, if it lights bumps, of those
-/// before it that are added up; null: it is for all.
-inline const Light* unsuited_light(const Technique& technique, const Scene& scene) {
+/// The light that is judged and, if the technique lights bumps, those before it, which are added
+/// up.
+inline std::span<const Light> added_lights(const Technique& technique, const Scene& scene) {
     const std::size_t first = technique.lighting != nullptr && is_bump_lit(scene) ? 0 : scene.light;
-    for (std::size_t i = first; i <= scene.light; ++i)
-        if (!is_for(technique, scene.lights[i].kind)) return &scene.lights[i];
+    return std::span(scene.lights).subspan(first, scene.light + 1 - first);
+}
+
+/// The first of these that it is not for; null: it is for all.
+inline const Light* unsuited_light(const Technique& technique, const Scene& scene) {
+    for (const Light& light : added_lights(technique, scene))
+        if (!is_for(technique, light.kind)) return &light;
     return nullptr;
 }
 

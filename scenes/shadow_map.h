@@ -234,8 +234,8 @@ int ramp_step(double place);
 /// step.
 double value_of_stored(const MapModel& model, double stored);
 
-/// Whether a spot's cone is narrow enough for one map, 1.5 radians to each side; of other lights
-/// true.
+/// Whether a spot's cone is narrow enough for one map, 1.5 radians to each side; true for
+/// other lights.
 bool fits_one_map(const Light& light);
 
 /// Half the side of a spot's map at depth 1; the outer cone must be narrower than a half space.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of the parameter that tells where a map ends.
+/// The name of the parameter that tells where a map ends.
 const char* range_name(bool along_axes) {
     return along_axes ? "far" : "range";
 }

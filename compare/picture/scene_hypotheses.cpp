@@ -39,9 +39,10 @@ ShownMesh shown_of(const Trial& trial, std::size_t mesh) {
     return shown;
 }
 
-/// The truth without the mesh. In its place stands what is behind it, or a background as dark as
-/// shadow; read by the mesh's colours or by what light adds to it, either may be taken for the
-/// other, and so any pixel there may be wrong.
+/// The truth without the mesh. In its place shows what is behind it, or a background, which may be
+/// as dark as shadow: it is not read as it is, by the mesh's colours or by what light adds to the
+/// mesh. So any pixel there may be wrong, and is explained; right are those alone that what is
+/// behind would be, too.
 Predict with_mesh_missing(const Trial& trial, std::size_t mesh) {
     const Scene& scene = trial.scene();
     const Predict without = truth_without(trial, [&scene, mesh] {
@@ -61,101 +62,6 @@ Predict with_mesh_missing(const Trial& trial, std::size_t mesh) {
                     behind = Visibility::shadowed;
             });
     };
-}
-
-Predict with_light_moved(const Trial& trial, const glm::dvec3& by) {
-    return truth_without(trial, [&scene = trial.scene(), by] {
-        Scene moved = scene;
-        Light& light = moved.lights[moved.light];
-        if (light.kind == Light::Kind::directional)
-            light.direction = glm::normalize(light.direction + by);
-        else
-            light.position += by;
-        return moved;
-    });
-}
-
-struct LightMove {
-    glm::dvec3 by{0, 0, 0};
-    std::int64_t score = 0;
-};
-
-std::int64_t score_of(Trial& trial, const glm::dvec3& by) {
-    return trial.fit(with_light_moved(trial, by)).score();
-}
-
-/// The unit vectors between two or three axes.
-std::vector<glm::dvec3> diagonals(const std::array<glm::dvec3, 3>& axes) {
-    std::vector<glm::dvec3> ways;
-    for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-            for (int z = -1; z <= 1; ++z)
-                if (std::abs(x) + std::abs(y) + std::abs(z) >= 2)
-                    ways.push_back(glm::normalize(double(x) * axes[0] + double(y) * axes[1] +
-                                                  double(z) * axes[2]));
-    return ways;
-}
-
-/// Steps along one axis after the other, again and again, and as far again in the direction in
-/// which they led (Hooke and Jeeves, "Direct search solution of numerical and statistical
-/// problems", 1961); where none is better, between the axes; where none is better still, steps
-/// halve.
-LightMove climbed(Trial& trial, const std::array<glm::dvec3, 3>& axes, double step, double least) {
-    constexpr int rounds = 20; // of seven predictions, and of twenty more before steps halve
-    LightMove best;
-    const auto look = [&](const glm::dvec3& by) {
-        const std::int64_t score = score_of(trial, by);
-        if (score > best.score) best = {by, score};
-    };
-    for (int round = 0; round < rounds && step >= least; ++round) {
-        const LightMove from = best;
-        for (const glm::dvec3& axis : axes) {
-            const glm::dvec3 here = best.by;
-            for (const double sign : {-1.0, 1.0}) look(here + sign * step * axis);
-        }
-        if (best.score == from.score)
-            for (const glm::dvec3& way : diagonals(axes)) look(from.by + step * way);
-        if (best.score == from.score)
-            step /= 2;
-        else
-            look(best.by + (best.by - from.by));
-    }
-    return best;
-}
-
-/// The smallest move that fits no worse, by steps that halve where none leads to a smaller one.
-LightMove contracted(Trial& trial, const std::array<glm::dvec3, 3>& axes, LightMove best,
-                     double least) {
-    for (double step = glm::length(best.by) / 2; step >= least;) {
-        const LightMove from = best;
-        for (const glm::dvec3& axis : axes)
-            for (const double sign : {-1.0, 1.0}) {
-                const glm::dvec3 by = from.by + sign * step * axis;
-                if (glm::length(by) >= glm::length(best.by)) continue;
-                const std::int64_t score = score_of(trial, by);
-                if (score >= best.score) best = {by, score};
-            }
-        if (best.by == from.by) step /= 2;
-    }
-    return best;
-}
-
-/// The middle, along its way, of a smallest move and the largest that fits as well.
-LightMove centred(Trial& trial, const LightMove& smallest) {
-    constexpr int bisections = 8;
-    double fits = 1;
-    double fails = 2;
-    while (fails < 64 && score_of(trial, fails * smallest.by) >= smallest.score) {
-        fits = fails;
-        fails *= 2;
-    }
-    for (int i = 0; i < bisections; ++i) {
-        const double middle = (fits + fails) / 2;
-        (score_of(trial, middle * smallest.by) >= smallest.score ? fits : fails) = middle;
-    }
-    const glm::dvec3 by = (1 + fits) / 2 * smallest.by;
-    const std::int64_t score = score_of(trial, by);
-    return score >= smallest.score ? LightMove{by, score} : smallest;
 }
 
 } // namespace
@@ -191,17 +97,17 @@ namespace {
 
 /// How many wrong pixels of the sample a mesh has to do with.
 struct Involved {
-    std::uint64_t seen = 0;        ///< it is what is seen
+    std::uint64_t seen = 0;        ///< that see it
     std::uint64_t falsely_lit = 0; ///< of these, lit in the picture alone
     std::uint64_t shadowed = 0; ///< lit in the picture alone, and this is in the way of the light
 };
 
 /// By mesh. Of several casters in the way of a pixel's light one counts: where each of them alone
-/// would shadow the pixel, none of them mends it by throwing no shadow.
+/// would shadow the pixel, none of them mends it by throwing no shadow. A receiver without shadows
+/// mends false light on itself alone, and a mesh that is gone what it shadows or hides.
 std::vector<Involved> involved_meshes(const Trial& trial) {
     const Scene& scene = trial.scene();
     std::vector<Involved> meshes(scene.meshes.size());
-    std::vector<glm::dvec3> lines;
     for (const Patch& patch : trial.sample())
         for_each_pixel(patch, [&](int x, int y) {
             const std::uint32_t seen = trial.truth().triangle.at(x, y);
@@ -220,7 +126,8 @@ std::vector<Involved> involved_meshes(const Trial& trial) {
 } // namespace
 
 /// Those that have to do with enough of the wrong pixels to be considered at all, so that a scene
-/// may have any number of meshes: twenty at most show enough false light, and as many shadow it.
+/// may have any number of meshes: twenty at most show enough false light, twenty shadow it, and
+/// forty do one or the other.
 void try_meshes(Trial& trial) {
     const Scene& scene = trial.scene();
     const GroundTruth& truth = trial.truth();
@@ -236,7 +143,7 @@ void try_meshes(Trial& trial) {
                     const bool own = mesh_of(scene, truth.triangle.pixels[i]) == m;
                     return own && in_cone(truth, i) ? Visibility::lit : was;
                 }));
-        if (scene.meshes.size() < 2) continue;
+        if (scene.meshes.size() < 2 || !trial.is_enough(shadowed + seen)) continue;
         const auto without_shadow = [&] {
             if (mesh.casts && trial.is_enough(shadowed))
                 trial.consider("caster_missing", number, mesh.name + " casts no shadow",
@@ -247,13 +154,14 @@ void try_meshes(Trial& trial) {
                                }));
         };
         // Where the picture shows nothing of it, a missing mesh looks like one without a shadow.
-        // Of both, where they fit as well, the one comes first of which the picture shows more.
+        // Where both fit equally well, the first wins: without a shadow if most of it looks right.
         const ShownMesh shown = shown_of(trial, m);
         const bool is_there = 2 * shown.right >= shown.pixels;
         if (is_there) without_shadow();
-        if (trial.is_enough(shadowed + seen) && shown.pixels > 0)
+        if (shown.pixels > 0)
             trial.consider("mesh_missing", number, mesh.name + " is not drawn",
-                           with_mesh_missing(trial, m));
+                           with_mesh_missing(trial, m),
+                           is_there ? Settles::never : Settles::perhaps);
         if (!is_there) without_shadow();
     }
 }
@@ -318,40 +226,6 @@ void try_one_sided(Trial& trial) {
                                return fronts ? sides.front_to_light : sides.back_to_light;
                            });
                        }));
-}
-
-/// Steps across the way to what is seen, and along it: across, shadows move; towards it they only
-/// grow. The first are a tenth of the light's distance, or of its direction where it is
-/// directional; and a hundredth, from where a small move is not taken for a larger one along the
-/// way.
-void try_moved_light(Trial& trial) {
-    const Scene& scene = trial.scene();
-    const Light& light = chosen_light(scene);
-    const Image<double>& depths = trial.truth().depth;
-    const double depth =
-        std::min(depths.at(depths.width / 2, depths.height / 2), trial.traced().far());
-    const glm::dvec3 point = point_on(scene.camera, eye_line(scene.camera), depth);
-    const bool directional = light.kind == Light::Kind::directional;
-    const glm::dvec3 way = directional ? light.direction : point - light.position;
-    if (!(glm::length(way) > 0)) return;
-    const glm::dvec3 towards = glm::normalize(way);
-    const glm::dvec3 hint = std::abs(towards.y) < 0.5 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
-    const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
-    constexpr double finest = 2e-4; // moves shadows by less than most pixels
-    LightMove best;
-    for (const double share : {0.1, 0.01}) {
-        const LightMove found =
-            climbed(trial, axes, share * glm::length(way), finest * glm::length(way));
-        if (found.score > best.score) best = found;
-    }
-    if (best.score <= 0) return;
-    // Shadows that move within an edge's band are not wrong: many moves fit as well as the best.
-    best = centred(trial, contracted(trial, axes, best, finest * glm::length(way)));
-    const glm::dvec3& by = best.by;
-    trial.consider("light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
-                   fmt::format("the light is moved by ({:.3g}, {:.3g}, {:.3g})", by.x, by.y, by.z),
-                   with_light_moved(trial, by));
 }
 
 } // namespace shadowproof

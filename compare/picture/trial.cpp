@@ -87,12 +87,13 @@ bool Trial::is_enough(std::uint64_t explained) const {
 }
 
 void Trial::consider(std::string hypothesis, Parameters parameters, std::string words,
-                     Predict predict) {
+                     Predict predict, Settles settles) {
     const Fit found = fit(predict);
     if (found.score() <= 0 || !is_enough(static_cast<std::uint64_t>(found.score()))) return;
     considered_.push_back({{std::move(hypothesis), std::move(parameters), 0, 0, std::move(words)},
                            found,
-                           std::move(predict)});
+                           std::move(predict),
+                           settles});
 }
 
 void Trial::search(const Parametric& family, double from, double to) {
@@ -148,8 +149,8 @@ const Fit& Trial::whole_fit(Considered& each) {
 
 bool Trial::is_settled() {
     return std::any_of(considered_.begin(), considered_.end(), [&](Considered& each) {
-        return each.fit.explained == sampled_wrong_ && each.fit.contradicted == 0 &&
-               whole_fit(each).contradicted == 0;
+        return each.settles == Settles::perhaps && each.fit.explained == sampled_wrong_ &&
+               each.fit.contradicted == 0 && whole_fit(each).contradicted == 0;
     });
 }
 
@@ -164,9 +165,12 @@ const Parameters* Trial::best_of(const std::string& hypothesis) const {
 
 Diagnosed Trial::best(std::size_t most) {
     const auto sort = [&] {
-        std::stable_sort(
-            considered_.begin(), considered_.end(),
-            [](const Considered& a, const Considered& b) { return a.fit.score() > b.fit.score(); });
+        std::stable_sort(considered_.begin(), considered_.end(),
+                         [](const Considered& a, const Considered& b) {
+                             if (a.fit.score() != b.fit.score())
+                                 return a.fit.score() > b.fit.score();
+                             return a.settles < b.settles; // what is predicted before what is not
+                         });
     };
     sort();
     if (considered_.size() > most) considered_.resize(most);

@@ -33,6 +33,12 @@ struct Parametric {
     Parameters also{}; ///< told beside it
 };
 
+/// Whether the search may end with a hypothesis that explains everything.
+enum class Settles : std::uint8_t {
+    perhaps,
+    never, ///< it explains what it does not predict: another one may say why
+};
+
 class Trial {
 public:
     /// Keeps references; `cause`: Comparison::cause.
@@ -58,8 +64,8 @@ public:
     bool is_enough(std::uint64_t explained) const;
     /// Adds the hypothesis if it explains enough of the sample's wrong pixels more than it
     /// contradicts.
-    void consider(std::string hypothesis, Parameters parameters, std::string words,
-                  Predict predict);
+    void consider(std::string hypothesis, Parameters parameters, std::string words, Predict predict,
+                  Settles settles = Settles::perhaps);
     /// Considers the best value of a parameter between two, which are positive. They are tried in
     /// equal ratios, then more finely around the best. Where too much is wrong by one value and
     /// nothing by the next, the right one lies in between, and is found by bisection.
@@ -78,6 +84,7 @@ private:
         Diagnosis diagnosis;
         Fit fit; ///< on the sample
         Predict predict;
+        Settles settles = Settles::perhaps;
         std::optional<Fit> whole{}; ///< on the whole picture, once it was asked
     };
 

@@ -129,7 +129,7 @@ function colorErrorRows({ color }) {
   return [
     row('within', 'linear-gradient(90deg, #000000, #fff4c8)',
         color.judged - color.beyond - color.unpredicted - (color.moved ?? 0),
-        'what the error budget explains; the lighter, the further off'),
+        'what the error budget explains; the lighter, the further off the bytes are that are shown'),
     row('beyond', causeLegend('shading').color, color.beyond,
         'what the error budget explains, as the technique’s arithmetic predicts'),
     row('moved', causeLegend('edge').color, color.moved ?? 0,

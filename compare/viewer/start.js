@@ -52,20 +52,21 @@ async function follow(results) {
 
 function sayUnreadable() {
   document.title = 'shadowproof: damaged report';
-  found('main').replaceChildren(element('h1', {}, 'This report cannot be shown'),
-    alertLine('results.js, which lies beside index.html, is missing or damaged. ' +
-              'Make the report again.'));
+  found('main').replaceChildren(element('h1', {}, 'This report cannot be shown'), alertLine(
+    typeof DecompressionStream === 'undefined'
+      ? 'This browser is too old to unpack it: use one of 2023 or later.'
+      : 'results.js, which lies beside index.html, is missing or damaged. Make the report again.'));
 }
 
 async function start() {
   setTheme(storedTheme());
   found('theme').addEventListener('click', switchTheme);
   found('help').addEventListener('click', toggleHelp);
-  document.addEventListener('keydown', handleKey);
   document.querySelector('.skip').addEventListener('click', (event) => {
     event.preventDefault();
     found('main').focus();
   });
+  found('main').replaceChildren(element('p', { class: 'quiet' }, 'Reading the results …'));
   let results;
   try {
     results = await unpackedResults();
@@ -73,6 +74,7 @@ async function start() {
     sayUnreadable();
     return;
   }
+  document.addEventListener('keydown', handleKey);
   found('version').textContent = results.version;
   addEventListener('hashchange', () => follow(results));
   follow(results);

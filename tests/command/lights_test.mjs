@@ -145,7 +145,7 @@ test('a spot too wide for one map is judged without spot maps, unless they are n
       .scenes[0].techniques.map(({ name }) => name);
     assert.ok(names.includes('zpass') && names.includes('cube_map_six_pass'));
     assert.equal(names.some((name) => name.startsWith('spot_map')), !isWide);
-    const note = /outerConeAngle of 1\.55 is too wide for one map: spot maps are left out/;
+    const note = /outerConeAngle of 1\.55 is too wide for one map, which spot maps need: they are left out unless named/;
     assert[isWide ? 'match' : 'doesNotMatch'](out, note);
     const named = run('--technique', 'spot_map');
     assert.equal(named.code === 3, isWide, named.out);

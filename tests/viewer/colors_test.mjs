@@ -83,6 +83,14 @@ const paintedIn = (page, name) => page.locator(`canvas[data-picture="${name}"]`)
   [...canvas.getContext('2d').getImageData(Math.round(canvas.width / 2) - 38,
                                            Math.round(canvas.height / 2) - 38, 1, 1).data].slice(0, 3));
 
+/** What two colours of sRGB bytes differ by in linear light, as the picture of the error has it. */
+function errorColor(right, claimed) {
+  const linear = (byte) => (byte > 10 ? ((byte / 255 + 0.055) / 1.055) ** 2.4 : byte / 255 / 12.92);
+  const steps = 255 * Math.max(...right.map((byte, i) => Math.abs(linear(byte) - linear(claimed[i]))));
+  const octaves = steps > 0.5 ? Math.log2(2 * steps) : 0;
+  return [255, 244, 200].map((full) => Math.floor(full * Math.min(45, Math.round(5 * octaves)) / 45));
+}
+
 test('a cell with colours shows them before its other pictures', async () => {
   const { page, open, said, asked } = await openReport(folder, { hash: link });
   assert.deepEqual(await panes(page), [...colorPanes, ...otherPanes]);
@@ -109,6 +117,7 @@ test('a cell without colours shows nothing new, though its scene has some', asyn
 test(`the inspector and the pictures have the bytes of the colours that are explained (seed ${seed})`, async () => {
   const random = randomNumbers(seed);
   const { page, open, said } = await openReport(folder);
+  let errors = 0;
   for (const each of cells.filter(({ cell }) => cell.color)) {
     const { id, scene, cell } = each;
     const { x, y } = cell.color.largest_at;
@@ -130,11 +139,17 @@ test(`the inspector and the pictures have the bytes of the colours that are expl
       if (isInside(column, row, scene)) {
         assert.deepEqual(await paintedIn(page, 'true_color'), right);
         assert.deepEqual(await paintedIn(page, 'claimed_color'), claimed);
+        const verdict = await text(page, '.inspector');
+        if (/In linear light: (within|more than 1\/255 off)/.test(verdict)) {
+          assert.deepEqual(await paintedIn(page, 'color_error'), errorColor(right, claimed));
+          ++errors;
+        }
         ++checked;
       }
     }
     assert.ok(checked > 1, `${id}: ${checked}`);
   }
+  assert.ok(errors > 5, `${errors}`);
   assert.deepEqual(said, []);
 });
 

@@ -170,7 +170,7 @@ double fall_off_of(const MeshLight& mesh, std::span<const LitAtAngle> angles) {
     return std::isfinite(slope) ? std::clamp(-slope, 0.0, most_fall_off) : 0;
 }
 
-/// The least light is told of what no outline is near alone.
+/// No least light where pixels may be blended with others at outlines.
 LightAt fitted_at(const MeshLight& mesh, const AngleGroup& lit, bool is_blended) {
     std::vector<double> added;
     std::vector<double> per_sine;

@@ -24,8 +24,7 @@ enum class Shown : std::uint8_t {
 ///   - else the darker of two groups into which pixels at one angle fall.
 /// and of a texture that shows in the shadows nothing is told. Light is what is brighter, angle by
 /// angle, and as it falls off with distance; certainly lit, where enough pixels are.
-/// `blended`: pixels at outlines may show others, too, and of what is lit nowhere else the least
-/// light is not told.
+/// `blended`: pixels at outlines may show others, too; what is lit nowhere else has no least light.
 std::vector<MeshLight> fitted_light(std::span<const Observed* const> pixels, Shown shown,
                                     bool blended = false);
 

@@ -33,7 +33,7 @@ struct Observed {
     /// The picture's colour. Of a pair, how it differs from the twin's, over the twin's brightness
     /// where that is more than a few steps: so surfaces of all colours are alike.
     glm::dvec3 value{0, 0, 0};
-    float step = 0; ///< what a step of the file's integers changes `value` by
+    float step = 0; ///< what a step of the file's integers changes `value` by, or what noise takes
     Lies lies{};
     float distance = 1; ///< from the light; 1 where it is directional
     /// How far a spot's light has come from its outer cone (0) to its inner one (1), evenly by the

@@ -13,7 +13,7 @@ namespace shadowproof {
 
 namespace {
 
-/// What is left of each pixel, over the unit that it is measured in; nothing where it is not asked.
+/// What is left of each pixel; nothing where it is not asked.
 template <class Rest>
 using Rests = std::vector<std::optional<Rest>>;
 
@@ -57,11 +57,12 @@ double least_beyond_noise(const Picture& picture, const Twins& twins, const Seen
     };
     const auto is_of_use = [&](std::size_t i) {
         return pixels.pixels[i] && pixels.pixels[i]->observed.faces_light &&
-               std::isfinite(glm::length(light_at(i)));
+               pixels.pixels[i]->observed.into_cone > 0 && std::isfinite(glm::length(light_at(i)));
     };
     for (std::size_t i = 0; i < pixels.pixels.size(); ++i)
         if (is_of_use(i)) lengths.push_back(glm::length(light_at(i)));
     if (lengths.empty()) return 0;
+    // Half of what nearly all have at most: where light adds little, noise may choose the twin.
     const double much = 0.5 * quantile(std::move(lengths), 0.95);
     Rests<double> rests(pixels.pixels.size());
     for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
@@ -79,19 +80,17 @@ double least_beyond_noise(const Picture& picture, const Twins& twins, const Seen
     return 2 * most_deviations(pixels) * off_middle;
 }
 
-void widen_steps_by_noise(SeenPixels& pixels) {
+double least_beyond_noise(const Picture& picture, const Picture& twin, Visibility alike,
+                          const SeenPixels& pixels) {
     Rests<glm::dvec3> rests(pixels.pixels.size());
     for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
         const std::optional<Seen>& seen = pixels.pixels[i];
-        if (!seen || seen->observed.faces_light || !(seen->observed.step > 0)) continue;
-        const glm::dvec3 rest = seen->observed.value / double{seen->observed.step};
+        if (!seen || (seen->observed.faces_light && seen->observed.certainly != alike)) continue;
+        const glm::dvec3 rest = color_at(picture, i) - color_at(twin, i);
         if (std::isfinite(glm::length(rest))) rests[i] = rest;
     }
     // Noise must not reach half of what light adds.
-    const double least = 2 * most_deviations(pixels) * deviation(pixels, rests);
-    const double factor = std::max(1.0, least / fewest_steps);
-    for (std::optional<Seen>& seen : pixels.pixels)
-        if (seen) seen->observed.step = static_cast<float>(factor * seen->observed.step);
+    return 2 * most_deviations(pixels) * deviation(pixels, rests);
 }
 
 } // namespace shadowproof

@@ -1,6 +1,7 @@
-// Noise of pictures: how much light must add at a pixel, that noise passes for light or shadow at
-// no pixel. It is measured as what neighbours on one mesh differ by, where all that is known of
-// them is taken away: light from all around is smooth.
+// Noise of pictures: how much light must add at a pixel so that noise is not taken for light or
+// shadow anywhere. It is measured as what neighbours on one mesh differ by, where all that is known
+// of them is taken away: light from all around is smooth. Noise is taken to be normal, independent
+// from pixel to pixel, and alike in light and shadow.
 #pragma once
 
 #include "compare/picture/reading/observed_colors.h"
@@ -12,8 +13,9 @@ namespace shadowproof {
 /// from the twin that the picture is nearer to, where light adds much.
 double least_beyond_noise(const Picture& picture, const Twins& twins, const SeenPixels& pixels);
 
-/// Of differences of two pictures, measured on surfaces that face away from the light. Where it is
-/// more than a file's steps, each pixel's step becomes so large that fewest_steps are beyond it.
-void widen_steps_by_noise(SeenPixels& pixels);
+/// Of two pictures: how much they must differ by. Measured where they should be alike: on surfaces
+/// that face away from the light, and on pixels that are certainly `alike`.
+double least_beyond_noise(const Picture& picture, const Picture& twin, Visibility alike,
+                          const SeenPixels& pixels);
 
 } // namespace shadowproof

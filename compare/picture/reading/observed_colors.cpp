@@ -1,5 +1,6 @@
 #include "compare/picture/reading/observed_colors.h"
 
+#include "compare/picture/reading/noise.h"
 #include "compare/picture/surface_colors.h"
 
 #include <algorithm>
@@ -62,17 +63,23 @@ double float_step(double brightness) {
     return brightness / 256;
 }
 
-void observe(const Picture& picture, const Picture* twin, double step, SeenPixels& pixels) {
+void observe(const Picture& picture, const Picture* twin, double step, Visibility alike,
+             SeenPixels& pixels) {
     constexpr double few = 8; // steps
     const double offset = srgb_offset(picture);
     std::map<std::uint32_t, double> dark;
-    if (twin != nullptr) dark = typical_brightness(pixels, *twin);
+    double noise = 0; // over fewest_steps
+    if (twin != nullptr) {
+        dark = typical_brightness(pixels, *twin);
+        noise = least_beyond_noise(picture, *twin, alike, pixels) / fewest_steps;
+    }
     for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
         if (!pixels.pixels[i]) continue;
         Observed& observed = pixels.pixels[i]->observed;
         observed.value = color_at(picture, i);
-        const double own_step =
-            picture.bits < 32 ? step : std::max(step, float_step(glm::length(observed.value)));
+        const double own_step = std::max(
+            noise,
+            picture.bits < 32 ? step : std::max(step, float_step(glm::length(observed.value))));
         observed.step = static_cast<float>(own_step);
         if (twin == nullptr) continue;
         observed.value -= color_at(*twin, i);

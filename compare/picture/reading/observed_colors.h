@@ -24,6 +24,9 @@ double float_step(double brightness);
 /// Fills in Observed::value of all pixels: the colour; with `twin`, how it differs from the twin's.
 /// Where a surface shows in the twin, the difference is measured by that, so that surfaces of all
 /// colours are alike.
-void observe(const Picture& picture, const Picture* twin, double step, SeenPixels& pixels);
+/// Observed::step is a step of the files, or as much more as noise takes: fewest_steps of it are
+/// beyond what the pictures differ by where they should be alike, as pixels certainly `alike` are.
+void observe(const Picture& picture, const Picture* twin, double step, Visibility alike,
+             SeenPixels& pixels);
 
 } // namespace shadowproof

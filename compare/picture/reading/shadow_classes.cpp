@@ -90,8 +90,7 @@ LightOf by_mask(const Picture& picture) {
 LightOf by_light(const Scene& scene, const Picture& picture, const Twins& twins, SeenPixels& pixels,
                  bool blended) {
     const Picture* const twin = twins.unlit ? &*twins.unlit : nullptr;
-    observe(picture, twin, step_of(picture, twins), pixels);
-    if (twin != nullptr) widen_steps_by_noise(pixels);
+    observe(picture, twin, step_of(picture, twins), Visibility::shadowed, pixels);
     const LightOfMeshes meshes =
         twin != nullptr ? light_of_differences(pixels) : light_of_colors(pixels, scene, blended);
     return [meshes](const Seen& seen, std::size_t /*pixel*/) {
@@ -115,8 +114,7 @@ void doubt(MeshLight& fit) {
 
 /// By what is missing in the picture, which shadows take away as a light adds it.
 LightOf by_shadows(const Picture& picture, const Twins& twins, SeenPixels& pixels) {
-    observe(*twins.unshadowed, &picture, step_of(picture, twins), pixels);
-    widen_steps_by_noise(pixels);
+    observe(*twins.unshadowed, &picture, step_of(picture, twins), Visibility::lit, pixels);
     for (std::optional<Seen>& seen : pixels.pixels)
         if (seen && seen->observed.certainly)
             seen->observed.certainly = seen->observed.certainly == Visibility::lit

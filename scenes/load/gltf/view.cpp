@@ -229,8 +229,8 @@ void note_range(const Document& document, const Carrier& carrier, Scene& scene) 
 
 void note_wide_cone(const Carrier& carrier, const Light& light, Scene& scene) {
     if (!fits_one_map(light))
-        scene.notes.push_back(fmt::format("{}/spot/outerConeAngle of {:g} is too wide for one map: "
-                                          "spot maps are left out",
+        scene.notes.push_back(fmt::format("{}/spot/outerConeAngle of {:g} is too wide for one map, "
+                                          "which spot maps need: they are left out unless named",
                                           carrier.place.pointer(), light.outer_cone));
 }
 
@@ -274,7 +274,7 @@ void choose_light(const Document& document, const NodeGraph& graph, const SceneR
     if (!lights.empty())
         for (std::size_t i = 0; i <= scene.light; ++i) note_range(document, lights[i], scene);
     for (std::size_t i = 0; i < lights.size(); ++i)
-        if (request.every_light || i == scene.light)
+        if (request.every_light || i <= scene.light)
             note_wide_cone(lights[i], scene.lights[i], scene);
     if (lights.size() > 1 && !request.every_light)
         scene.notes.push_back(fmt::format("{} lights in the file: {} is judged", lights.size(),
