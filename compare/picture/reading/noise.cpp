@@ -26,9 +26,9 @@ double length_of(const glm::dvec3& value) {
 
 /// The standard deviation of what is left, from the median of what neighbours differ by. A normal
 /// number is beyond 0.6745 deviations half of the time, and noise that is the same in all channels
-/// is such a number, however long.
+/// is such a number, however long. None where too few neighbours are asked.
 template <class Rest>
-double deviation(const SeenPixels& pixels, const Rests<Rest>& rests) {
+std::optional<double> deviation(const SeenPixels& pixels, const Rests<Rest>& rests) {
     constexpr double median_of_normal = 0.6745;
     std::vector<double> apart;
     for (int y = 0; y < pixels.height; ++y)
@@ -38,7 +38,7 @@ double deviation(const SeenPixels& pixels, const Rests<Rest>& rests) {
             if (pixels.pixels[i]->mesh == pixels.pixels[i + 1]->mesh)
                 apart.push_back(length_of(*rests[i] - *rests[i + 1]));
         }
-    if (apart.size() < enough_pixels) return 0;
+    if (apart.size() < enough_pixels) return std::nullopt;
     return median(std::move(apart)) / (median_of_normal * std::numbers::sqrt2);
 }
 
@@ -76,21 +76,34 @@ double least_beyond_noise(const Picture& picture, const Twins& twins, const Seen
     }
     // Picture less twin has the noise of two; picture less the middle of both that of one and a
     // half, which must not reach half of the light.
-    const double off_middle = std::sqrt(0.75) * deviation(pixels, rests);
+    const double off_middle = std::sqrt(0.75) * deviation(pixels, rests).value_or(0);
     return 2 * most_deviations(pixels) * off_middle;
 }
 
 double least_beyond_noise(const Picture& picture, const Picture& twin, Visibility alike,
                           const SeenPixels& pixels) {
     Rests<glm::dvec3> rests(pixels.pixels.size());
-    for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
-        const std::optional<Seen>& seen = pixels.pixels[i];
-        if (!seen || (seen->observed.faces_light && seen->observed.certainly != alike)) continue;
-        const glm::dvec3 rest = color_at(picture, i) - color_at(twin, i);
-        if (std::isfinite(glm::length(rest))) rests[i] = rest;
+    const auto deviation_where = [&](const auto& are_alike) {
+        for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+            rests[i].reset();
+            if (!pixels.pixels[i] || !are_alike(pixels.pixels[i]->observed)) continue;
+            const glm::dvec3 rest = color_at(picture, i) - color_at(twin, i);
+            if (std::isfinite(glm::length(rest))) rests[i] = rest;
+        }
+        return deviation(pixels, rests);
+    };
+    std::optional<double> noise =
+        deviation_where([](const Observed& pixel) { return !pixel.faces_light; });
+    if (!noise) {
+        noise = deviation_where([&](const Observed& pixel) { return pixel.certainly == alike; });
+        // Noise is about nothing; what is further off is light, and tells no noise.
+        std::vector<glm::dvec3> asked;
+        for (const std::optional<glm::dvec3>& rest : rests)
+            if (rest) asked.push_back(*rest);
+        if (noise && glm::length(typical(asked)->color) > *noise) noise.reset();
     }
     // Noise must not reach half of what light adds.
-    return 2 * most_deviations(pixels) * deviation(pixels, rests);
+    return 2 * most_deviations(pixels) * noise.value_or(0);
 }
 
 } // namespace shadowproof

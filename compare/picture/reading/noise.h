@@ -14,7 +14,8 @@ namespace shadowproof {
 double least_beyond_noise(const Picture& picture, const Twins& twins, const SeenPixels& pixels);
 
 /// Of two pictures: how much they must differ by. Measured where they should be alike: on surfaces
-/// that face away from the light, and on pixels that are certainly `alike`.
+/// that face away from the light or, where those are too few, on pixels that are certainly `alike`
+/// in truth, if most of them are in the pictures, too.
 double least_beyond_noise(const Picture& picture, const Picture& twin, Visibility alike,
                           const SeenPixels& pixels);
 

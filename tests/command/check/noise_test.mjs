@@ -53,7 +53,7 @@ function checked(scene, way) {
   return { ...run, cell };
 }
 
-for (const scene of ['ordinary', 'near_plane', 'overlapping'])
+for (const scene of ['ordinary', 'near_plane', 'overlapping', 'height_field'])
   for (const noise of [1, 2, 4])
     test(`a right picture of ${scene} with noise of ${noise} steps has no wrong pixel`, () => {
       const truth = rendered(scene);
