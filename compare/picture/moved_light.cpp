@@ -46,11 +46,12 @@ struct Search {
     }
 };
 
-/// So many that all of them take some seconds, and no less than two dozen steps do.
+/// Of each search: so many that it takes a second or two, but no less than two rounds of six steps
+/// at each of eight sizes need.
 int affordable_predictions(const Scene& scene) {
-    constexpr std::size_t triangles_in_all = 10'000'000;
-    constexpr std::size_t fewest = 60;
-    constexpr std::size_t most = 600;
+    constexpr std::size_t triangles_in_all = 5'000'000;
+    constexpr std::size_t fewest = 96;
+    constexpr std::size_t most = 300;
     return static_cast<int>(std::clamp(
         triangles_in_all / std::max<std::size_t>(scene.triangles.size(), 1), fewest, most));
 }
@@ -154,15 +155,17 @@ void try_moved_light(Trial& trial) {
     const glm::dvec3 across = glm::normalize(glm::cross(towards, hint));
     const std::array<glm::dvec3, 3> axes{across, glm::cross(towards, across), towards};
     constexpr double finest = 2e-4; // moves shadows by less than most pixels
-    Search search{trial, affordable_predictions(scene)};
+    const int predictions = affordable_predictions(scene);
     LightMove best;
     for (const double share : {0.1, 0.01}) {
+        Search search{trial, predictions};
         const LightMove found =
             climbed(search, axes, share * glm::length(way), finest * glm::length(way));
         if (found.score > best.score) best = found;
     }
     if (best.score <= 0) return;
     // Shadows that move within an edge's band are not wrong: many moves fit as well as the best.
+    Search search{trial, predictions};
     best = centred(search, contracted(search, axes, best, finest * glm::length(way)));
     const glm::dvec3& by = best.by;
     trial.consider("light_moved", {{"x", by.x}, {"y", by.y}, {"z", by.z}},
