@@ -1,5 +1,6 @@
 #include "compare/classify.h"
 
+#include "compare/driver/cut_surfaces.h"
 #include "compare/driver/mask_errors.h"
 #include "compare/judge/surface_check.h"
 #include "reference/parallel.h"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <glm/vec2.hpp>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -21,6 +23,7 @@ namespace {
 struct Case {
     JudgedClaim claim;
     const Judge& judge;
+    CutSurfaces cut{claim.traced.tracer(), claim.frame.depth_model, claim.traced.far()};
 
     const Tracer& tracer() const { return claim.traced.tracer(); }
 };
@@ -59,31 +62,47 @@ std::vector<Region> regions_of(std::span<const PixelPlace> places, std::span<Fin
     return regions;
 }
 
-void look_around_batch(const Case& tried, const std::vector<Region>& regions) {
-    const auto for_regions = [&](const auto& work) {
-        parallel_for(static_cast<int>(regions.size()), tried.tracer().threads(),
-                     [&](int i, int) { work(static_cast<std::size_t>(i)); });
-    };
-    std::vector<std::vector<Neighbourhood>> around(regions.size());
-    for_regions([&](std::size_t i) { around[i] = neighbourhoods(tried, regions[i]); });
-    std::vector<std::size_t> first; // of each region's rays among all
+/// The truth along all rays of neighbourhoods, to which those are added that are as true where
+/// floats move the planes that cut surfaces.
+std::vector<RayTruth> truths_around(const Case& tried, std::span<Neighbourhood> around) {
     std::vector<glm::dvec3> rays;
     std::vector<MaskReading> readings;
-    for (const std::vector<Neighbourhood>& region : around) {
-        first.push_back(rays.size());
-        for (const Neighbourhood& pixel : region) {
-            rays.insert(rays.end(), pixel.rays.begin(), pixel.rays.end());
-            readings.insert(readings.end(), pixel.readings.begin(), pixel.readings.end());
-        }
+    for (const Neighbourhood& pixel : around) {
+        rays.insert(rays.end(), pixel.rays.begin(), pixel.rays.end());
+        readings.insert(readings.end(), pixel.readings.begin(), pixel.readings.end());
     }
     const Scene& scene = tried.claim.traced.scene();
     const DepthModel& depth_model = tried.claim.frame.depth_model;
     const double far = depth_model.clips_at_far() ? tried.claim.traced.far()
                                                   : std::numeric_limits<double>::infinity();
     const DriverMaskErrors errors(scene, depth_model, drawing_of(scene, depth_model, far));
-    const std::vector<RayTruth> truths = trace_rays(tried.tracer(), rays, {readings, &errors});
+    return tried.cut.look_aside(around, trace_rays(tried.tracer(), rays, {readings, &errors}),
+                                &errors);
+}
+
+void look_around_batch(const Case& tried, const std::vector<Region>& regions) {
+    const auto for_regions = [&](const auto& work) {
+        parallel_for(static_cast<int>(regions.size()), tried.tracer().threads(),
+                     [&](int i, int) { work(static_cast<std::size_t>(i)); });
+    };
+    std::vector<std::vector<Neighbourhood>> of_regions(regions.size());
+    for_regions([&](std::size_t i) { of_regions[i] = neighbourhoods(tried, regions[i]); });
+    std::vector<Neighbourhood> around; // of all regions, one after the other
+    for (std::vector<Neighbourhood>& region : of_regions)
+        std::ranges::move(region, std::back_inserter(around));
+    const std::vector<RayTruth> truths = truths_around(tried, around);
+    std::vector<std::span<const Neighbourhood>> of_region;
+    std::vector<std::size_t> first; // of each region's rays among all
+    std::size_t pixels = 0;
+    std::size_t rays = 0;
+    for (const Region& region : regions) {
+        of_region.push_back(std::span(around).subspan(pixels, region.places.size()));
+        first.push_back(rays);
+        pixels += region.places.size();
+        for (const Neighbourhood& pixel : of_region.back()) rays += pixel.rays.size();
+    }
     for_regions([&](std::size_t i) {
-        tried.judge.look_around(regions[i], around[i], std::span(truths).subspan(first[i]));
+        tried.judge.look_around(regions[i], of_region[i], std::span(truths).subspan(first[i]));
     });
 }
 
@@ -102,9 +121,8 @@ Finding look_across(const Case& tried, PixelPlace p, const CoarseOutlines& outli
          outlines.places_across({p.x + 0.5, p.y + 0.5}, step, most_places)) {
         if (place.x < 0 || place.y < 0 || place.x > camera.width || place.y > camera.height)
             continue;
-        const Neighbourhood around = neighbourhood(camera, place, radius);
-        std::vector<RayTruth> truth;
-        for (const glm::dvec3& ray : around.rays) truth.push_back(trace_ray(tried.tracer(), ray));
+        Neighbourhood around = neighbourhood(camera, place, radius);
+        const std::vector<RayTruth> truth = truths_around(tried, std::span(&around, 1));
         const Finding found = tried.judge.look_around(p, around, truth);
         if (is_explained(tried, p, found)) return found;
     }

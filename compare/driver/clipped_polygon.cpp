@@ -42,26 +42,6 @@ Corner between(const Corner& from, const Corner& to, double t, const Drawing& dr
     return made;
 }
 
-// A corner is kept where the clip coordinates say so. Window depth's numerator z and w are off by 5
-// v of their terms each, which are those of forward and, but in reversed depth, twice the near
-// plane: their sum or difference moves the near plane by no more than forward's own error and 6 v
-// of the plane's depth. The far plane is where z and w are equal: where standard depth is, they are
-// so nearly alike everywhere that the same error moves it by (far - near) / near as much. Parallel
-// depth's numerator has a constant term, as depth up to the far plane's, which is rounded as it is
-// made and in the sums: 6 v of it are more than all, and both planes are as far off.
-double near_error(const Corner& corner, const Drawing& drawing) {
-    if (drawing.parallel_range > 0)
-        return corner.error.z + 6 * v * drawing.parallel_far * corner.at.w;
-    return corner.error.z + 6 * v * drawing.near * corner.at.w;
-}
-double far_error(const Corner& corner, const Drawing& drawing) {
-    if (drawing.parallel_range > 0) return near_error(corner, drawing);
-    const double n = drawing.standard_near;
-    if (n > 0)
-        return (corner.error.z + 6 * v * n * corner.at.w) * std::max((drawing.far - n) / n, 1.0);
-    return corner.error.z + 6 * v * drawing.far * corner.at.w;
-}
-
 // Reversed window depth is the near plane over the depth, and as far off as that. Standard depth is
 // half the quotient of numerator and depth, and the inverse depth is what is left of it to 1, over
 // the near plane: both are rounded, each by itself, so that what moves a point along its ray in
@@ -110,6 +90,26 @@ PicturePoint pictured(const Camera& camera, const Corner& corner, const Drawing&
 }
 
 } // namespace
+
+// A corner is kept where the clip coordinates say so. Window depth's numerator z and w are off by 5
+// v of their terms each, which are those of forward and, but in reversed depth, twice the near
+// plane: their sum or difference moves the near plane by no more than forward's own error and 6 v
+// of the plane's depth. The far plane is where z and w are equal: where standard depth is, they are
+// so nearly alike everywhere that the same error moves it by (far - near) / near as much. Parallel
+// depth's numerator has a constant term, as depth up to the far plane's, which is rounded as it is
+// made and in the sums: 6 v of it are more than all, and both planes are as far off.
+double near_error(const Corner& corner, const Drawing& drawing) {
+    if (drawing.parallel_range > 0)
+        return corner.error.z + 6 * v * drawing.parallel_far * corner.at.w;
+    return corner.error.z + 6 * v * drawing.near * corner.at.w;
+}
+double far_error(const Corner& corner, const Drawing& drawing) {
+    if (drawing.parallel_range > 0) return near_error(corner, drawing);
+    const double n = drawing.standard_near;
+    if (n > 0)
+        return (corner.error.z + 6 * v * n * corner.at.w) * std::max((drawing.far - n) / n, 1.0);
+    return corner.error.z + 6 * v * drawing.far * corner.at.w;
+}
 
 // A row of the transform holds a direction of the camera, and the eye's place along it as the last
 // term. What is relative to the eye, or to the light, is rounded twice before, so that 5 roundings

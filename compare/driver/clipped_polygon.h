@@ -64,6 +64,11 @@ struct ViewCorner {
 /// A homogeneous world point (p, w) after the float transform.
 ViewCorner viewed(const Camera& camera, const glm::dvec4& point, const Drawing& drawing);
 
+/// By how much the floats of a corner may move the near plane's cut, or the far plane's, in view
+/// depth (times w).
+double near_error(const ViewCorner& corner, const Drawing& drawing);
+double far_error(const ViewCorner& corner, const Drawing& drawing);
+
 /// Where the near and far planes cut. The floats that decide on which side a corner lies have
 /// errors, too.
 enum class PlaneCut : std::uint8_t {

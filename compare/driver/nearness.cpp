@@ -34,6 +34,11 @@ double nearness_of_depth(const DepthModel& model, double depth) {
     return model.parallel ? -depth : 1 / depth;
 }
 
+double furthest_nearness(const DepthModel& model) {
+    if (!model.clamp || !model.finite()) return -std::numeric_limits<double>::infinity();
+    return nearness_of_window(model, model.reversed() ? model.front : 1);
+}
+
 Image<double> nearness_read_back(const Frame& frame) {
     Image<double> nearness(frame.depth.width, frame.depth.height);
     for (std::size_t i = 0; i < nearness.pixels.size(); ++i)

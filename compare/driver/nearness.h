@@ -21,6 +21,10 @@ double nearness_of_window(const DepthModel& model, double window_depth);
 /// Of a view depth.
 double nearness_of_depth(const DepthModel& model, double depth);
 
+/// That to which clamping brings what lies past the far plane, nearer than its own; minus infinity
+/// where nothing is clamped there.
+double furthest_nearness(const DepthModel& model);
+
 /// That of what was read back, pixel by pixel: a face is behind it where its own is less. A
 /// background is behind everything.
 Image<double> nearness_read_back(const Frame& frame);

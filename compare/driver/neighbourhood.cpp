@@ -127,6 +127,15 @@ std::vector<glm::dvec3> rays_between(const Neighbourhood& around,
     return rays;
 }
 
+SeenAround seen_around(const Neighbourhood& around, std::span<const RayTruth> truth,
+                       Visibility visibility) {
+    SeenAround seen;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        if (truth[i].visibility == visibility)
+            (around.is_moved(i) ? seen.by_planes : seen.truly) = true;
+    return seen;
+}
+
 double spread(const Neighbourhood& around) {
     double largest = 0;
     for (const glm::dvec3& corner : around.corners) {

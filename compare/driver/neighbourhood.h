@@ -25,8 +25,15 @@ struct BandRadius {
 struct Neighbourhood {
     std::vector<glm::dvec3> rays; ///< the pixel's centre first, then one grid for each radius
     std::vector<MaskReading> readings{}; ///< of masks, one per ray; empty: all are exact
+    std::vector<SeenRange> moved{};      ///< the planes of the last rays (cut_surfaces.h)
     double reach = 0;                    ///< the larger radius, pixels
     std::array<glm::dvec3, 4> corners{}; ///< rays around the larger grid: bounds of what is linear
+
+    /// Whether a ray sees between planes that are not the camera's own.
+    bool is_moved(std::size_t ray) const { return ray + moved.size() >= rays.size(); }
+    SeenRange planes_of(const Camera& camera, std::size_t ray) const {
+        return is_moved(ray) ? moved[ray + moved.size() - rays.size()] : range_of(camera);
+    }
 };
 /// `centre`: a place of the picture, in pixels from its top left corner.
 Neighbourhood neighbourhood(const Camera& camera, const glm::dvec2& centre,
@@ -40,6 +47,14 @@ void read_masks_in_all_ways(Neighbourhood& around);
 /// planes, only those that pass next to the pixel's centre are used.
 std::vector<glm::dvec3> rays_between(const Neighbourhood& around,
                                      const std::vector<SightPlane>& planes);
+
+/// Whether some ray has a visibility: along it, or where floats move the planes that cut surfaces.
+struct SeenAround {
+    bool truly = false;
+    bool by_planes = false;
+};
+SeenAround seen_around(const Neighbourhood& around, std::span<const RayTruth> truth,
+                       Visibility visibility);
 
 /// Largest difference of a ray's component from the centre's.
 double spread(const Neighbourhood& around);

@@ -351,6 +351,17 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
     return largest_error(scene.camera, set_up(scene, triangle, pixel), pixel);
 }
 
+// It is set up as the key is, of its own values at the corners.
+double inverse_w_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
+    for (PictureTriangle& part : fan)
+        for (PicturePoint& point : part) {
+            point.key = point.inverse_w;
+            point.depth_error = point.w_error;
+        }
+    return largest_error(scene.camera, fan, pixel);
+}
+
 double setup_error(const PictureTriangle& triangle, const glm::dvec2& place, double reach) {
     return error_of(triangle, place, reach);
 }

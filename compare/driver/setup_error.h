@@ -30,6 +30,9 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 double setup_error(const Scene& casters, const std::vector<glm::vec3>* far_ends,
                    const Crossing& face, const CoveredPixel& pixel);
 
+/// The same of the inverse of w that a triangle's fragment has at a pixel, in perspective.
+double inverse_w_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel);
+
 /// The same for a triangle of the picture, whose `key` may be any value that is linear over it, at
 /// a place that it may cover when it is drawn `reach` pixels aside.
 double setup_error(const std::array<PicturePoint, 3>& triangle, const glm::dvec2& place,

@@ -25,7 +25,7 @@ std::vector<BandRadius> ClassJudge::radii(std::span<const PixelPlace> places) co
     return radii;
 }
 
-void ClassJudge::look_around(const Region& region, const std::vector<Neighbourhood>& around,
+void ClassJudge::look_around(const Region& region, std::span<const Neighbourhood> around,
                              std::span<const RayTruth> truths) const {
     for (std::size_t i = 0; i < region.places.size(); ++i) {
         const std::span<const RayTruth> truth = truths.first(around[i].rays.size());

@@ -12,7 +12,7 @@ public:
 
     bool settles(PixelPlace p, std::optional<PixelCause>& cause) const override;
     std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override;
-    void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+    void look_around(const Region& region, std::span<const Neighbourhood> around,
                      std::span<const RayTruth> truths) const override;
     Finding look_around(PixelPlace p, const Neighbourhood& around,
                         std::span<const RayTruth> truth) const override;

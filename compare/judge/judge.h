@@ -87,7 +87,7 @@ public:
 
     /// Name: what may be drawn at the region's pixels within their neighbourhoods, one per place.
     /// `truths`: along the rays of all neighbourhoods, one pixel after the other.
-    virtual void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+    virtual void look_around(const Region& region, std::span<const Neighbourhood> around,
                              std::span<const RayTruth> truths) const = 0;
     /// The same of one pixel, where the neighbourhood is some other place's.
     virtual Finding look_around(PixelPlace p, const Neighbourhood& around,

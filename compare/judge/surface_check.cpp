@@ -1,5 +1,8 @@
 #include "compare/judge/surface_check.h"
 
+#include "compare/driver/cut_surfaces.h"
+
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -53,15 +56,40 @@ bool may_be_drawn(const Tracer& tracer, std::uint32_t triangle, double error) {
 
 namespace {
 
-/// Surfaces are clipped at the near and far plane, whether or not volumes are.
-bool is_within_planes(const Camera& camera, const PlaneAtPixel& plane) {
-    const bool is_parallel = camera.is_orthographic();
-    const double most = is_parallel ? camera.far : 1 / camera.near;
-    const double least = is_parallel ? camera.near : 1 / camera.far; // 0 where that is infinite
-    const double key = plane.key();
-    if (key <= most && key >= least) return true;
-    const double error = plane.error();
-    return key - error <= most && key + error >= least;
+/// The keys between which what is drawn of a triangle lies at a pixel: surfaces are cut at the near
+/// and the far plane, whether or not volumes are, but for floats and for being drawn aside.
+struct KeyRange {
+    double least = 0;
+    double most = 0;
+
+    bool holds(double key) const { return key >= least && key <= most; }
+};
+KeyRange drawn_keys(const DepthPicture& picture, std::uint32_t triangle, const PlaneAtPixel& at,
+                    const ClipErrors& errors) {
+    const Camera& camera = picture.scene.camera;
+    const DepthModel& model = picture.model;
+    const double aside = at.error_of_place();
+    const bool by_fragments = model.clamp || !model.clips_at_far();
+    const double of_fragment = by_fragments ? fragment_error(picture, triangle, at) : 0;
+    const double of_near = aside + (model.clamp ? of_fragment : 0);
+    const double of_far = aside + (model.clips_at_far() ? 0 : of_fragment);
+    const double near = camera.near - errors.near;
+    const double far = camera.far + errors.far;
+    if (camera.is_orthographic()) return {near - of_near, far + of_far};
+    return {1 / far - of_far, 1 / std::max(near, 0.0) + of_near};
+}
+
+/// The picture with the planes where the clipper's floats may put them.
+DepthPicture with_planes_moved(DepthPicture picture, const ClipErrors& errors) {
+    picture.drawing.near -= errors.near;
+    picture.drawing.far += errors.far;
+    picture.far += errors.far;
+    return picture;
+}
+
+bool is_within_planes(const Camera& camera, double key) {
+    const double depth = camera.is_orthographic() ? key : 1 / key;
+    return depth >= camera.near && depth <= camera.far;
 }
 
 } // namespace
@@ -92,8 +120,11 @@ bool SurfaceCheck::holds(int x, int y) const {
     const PlaneAtPixel plane(picture_, triangle, x, y);
     if (!sides_of(tracer_, triangle).visible && !may_be_drawn(tracer_, triangle, plane.spread()))
         return false;
-    return !plane.has_depth() ||
-           (is_within_planes(tracer_.scene().camera, plane) && plane.is_depth(depth));
+    if (!plane.has_depth()) return true;
+    if (is_within_planes(tracer_.scene().camera, plane.key()) && plane.is_depth(depth)) return true;
+    const ClipErrors errors = clip_errors(tracer_.scene(), triangle, picture_.drawing);
+    return drawn_keys(picture_, triangle, plane, errors).holds(plane.key()) &&
+           PlaneAtPixel(with_planes_moved(picture_, errors), triangle, x, y).is_depth(depth);
 }
 
 } // namespace shadowproof

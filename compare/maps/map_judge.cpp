@@ -48,7 +48,7 @@ public:
         return radii;
     }
 
-    void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+    void look_around(const Region& region, std::span<const Neighbourhood> around,
                      std::span<const RayTruth> truths) const override {
         for (std::size_t i = 0; i < region.places.size(); ++i) {
             const std::span<const RayTruth> truth = truths.first(around[i].rays.size());
@@ -64,10 +64,11 @@ public:
         Finding finding;
         finding.evidence_in_band = may_claim(p, around, truth, by_map);
         if (!claim_.differs(p)) return finding;
-        const bool is_edge = std::any_of(truth.begin(), truth.end(),
-                                         [&](const RayTruth& t) { return t.visibility == claim; });
-        if (is_edge)
+        const SeenAround seen = seen_around(around, truth, claim);
+        if (seen.truly)
             finding.cause = {Cause::edge, {}};
+        else if (seen.by_planes)
+            finding.cause = {Cause::precision, {}};
         else if (finding.evidence_in_band)
             finding.cause = by_map;
         return finding;
@@ -209,7 +210,7 @@ private:
         };
         if (drawn == no_triangle) {
             if (claim != Visibility::background) return false;
-            if (seen(no_triangle) || gapes(around, truth) || may_be_clipped(p, truth)) return true;
+            if (seen(no_triangle) || gapes(around, truth)) return true;
             cause = {Cause::precision, {}};
             return are_displaced(p, around, truth);
         }
@@ -226,22 +227,6 @@ private:
         if (!cone.inside) return false;
         if (!centres_.receives(drawn)) return claim == Visibility::lit;
         return map_may_answer(p, drawn, claim, cause);
-    }
-
-    /// Whether all that the pixel's surroundings see lies in the near or the far plane of a
-    /// projection that clips there, as far as depths tell. In perspective the pixels' depths are
-    /// compared with the planes instead.
-    bool may_be_clipped(PixelPlace p, std::span<const RayTruth> truth) const {
-        if (!claim_.frame.depth_model.parallel) return false;
-        const Scene& scene = claim_.traced.scene();
-        const DepthPicture picture =
-            depth_picture(scene, claim_.frame.depth_model, drawing(), claim_.traced.far());
-        return std::ranges::all_of(truth, [&](const RayTruth& t) {
-            const PlaneAtPixel plane(picture, t.triangle, p.x, p.y);
-            const double error = plane.error();
-            return !plane.has_depth() || std::abs(plane.key() - scene.camera.near) <= error ||
-                   std::abs(plane.key() - claim_.traced.far()) <= error;
-        });
     }
 
     /// Whether the clipper's errors may displace all that the pixel's surroundings see.

@@ -28,21 +28,22 @@ PixelBand find_band(const Tracer& tracer, const PixelVolumes& volumes, const Fra
     PixelBand band;
     bool found = false;
     Sample sample;
-    const auto look_along = [&](std::span<const glm::dvec3> rays,
-                                std::span<const RayTruth> truth_there) {
-        for (std::size_t i = 0; i < rays.size() && !found; ++i) {
+    // Whether the surface is seen along the ray of that number.
+    const auto look_along = [&](std::size_t rays, const std::function<bool(std::size_t)>& take) {
+        for (std::size_t i = 0; i < rays && !found; ++i) {
             std::vector<Reading> readings;
-            if (pixel.take(rays[i], truth_there[i], sample)) add_sample(pixel, sample, readings);
+            if (take(i)) add_sample(pixel, sample, readings);
             found = std::any_of(readings.begin(), readings.end(), matches);
             band.readings.insert(band.readings.end(), readings.begin(), readings.end());
         }
     };
-    look_along(around.rays, truth);
+    look_along(around.rays.size(), [&](std::size_t i) { return pixel.take(i, truth, sample); });
     if (!found && around.rays.size() > 1) {
         const std::vector<glm::dvec3> rays = rays_between_outlines(volumes, frame, around);
-        std::vector<RayTruth> truth_there;
-        for (const glm::dvec3& ray : rays) truth_there.push_back(trace_ray(tracer, ray));
-        look_along(rays, truth_there);
+        look_along(rays.size(), [&](std::size_t i) {
+            return pixel.take(rays[i], trace_ray(tracer, rays[i]), tracer.scene().camera.near,
+                              sample);
+        });
         if (!found) {
             if (pixel.counting().operation == Counting::Operation::saturate)
                 add_mixed_samples(pixel, truth, band.readings);

@@ -15,7 +15,7 @@ void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
     Sample sample; // in the end the last one that shows the surface
     bool is_first = true;
     for (std::size_t i = 0; i < pixel.around().rays.size(); ++i) {
-        if (!pixel.take(pixel.around().rays[i], truth[i], sample)) continue;
+        if (!pixel.take(i, truth, sample)) continue;
         merge(faces_of_sample(pixel, sample), is_first, faces);
         is_first = false;
     }
@@ -24,8 +24,12 @@ void add_in_gap(const PixelFaces& pixel, std::span<const RayTruth> truth,
     for (const std::int32_t start : pixel.starts())
         for (const std::int64_t count :
              possible_counts(possible, start, pixel.dark_caps(sample), pixel.counting()))
-            readings.push_back(
-                {count, sample.ideal, truth[0].in_cone, true, false, sample.line, sample.depth});
+            readings.push_back({.count = count,
+                                .ideal = sample.ideal,
+                                .in_cone = truth[0].in_cone,
+                                .by_rounding = true,
+                                .line = sample.line,
+                                .depth = sample.depth});
 }
 
 } // namespace shadowproof

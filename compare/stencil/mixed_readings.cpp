@@ -46,7 +46,7 @@ void add_mixed_samples(const PixelFaces& pixel, std::span<const RayTruth> truth,
     Sample sample; // in the end the last one that shows the surface
     bool is_first = true;
     for (std::size_t i = 0; i < pixel.around().rays.size(); ++i) {
-        if (!pixel.take(pixel.around().rays[i], truth[i], sample)) continue;
+        if (!pixel.take(i, truth, sample)) continue;
         const SharedFaces here = faces_of_sample(pixel, sample);
         add_sums(pixel, sample, here, sums);
         merge(here, is_first, faces);
@@ -56,8 +56,12 @@ void add_mixed_samples(const PixelFaces& pixel, std::span<const RayTruth> truth,
     for (const Sum& sum : sums)
         for (const std::int64_t count :
              possible_counts_of_sum(possible, sum.start, sum.dark_caps, pixel.counting(), sum.sum))
-            readings.push_back({count, sum.ideal, sum.in_cone, false, false, sample.line,
-                                sample.depth, sum.off_ray});
+            readings.push_back({.count = count,
+                                .ideal = sum.ideal,
+                                .in_cone = sum.in_cone,
+                                .line = sample.line,
+                                .depth = sample.depth,
+                                .off_ray = sum.off_ray});
 }
 
 } // namespace shadowproof

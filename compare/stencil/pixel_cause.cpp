@@ -99,9 +99,9 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
                          const Neighbourhood& around, std::span<const RayTruth> truth) {
     const Visibility claim = judged.frame.claim.at(p.x, p.y);
     if (const std::optional<PixelCause> cause = cause_at_centre(judged, p)) return *cause;
-    if (std::any_of(truth.begin(), truth.end(),
-                    [&](const RayTruth& t) { return t.visibility == claim; }))
-        return {Cause::edge, {}};
+    const SeenAround seen_so = seen_around(around, truth, claim);
+    if (seen_so.truly) return {Cause::edge, {}};
+    if (seen_so.by_planes) return {Cause::precision, {}};
 
     const std::uint32_t shown = judged.frame.triangle.at(p.x, p.y);
     const auto seen = std::find_if(truth.begin(), truth.end(),
@@ -128,9 +128,11 @@ PixelCause cause_in_band(const CountedClaim& judged, PixelPlace p, const PixelBa
             seen != truth.end() ? seen->visibility : claim_by(reading.ideal);
         if (!algorithmic)
             algorithmic = cause_of_reading(judged, reading, shown, around, truth_of_shown);
+        // What is seen only as the planes are rounded has no claim without that.
         if (!algorithmic && reading.by_rounding &&
-            claim_by(judged.prediction.count_without(
-                {}, {reading.line, reading.depth, shown, around.corners})) == truth_of_shown) {
+            (reading.by_planes ||
+             claim_by(judged.prediction.count_without(
+                 {}, {reading.line, reading.depth, shown, around.corners})) == truth_of_shown)) {
             mended_exactly = true;
             mended_by_depth = mended_by_depth && reading.by_depth;
         }

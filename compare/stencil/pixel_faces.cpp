@@ -36,12 +36,24 @@ PixelFaces::PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const 
     starts_ = possible_starts();
 }
 
-bool PixelFaces::take(const glm::dvec3& line, const RayTruth& truth, Sample& sample) const {
+bool PixelFaces::take(std::size_t ray, std::span<const RayTruth> truth, Sample& sample) const {
+    const bool is_moved = around_.is_moved(ray);
+    if (is_moved && truth[ray].triangle != shown_) return false; // which it is there to show
+    if (!take(around_.rays[ray], truth[ray], around_.planes_of(scene_.camera, ray).near, sample))
+        return false;
+    sample.by_planes = sample.by_planes || is_moved;
+    sample.moved = sample.moved || sample.by_planes;
+    return true;
+}
+
+bool PixelFaces::take(const glm::dvec3& line, const RayTruth& truth, double near,
+                      Sample& sample) const {
     bool moved = false;
     const std::optional<double> depth = shown_depth(truth, line, moved);
     if (!depth) return false;
     sample.line = line;
     sample.depth = *depth;
+    sample.near = near;
     sample.in_cone = truth.in_cone;
     sample.ideal = ideal_depth(sample, sample.crossings);
     // The light reaches the point, exactly: no light-facing triangle lies between both. Where the
@@ -50,7 +62,9 @@ bool PixelFaces::take(const glm::dvec3& line, const RayTruth& truth, Sample& sam
     const bool has_holes_filled = volumes_.casters.triangles.size() > scene_.triangles.size();
     const bool misordered = !has_holes_filled && truth.triangle == shown_ &&
                             truth.visibility == Visibility::lit && sample.ideal != 0;
-    sample.moved = moved || misordered;
+    sample.by_planes = shown_ != no_triangle && truth.triangle != shown_ &&
+                       (*depth < near || *depth > scene_.camera.far);
+    sample.moved = moved || misordered || sample.by_planes;
     volumes_.counted.crossings(line, sample.crossings);
     return true;
 }
@@ -139,8 +153,13 @@ bool PixelFaces::is_never_in_front(const Crossing& crossing) const {
     if (crossing.depth >= depths_.clip_depth(far_, -1)) return false;
     if (frame_.depth_model.clamp && crossing.depth <= depths_.clip_depth(scene_.camera.near, 1))
         return false; // which is not drawn as a surface either
-    // A triangle that fills a hole is not drawn as a surface; nor is one in the holes of its mask.
-    return crossing.triangle < scene_.triangles.size() && !has_mask(scene_, crossing.triangle) &&
+    return is_drawn_as_surface(crossing);
+}
+
+/// A triangle that fills a hole is not drawn as a surface; nor is one in the holes of its mask.
+bool PixelFaces::is_drawn_as_surface(const Crossing& crossing) const {
+    return crossing.part == Crossing::Part::light_cap &&
+           crossing.triangle < scene_.triangles.size() && !has_mask(scene_, crossing.triangle) &&
            sides_of(tracer_, crossing.triangle).visible;
 }
 
@@ -163,7 +182,7 @@ std::int64_t PixelFaces::ideal_depth(const Sample& sample, std::vector<Crossing>
     std::int64_t s = volumes_.ideal_at_eye;
     if (volumes_.masked != nullptr) s -= volumes_.masked->ideal_let_through(sample.line, shown_);
     for (const Crossing& crossing : crossings) {
-        const bool before_near = crossing.depth < scene_.camera.near;
+        const bool before_near = crossing.depth < sample.near;
         if (is_nominally_in_front(crossing, sample) &&
             (before_near || !is_never_in_front(crossing)))
             s += crossing.change;
@@ -224,7 +243,9 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample,
         const bool pass = caster.test == Counting::Test::depth_pass;
         if (crossing.part == Crossing::Part::light_cap && !caster.light_cap) continue;
         if (crossing.part == Crossing::Part::dark_cap && !caster.dark_cap) continue;
-        if (!frame_.depth_model.clamp && crossing.depth < clip.near) continue;
+        // A surface's own cap is cut where the surface is.
+        const double near = is_drawn_as_surface(crossing) ? sample.near : clip.near;
+        if (!frame_.depth_model.clamp && crossing.depth < near) continue;
         if (!pass && crossing.depth >= clip.furthest_far) continue;
         const bool is_cut = !pass && crossing.depth >= clip.far;
         const bool maybe_cut = !pass && crossing.depth >= clip.nearest_far;
@@ -242,6 +263,22 @@ std::vector<CandidateFace> PixelFaces::candidates(const Sample& sample,
         found.push_back({crossing, in_front == pass && !is_cut, certain});
     }
     return found;
+}
+
+// In front of a surface that is shown a cap stands only where its own surface does not.
+std::int64_t PixelFaces::cut_with_surfaces(const Sample& sample) const {
+    const double near = scene_.camera.near;
+    std::int64_t sum = 0;
+    if (sample.near == near) return sum;
+    for (const Crossing& crossing : sample.crossings) {
+        const Counting::Caster caster = counting().caster(crossing.triangle);
+        if (caster.test != Counting::Test::depth_pass || !caster.light_cap ||
+            !is_drawn_as_surface(crossing))
+            continue;
+        const bool is_cut = crossing.depth < sample.near;
+        if (is_cut != (crossing.depth < near)) sum += is_cut ? -crossing.change : crossing.change;
+    }
+    return sum;
 }
 
 std::int64_t PixelFaces::dark_caps(const Sample& sample) const {

@@ -37,8 +37,10 @@ struct PixelVolumes {
 struct Sample {
     glm::dvec3 line{0, 0, 0};
     double depth = 0;       ///< view depth of the shown surface
+    double near = 0;        ///< the plane before which surfaces are not seen
     bool in_cone = true;    ///< as Reading::in_cone
     bool moved = false;     ///< only depths that are rounded show it, or order its faces so
+    bool by_planes = false; ///< only planes that are rounded show it
     std::int64_t ideal = 0; ///< its shadow depth in the casters' own volumes,
                             ///< without what masks let through
     std::vector<Crossing> crossings{}; ///< of the counted volumes along the ray
@@ -75,14 +77,19 @@ public:
                std::uint32_t shown, const Neighbourhood& around, std::span<const RayTruth> truth);
 
     /// Whether the shown surface may be seen where the pixel is covered as the ray is. If so, fills
-    /// `sample`.
-    bool take(const glm::dvec3& line, const RayTruth& truth, Sample& sample) const;
+    /// `sample`. `near`: where the near plane cuts surfaces on it.
+    bool take(const glm::dvec3& line, const RayTruth& truth, double near, Sample& sample) const;
+    /// The same of a ray of the neighbourhood.
+    bool take(std::size_t ray, std::span<const RayTruth> truth, Sample& sample) const;
 
     /// Where the clipping planes may lie: their own depths, both nearer, both further.
     std::array<ClipDepths, 3> clip_depths() const;
     /// The sample's faces that are drawn, neither clipped nor on the wrong side of the surface for
     /// certain.
     std::vector<CandidateFace> candidates(const Sample& sample, const ClipDepths& clip) const;
+    /// What the light caps add that the near plane cuts with their surfaces on the sample alone, or
+    /// leaves.
+    std::int64_t cut_with_surfaces(const Sample& sample) const;
     /// What the dark caps at infinity add to the count.
     std::int64_t dark_caps(const Sample& sample) const;
     /// Shadow depth where the sample's ray meets the near plane.
@@ -128,6 +135,7 @@ private:
                                       bool& moved) const;
     bool may_lie_in(const FlatVolume& flat, const Sample& sample) const;
     bool is_never_in_front(const Crossing& crossing) const;
+    bool is_drawn_as_surface(const Crossing& crossing) const;
     std::int64_t ideal_depth(const Sample& sample, std::vector<Crossing>& crossings) const;
     bool is_nominally_in_front(const Crossing& crossing, const Sample& sample) const;
     std::int32_t depth_at_near(const std::vector<Crossing>& crossings, int move) const;

@@ -108,7 +108,8 @@ private:
     bool any_sample(const Predicate& holds) const {
         Sample sample;
         for (std::size_t i = 0; i < rays_.size(); ++i)
-            if (pixel_.take(rays_[i], truth_[i], sample) && holds(sample)) return true;
+            if (pixel_.take(rays_[i], truth_[i], scene().camera.near, sample) && holds(sample))
+                return true;
         return false;
     }
 

@@ -13,6 +13,7 @@ struct Reading {
     bool in_cone = true;      ///< the point is in the light's cone, if it is a spot
     bool by_rounding = false; ///< only if depths are rounded so, or slivers snapped
     bool by_depth = false;    ///< only if depths of faces are rounded so
+    bool by_planes = false;   ///< only where the planes that cut surfaces are
     /// The ray whose faces were counted, and the view depth of the surface shown there.
     glm::dvec3 line{0, 0, 0};
     double depth = 0;

@@ -40,21 +40,30 @@ void add_clipped(const PixelFaces& pixel, const Sample& sample, const ClipDepths
         start_of(counting, pixel.volumes().counted_at_eye, pixel.depth_at_near(sample));
     // A reading off the nominal one by faces in front or behind moves the ideal one with it.
     const CountOfSum nominal = nominal_count(faces, start, last, counting);
-    std::int64_t by_near = 0;
+    std::int64_t by_near = pixel.cut_with_surfaces(sample);
     std::int64_t by_far = 0;
     if (clip.moved) {
         ClipDepths far_unmoved = pixel.clip_depths().front();
         const std::int64_t unmoved = sum_with(pixel, sample, far_unmoved);
         far_unmoved.near = clip.near;
-        by_near = sum_with(pixel, sample, far_unmoved) - unmoved;
-        by_far = nominal.sum - start - last - unmoved - by_near;
+        const std::int64_t moved_near = sum_with(pixel, sample, far_unmoved) - unmoved;
+        by_near += moved_near;
+        by_far = nominal.sum - start - last - unmoved - moved_near;
     }
     const auto add = [&](const CountOfSum& found) {
         const std::int64_t off = found.sum - nominal.sum;
         const bool by_depth = clip.moved || found != nominal;
-        readings.push_back({found.count, sample.ideal + off, sample.in_cone,
-                            sample.moved || by_depth, by_depth, sample.line, sample.depth, off,
-                            by_near, by_far});
+        readings.push_back({.count = found.count,
+                            .ideal = sample.ideal + off,
+                            .in_cone = sample.in_cone,
+                            .by_rounding = sample.moved || by_depth,
+                            .by_depth = by_depth,
+                            .by_planes = sample.by_planes,
+                            .line = sample.line,
+                            .depth = sample.depth,
+                            .off_ray = off,
+                            .by_near = by_near,
+                            .by_far = by_far});
     };
     if (!clip.moved) add(nominal);
     for (const std::int32_t other : pixel.starts())

@@ -40,7 +40,7 @@ BandRadius band_radius(const CountedClaim& judged, PixelPlace p, const glm::dvec
 
 /// The rays of a region's pixels and of all places to which they may be moved.
 std::array<glm::dvec3, 4> corners_around(const Camera& camera, const Region& region,
-                                         const std::vector<Neighbourhood>& around) {
+                                         std::span<const Neighbourhood> around) {
     const int left = region.places.front().x / region_side * region_side;
     const int top = region.places.front().y / region_side * region_side;
     double reach = 0;
@@ -107,7 +107,7 @@ public:
         return radii;
     }
 
-    void look_around(const Region& region, const std::vector<Neighbourhood>& around,
+    void look_around(const Region& region, std::span<const Neighbourhood> around,
                      std::span<const RayTruth> truths) const override {
         const std::array<glm::dvec3, 4> corners =
             corners_around(claim_.traced.scene().camera, region, around);

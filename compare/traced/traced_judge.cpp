@@ -44,7 +44,7 @@ public:
     std::vector<BandRadius> radii(std::span<const PixelPlace> places) const override {
         return std::vector<BandRadius>(places.size());
     }
-    void look_around(const Region& region, const std::vector<Neighbourhood>& /*around*/,
+    void look_around(const Region& region, std::span<const Neighbourhood> /*around*/,
                      std::span<const RayTruth> /*truths*/) const override {
         for (Finding& finding : region.findings) finding = {};
     }

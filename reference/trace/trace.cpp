@@ -181,25 +181,30 @@ void for_packets(const Tracer::State& state, std::size_t rays, const Line& line,
 
 /// `first`: the packet's first ray in the list.
 void see_with(Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first,
-              const MaskLeeway& leeway, SeenLanes& seen) {
-    if (leeway.readings.empty()) return prober.see(packet, lanes, seen);
+              const SeenRange& range, const MaskLeeway& leeway, SeenLanes& seen) {
+    if (leeway.readings.empty()) return prober.see(packet, lanes, range, nullptr, seen);
     PacketMasks masks{.errors = leeway.errors};
     for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
         masks.readings[lane] = leeway.readings[first + lane];
-    prober.see(packet, lanes, masks, seen);
+    prober.see(packet, lanes, range, &masks, seen);
 }
 
 } // namespace
 
 std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                  const MaskLeeway& leeway) {
+    return trace_rays(tracer, lines, leeway, range_of(tracer.scene().camera));
+}
+
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
+                                 const MaskLeeway& leeway, const SeenRange& range) {
     std::vector<RayTruth> truths(lines.size());
     for_packets(
         tracer.state(), lines.size(), [&](std::size_t i) { return lines[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
             LitLanes lighting;
-            see_with(prober, packet, lanes, first, leeway, seen);
+            see_with(prober, packet, lanes, first, range, leeway, seen);
             prober.light(packet, lanes, seen, lighting);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
                 truths[first + lane] = {lighting.visibility[lane], seen.triangle[lane],
@@ -223,12 +228,13 @@ std::uint32_t occluder_of(const Tracer& tracer, const glm::dvec3& line) {
 
 std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                   const MaskLeeway& leeway) {
+    const SeenRange range = range_of(tracer.scene().camera);
     std::vector<SeenSurface> surfaces(lines.size());
     for_packets(
         tracer.state(), lines.size(), [&](std::size_t i) { return lines[i]; },
         [&](Prober& prober, const Vectors& packet, std::uint32_t lanes, std::size_t first) {
             SeenLanes seen;
-            see_with(prober, packet, lanes, first, leeway, seen);
+            see_with(prober, packet, lanes, first, range, leeway, seen);
             for (std::size_t lane = 0; (lanes >> lane & 1U) != 0; ++lane)
                 surfaces[first + lane] = {seen.triangle[lane], seen.depth[lane]};
         });

@@ -95,9 +95,20 @@ struct MaskLeeway {
     const MaskErrors* errors = nullptr;
 };
 
+/// View depths between which surfaces are seen.
+struct SeenRange {
+    double near = 0;
+    double far = std::numeric_limits<double>::infinity();
+    bool operator==(const SeenRange&) const = default;
+};
+SeenRange range_of(const Camera& camera);
+
 /// The truth along many lines of sight, on all threads.
 std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                  const MaskLeeway& leeway = {});
+/// The same between other planes than the camera's.
+std::vector<RayTruth> trace_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
+                                 const MaskLeeway& leeway, const SeenRange& range);
 
 /// The lowest-numbered triangle between what a ray sees and the light; no_triangle where there is
 /// none, or nothing is seen, or its side that is seen is turned away from the light.
@@ -111,13 +122,6 @@ struct SeenSurface {
 };
 std::vector<SeenSurface> see_rays(const Tracer& tracer, std::span<const glm::dvec3> lines,
                                   const MaskLeeway& leeway = {});
-/// View depths between which surfaces are seen.
-struct SeenRange {
-    double near = 0;
-    double far = std::numeric_limits<double>::infinity();
-    bool operator==(const SeenRange&) const = default;
-};
-SeenRange range_of(const Camera& camera);
 
 /// The triangles that so many lines of sight meet first, of which nothing is kept: `line` gives
 /// each by its index, `found` takes what is seen along it, both on all threads.

@@ -47,15 +47,15 @@ PacketRays Prober::packet_rays(const Vectors& lines) const {
             .leeway = leeway_};
 }
 
-void Prober::see(const Vectors& lines, std::uint32_t lanes, const PacketMasks& masks,
-                 SeenLanes& seen) {
-    leeway_ = &masks;
-    see(lines, lanes, seen);
-    leeway_ = nullptr;
+void Prober::see(const Vectors& lines, std::uint32_t lanes, SeenLanes& seen) {
+    see(lines, lanes, own_range_, nullptr, seen);
 }
 
-void Prober::see(const Vectors& lines, std::uint32_t lanes, SeenLanes& seen) {
-    see_triangle(lines, lanes, own_range_, seen);
+void Prober::see(const Vectors& lines, std::uint32_t lanes, const SeenRange& range,
+                 const PacketMasks* masks, SeenLanes& seen) {
+    leeway_ = masks;
+    see_triangle(lines, lanes, range, seen);
+    leeway_ = nullptr;
     const std::uint32_t met =
         lanes_where(lanes, [&](std::size_t l) { return seen.triangle[l] != no_triangle; });
     for_lanes(lanes & ~met, [&](std::size_t l) {

@@ -41,8 +41,10 @@ public:
 
     /// The nearest triangle within [near, far] along each line of sight (camera.h), and its depth.
     void see(const Vectors& lines, std::uint32_t lanes, SeenLanes& seen);
-    /// The same as another program may read the masks on the way.
-    void see(const Vectors& lines, std::uint32_t lanes, const PacketMasks& masks, SeenLanes& seen);
+    /// The same within any range and, unless `masks` is null, as another program may read the masks
+    /// on the way.
+    void see(const Vectors& lines, std::uint32_t lanes, const SeenRange& range,
+             const PacketMasks* masks, SeenLanes& seen);
     /// The triangle alone, within any range.
     void see_triangle(const Vectors& lines, std::uint32_t lanes, const SeenRange& range,
                       SeenLanes& seen);

@@ -22,7 +22,8 @@ public:
         : frame_(picture.frame), depths_(depths), counts_(counts),
           width_(picture.casters.camera.width), height_(picture.casters.camera.height),
           fragments_(static_cast<std::size_t>(height_)),
-          roundings_(window_roundings(frame_.depth_model)) {}
+          roundings_(window_roundings(frame_.depth_model)),
+          furthest_(furthest_nearness(frame_.depth_model)) {}
 
     int bands() const { return (height_ + band_height - 1) / band_height; }
 
@@ -60,6 +61,7 @@ private:
     int height_;
     std::vector<FigureRange> fragments_; ///< of each row
     WindowRoundings roundings_;
+    double furthest_; ///< to which faces are clamped
 
     static PixelRun common(const PixelRun& one, const PixelRun& other) {
         return {std::max(one.first, other.first), std::min(one.end, other.end)};
@@ -123,7 +125,8 @@ private:
         const auto copies = static_cast<std::int32_t>(face.copies);
         for (int x = run.first; x < run.end; ++x) {
             const double depth = start + slope * x;
-            const bool in_front = depth + side * (error_at(x) + share * depth) >= seen[x];
+            const double moved = depth + side * (error_at(x) + share * depth);
+            const bool in_front = std::max(moved, furthest_) >= seen[x];
             const std::int32_t seen_itself = triangles[x] - own < own_count ? 1 : 0;
             faces[x] += in_front ? copies : seen_itself;
         }

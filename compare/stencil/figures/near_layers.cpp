@@ -77,6 +77,7 @@ Projected projected(const Scene& scene, const glm::dvec3& point, const NearDrawi
         p.on_side_error = 7 * v * terms(camera.forward, from_light ? to_plane : n, from_origin);
     } else {
         p.shadow.error = glm::dvec3(6 * v * std::sqrt(3.0) * glm::length(glm::dvec3(p.shadow.at)));
+        p.on_side_error = 5 * double_roundoff * terms(camera.forward, n, relative);
     }
     return p;
 }
