@@ -25,12 +25,12 @@ struct Case {
 
 /// A floor, a box over it, and a shield that faces the eye in the near or the far plane, or so far
 /// beyond the near plane or before the far one. Turned, no float of it is exact.
-Scene with_shield(const Case& tested, double beyond = 0) {
+Scene with_shield(const Case& tested, double beyond = 0, double near = 3) {
     const auto& [projection, side, turn] = tested;
     Scene scene = box_over_floor();
     scene.materials.front().double_sided = true;
     scene.lights.front().position = {3, 8, 2};
-    const double depth = side == Side::near_plane ? 3 : 14;
+    const double depth = side == Side::near_plane ? near : 14;
     const double z = 8 - depth;
     add_rectangle(scene, glm::vec3(-2, 1, z), glm::vec3(0.5, 1, z), glm::vec3(0.5, 3, z),
                   glm::vec3(-2, 3, z));
@@ -93,10 +93,12 @@ std::string name_of_case(const testing::TestParamInfo<Case>& tested) {
 INSTANTIATE_TEST_SUITE_P(In, CutSurface, testing::ValuesIn(cases()), name_of_case);
 
 TEST_P(CutSurface, is_explained_whether_or_not_it_is_seen) {
-    for (const double beyond : {0.0, 1e-8, -1e-8}) {
-        SCOPED_TRACE(beyond);
-        expect_all_explained(TracedScene(with_shield(GetParam(), beyond)));
-    }
+    for (const double beyond : {0.0, 1e-8, -1e-8})
+        for (const double near : {3.0, 0.5, 0.21}) {
+            if (near != 3 && GetParam().side == Side::far_plane) continue;
+            SCOPED_TRACE(fmt::format("{} beyond, near {}", beyond, near));
+            expect_all_explained(TracedScene(with_shield(GetParam(), beyond, near)));
+        }
 }
 
 /// Far from the origin, with a near plane so near that the far one, which cuts the floor, lies
