@@ -166,8 +166,11 @@ RayFault fault_of_seen(const TracedClaim& claim, PixelPlace p) {
         return "eye ray met a triangle that is not seen from the eye";
     const FloatMeeting met = meeting_of(claim, claim.eye_ray(p), pixel.seen);
     if (met.meeting == Meeting::never) return "eye ray does not meet the triangle seen";
-    // Negated: infinity is no error bound that anything exceeds.
-    if (std::abs(pixel.depth - met.t) > met.t_error || !(pixel.depth >= claim.rays().near))
+    // Embree asks whether near |den| is less than T, which rounds once, and makes t of T by a
+    // reciprocal, with 8 roundings at most: 10 are more than both. Negated: infinity is no error
+    // bound that anything exceeds.
+    const double near = claim.rays().near * (1 - 10 * float_roundoff);
+    if (std::abs(pixel.depth - met.t) > met.t_error || !(pixel.depth >= near))
         return "eye ray meets the triangle seen elsewhere";
     return {};
 }

@@ -25,7 +25,7 @@ struct Case {
 
 /// A floor, a box over it, and a shield that faces the eye in the near or the far plane, or so far
 /// beyond the near plane or before the far one. Turned, no float of it is exact.
-Scene with_shield(const Case& tested, double beyond = 0, double near = 3) {
+Scene with_shield(const Case& tested, double beyond = 0, double near = 0.5) {
     const auto& [projection, side, turn] = tested;
     Scene scene = box_over_floor();
     scene.materials.front().double_sided = true;
@@ -94,8 +94,8 @@ INSTANTIATE_TEST_SUITE_P(In, CutSurface, testing::ValuesIn(cases()), name_of_cas
 
 TEST_P(CutSurface, is_explained_whether_or_not_it_is_seen) {
     for (const double beyond : {0.0, 1e-8, -1e-8})
-        for (const double near : {3.0, 0.5, 0.21}) {
-            if (near != 3 && GetParam().side == Side::far_plane) continue;
+        for (const double near : {0.5, 0.6}) {
+            if (near != 0.5 && GetParam().side == Side::far_plane) continue;
             SCOPED_TRACE(fmt::format("{} beyond, near {}", beyond, near));
             expect_all_explained(TracedScene(with_shield(GetParam(), beyond, near)));
         }
