@@ -22,6 +22,7 @@ enum class Facing : std::uint8_t { no, perhaps, yes };
 /// Casters that are counted alike, each with a volume of its own.
 struct Part {
     Counting::Caster caster;
+    bool is_flipped = false; ///< by a technique whose other volumes shaders may make
     bool by_shaders = false;
     std::vector<std::uint32_t> triangles;
 };
@@ -35,12 +36,13 @@ std::vector<Part> parts_of(const Scene& casters, const Counting& counting, const
     for (std::uint32_t triangle = 0; triangle < casts.size(); ++triangle) {
         if (casts[triangle] == 0) continue;
         const Counting::Caster caster = counting.caster(triangle);
-        const bool is_flipped = triangle < flipped.size() && flipped[triangle] != 0;
-        const bool by_shaders = shaders_may && !is_flipped;
+        const bool is_flipped =
+            drawn.by_shaders && triangle < flipped.size() && flipped[triangle] != 0;
         auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) {
-            return p.caster == caster && p.by_shaders == by_shaders;
+            return p.caster == caster && p.is_flipped == is_flipped;
         });
-        if (part == parts.end()) part = parts.insert(part, {caster, by_shaders, {}});
+        if (part == parts.end())
+            part = parts.insert(part, {caster, is_flipped, shaders_may && !is_flipped, {}});
         part->triangles.push_back(triangle);
     }
     return parts;

@@ -136,8 +136,9 @@ INSTANTIATE_TEST_SUITE_P(Places, LightOn, testing::ValuesIn(places), [](const au
     return name;
 });
 
-/// Boxes turned this way and that, some inside others, an open sheet, the eye anywhere; the light
-/// on one of their triangles, edges or corners, or some steps of a float or a double off it.
+/// Boxes turned this way and that, some inside others or side by side, an open sheet, the eye
+/// anywhere; the light on one of their triangles, edges or corners, or some steps of a float or a
+/// double off it.
 Scene random_scene(Dice& dice) {
     Scene scene = tests::empty_scene();
     scene.camera.width = 48;
@@ -152,6 +153,8 @@ Scene random_scene(Dice& dice) {
         const std::size_t first = scene.positions.size();
         const glm::vec3 half(glm::abs(somewhere(1)) + 0.1);
         tests::add_box(scene, -half, half);
+        if (dice.one_in(2)) // that shares a face, and so edges, with it
+            tests::add_box(scene, {half.x, -half.y, -half.z}, {2 * half.x, half.y, half.z});
         const glm::dvec3 axis = glm::normalize(somewhere(1) + glm::dvec3(0, 0, 2));
         const double angle = dice.one_in(4) ? 0 : dice.between(0, 3);
         const glm::dvec3 middle = somewhere(1.5);
@@ -192,6 +195,8 @@ TEST(TouchingLight, random_scenes_are_explained_to_the_last_pixel) {
                 << technique.name << " " << comparison.evidence.first_x << ","
                 << comparison.evidence.first_y;
             EXPECT_EQ(pixels_of(comparison, Cause::unexplained), 0U) << technique.name;
+            EXPECT_TRUE(comparison.summary.unexplained.empty())
+                << technique.name << ": " << comparison.summary.unexplained.front();
         }
     }
 }
