@@ -201,6 +201,32 @@ TEST(TouchingLight, random_scenes_are_explained_to_the_last_pixel) {
     }
 }
 
+/// The light on an edge of a box, whose face there another sheet joins. Some triangles count
+/// flipped, and so are drawn apart, with sides between them and their neighbours, by the techniques
+/// whose volumes shaders make elsewhere.
+TEST(TouchingLight, what_counts_flipped_is_drawn_apart_from_what_it_joins) {
+    Scene scene = tests::empty_scene();
+    scene.camera.width = 48;
+    scene.camera.height = 40;
+    tests::add_rectangle(scene, {-6, 0, 6}, {6, 0, 6}, {6, 0, -6}, {-6, 0, -6});
+    tests::add_box(scene, {-1, 0, 0.5}, {-0.5, 0.5, 1});
+    tests::add_rectangle(scene, {-0.5, 0, 0}, {-0.5, 0, 0.5}, {-0.5, 0.5, 0.5}, {-0.5, 0.5, 0});
+    tests::look_at(scene.camera, {-3, 2, 2}, {-1, 0.4, 0.5});
+    Gpu gpu(GlPlatform::osmesa);
+    for (const double y : {0.499999, 0.25, 0.3}) {
+        SCOPED_TRACE(y);
+        scene.lights[0].position = {-1, y, 0.5};
+        const tests::TracedScene traced(scene);
+        for (const char* name :
+             {"zfail_degenerate_quads", "zfail_geometry_shader", "zfail_reversed"}) {
+            const Comparison comparison = compared(traced, name, gpu);
+            EXPECT_EQ(comparison.evidence.unexplained, 0U) << name;
+            EXPECT_TRUE(comparison.summary.unexplained.empty())
+                << name << ": " << comparison.summary.unexplained.front();
+        }
+    }
+}
+
 /// zfail_reversed whose volumes are tampered with once they are made.
 Frame tampered(Gpu& gpu, const Scene& scene, const std::function<void(ShadowVolume&)>& tamper) {
     StencilRecipe recipe = zfail_reversed_recipe(scene, make_plan(scene));
