@@ -265,9 +265,22 @@ const CountedVolumes& Prediction::lifted(Limitations limitations) const {
     return *found;
 }
 
+namespace {
+
+/// Whether dark caps are all that is missing of caps, and have no area: a sun's end in one point of
+/// a perspective picture, and only the line of sight to just that point leaves no volume.
+bool lacks_points_alone(const Scene& scene, const Counting& counting) {
+    return counting.light_cap && std::isinf(counting.extrusion) &&
+           homogeneous(chosen_light(scene)).w == 0 && !scene.camera.is_orthographic();
+}
+
+} // namespace
+
 Limitations Prediction::limitations() const {
-    const Limitations found = limitations_of(model_);
-    return has_masks(store_->tracer().scene()) ? found | Limitation::alpha : found;
+    const Scene& scene = store_->tracer().scene();
+    Limitations found = limitations_of(model_);
+    if (lacks_points_alone(scene, model_.counting)) found = found - Limitation::caps;
+    return has_masks(scene) ? found | Limitation::alpha : found;
 }
 
 namespace {

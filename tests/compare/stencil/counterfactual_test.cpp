@@ -1,5 +1,6 @@
 // A cause is what mends the pixel once it is lifted.
 #include "compare/stencil/counterfactual.h"
+#include "compare/verdict.h"
 #include "tests/compare/traced_scene.h"
 #include "tests/raster/small_scenes.h"
 #include "tests/scenes/bundled_names.h"
@@ -200,6 +201,33 @@ TEST(Counterfactual, a_light_inside_needs_the_far_plane_lifted_as_well_where_tha
 }
 
 /// What a technique has not got, it is not blamed for, and what does not mend is no excuse.
+/// The line of sight of the middle pixel leads where the sun's volumes end, in a point. No dark cap
+/// covers it, and so none is missing there.
+TEST(Counterfactual, of_a_sun_along_a_line_of_sight_misses_no_dark_cap) {
+    Scene scene = tests::empty_scene();
+    scene.camera.width = 33;
+    scene.camera.height = 17;
+    scene.lights[0].kind = Light::Kind::directional;
+    scene.lights[0].direction = {0, 0, -1};
+    tests::add_rectangle(scene, {-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0});
+    // Behind the eye, turned away from the sun: no volume is its own.
+    tests::add_rectangle(scene, {-9, 9, 6}, {9, 9, 6}, {9, -9, 6}, {-9, -9, 6});
+    const TracedScene traced(scene);
+    ASSERT_EQ(traced.truth.visibility.at(16, 8), Visibility::shadowed);
+    Gpu gpu(GlPlatform::osmesa);
+    for (const Technique& technique : all_techniques()) {
+        if (!can_draw(technique, scene)) continue;
+        const Frame frame = render(technique, scene, traced.plan, gpu);
+        if (!frame.counted) continue;
+        const Comparison comparison = compared(traced, frame);
+        EXPECT_EQ(pixels_of(comparison, Cause::cap), 0U) << technique.name;
+        const Verdict verdict = judge(scene, known_on(scene, frame, technique.fails_at),
+                                      technique.by_nature, comparison);
+        EXPECT_TRUE(verdict == Verdict::agrees || verdict == Verdict::fails_as_predicted)
+            << technique.name << " " << name_of(verdict);
+    }
+}
+
 TEST(Counterfactual, a_wrong_claim_that_nothing_mends_is_unexplained) {
     Scene scene = tests::load_named("near_plane");
     scene.camera.width = scene.camera.height = 60;
