@@ -37,13 +37,21 @@ PixelFaces::PixelFaces(const Tracer& tracer, const PixelVolumes& volumes, const 
 }
 
 bool PixelFaces::take(std::size_t ray, std::span<const RayTruth> truth, Sample& sample) const {
+    const glm::dvec3& line = around_.rays[ray];
+    const SeenRange planes = around_.planes_of(scene_.camera, ray);
     const bool is_moved = around_.is_moved(ray);
-    if (is_moved && truth[ray].triangle != shown_) return false; // which it is there to show
-    if (!take(around_.rays[ray], truth[ray], around_.planes_of(scene_.camera, ray).near, sample))
-        return false;
+    if (is_moved && truth[ray].triangle != shown_ && !lies_within(planes, line)) return false;
+    if (!take(line, truth[ray], planes.near, sample)) return false;
     sample.by_planes = sample.by_planes || is_moved;
     sample.moved = sample.moved || sample.by_planes;
     return true;
+}
+
+/// Whether the planes leave what is shown on a line of sight.
+bool PixelFaces::lies_within(const SeenRange& planes, const glm::dvec3& line) const {
+    if (shown_ == no_triangle) return false;
+    const double depth = plane_depth(scene_, shown_, line);
+    return depth >= planes.near && depth <= planes.far;
 }
 
 bool PixelFaces::take(const glm::dvec3& line, const RayTruth& truth, double near,

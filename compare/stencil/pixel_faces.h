@@ -127,6 +127,7 @@ private:
     bool may_be_seen_ = false; ///< that, or all of it may be drawn elsewhere
     std::vector<std::int32_t> starts_;
 
+    bool lies_within(const SeenRange& planes, const glm::dvec3& line) const;
     bool certainly_in_front(std::uint32_t triangle) const;
     bool are_displaced(const std::vector<std::uint32_t>& triangles) const;
     bool is_displaced_cap(const Crossing& crossing, const DepthRange& range) const;
