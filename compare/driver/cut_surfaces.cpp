@@ -220,7 +220,8 @@ std::vector<SeenRange> CutSurfaces::moved_planes(std::span<const OpenRay> rays) 
     const bool is_parallel = tracer_.scene().camera.is_orthographic();
     const auto depths = [&](const Plane& plane, const std::optional<double>& reach) {
         if (!reach) return std::vector<double>{plane.depth};
-        const double by = *reach + 0x1p-45 * plane.depth; // than which traced depths are better
+        // Than which depths here are better.
+        const double by = *reach + 0x1p-45 * (plane.depth + picture_.drawing.parallel_far);
         const double ahead =
             is_parallel ? plane.depth - by : std::max(plane.depth - by, 0x1p-20 * plane.depth);
         return std::vector<double>{ahead, plane.depth + by};
