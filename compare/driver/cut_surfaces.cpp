@@ -20,9 +20,6 @@ namespace {
 
 constexpr double v = float_roundoff;
 
-/// A fragment's depth is off by far less than so much of it where its surface is not seen edge-on.
-constexpr double fragment_reach = 1e-3;
-
 std::array<ViewCorner, 3> viewed(const Scene& scene, std::uint32_t triangle,
                                  const Drawing& drawing) {
     std::array<ViewCorner, 3> corners;
@@ -79,6 +76,34 @@ double fragment_error(const DepthPicture& picture, std::uint32_t triangle, const
     return inverse_w_error(scene, triangle, pixel) + 2 * v * std::abs(at.key());
 }
 
+namespace {
+
+/// The largest fragment_error of a triangle at a plane, wherever it is drawn, as view depth.
+double depth_of_key_error(const DepthPicture& picture, std::uint32_t triangle, double depth) {
+    const Scene& scene = picture.scene;
+    const bool is_parallel = scene.camera.is_orthographic();
+    const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    double error = 0;
+    for (std::array<PicturePoint, 3> part :
+         set_up(scene.camera, {at(0), at(1), at(2)}, picture.drawing)) {
+        double aside = 0;
+        for (PicturePoint& point : part) {
+            aside = std::max(aside, point.place_error);
+            if (is_parallel) continue;
+            point.key = point.inverse_w;
+            point.depth_error = point.w_error;
+        }
+        error = std::max(error, largest_setup_error(part, picture.snapped_by + aside));
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!(error < infinity)) return infinity;
+    if (is_parallel) return error + 0.5 * stored_depth_error(picture.model, depth);
+    const double least = 1 / depth - error - 2 * v / depth; // key
+    return least > 0 ? 1 / least - depth : infinity;
+}
+
+} // namespace
+
 CutSurfaces::CutSurfaces(const Tracer& tracer, const DepthModel& model, double far)
     : tracer_(tracer),
       picture_(
@@ -98,8 +123,9 @@ CutSurfaces::CutSurfaces(const Tracer& tracer, const DepthModel& model, double f
         [&](std::size_t i) {
             const auto triangle = static_cast<std::uint32_t>(i);
             auto& [at_near, at_far] = found[i / together];
-            if (sides_of(tracer, triangle).visible && may_reach_planes(triangle))
-                find(triangle, at_near, at_far);
+            if (!sides_of(tracer, triangle).visible) return;
+            find(triangle, at_near, &ClipErrors::near);
+            find(triangle, at_far, &ClipErrors::far);
         },
         together);
     for (const auto& [at_near, at_far] : found) {
@@ -108,9 +134,9 @@ CutSurfaces::CutSurfaces(const Tracer& tracer, const DepthModel& model, double f
     }
 }
 
-/// Whether a triangle passes within a thousandth of a plane's depth of it, or within more than all
-/// errors of its corners: quickly told, of the few that do.
-bool CutSurfaces::may_reach_planes(std::uint32_t triangle) const {
+/// Whether a triangle passes within more than all errors of its corners of a plane that clips:
+/// quickly told, of the few that do.
+bool CutSurfaces::may_reach(const Plane& plane, std::uint32_t triangle) const {
     const Camera& camera = tracer_.scene().camera;
     const Drawing& drawing = picture_.drawing;
     double nearest = std::numeric_limits<double>::infinity();
@@ -125,28 +151,19 @@ bool CutSurfaces::may_reach_planes(std::uint32_t triangle) const {
     }
     const double n = drawing.standard_near;
     const double times = n > 0 && std::isfinite(drawing.far) ? std::max(drawing.far / n, 1.0) : 1;
-    const double error = 32 * v * (size + glm::length(camera.eye) + drawing.parallel_far);
-    const auto passes = [&](double plane, double by) {
-        const double reach = by + std::abs(fragment_reach * plane);
-        return nearest <= plane + reach && furthest >= plane - reach;
-    };
-    return passes(near_.depth, error) ||
-           (std::isfinite(far_.depth) && passes(far_.depth, times * error));
+    const double scale = size + glm::length(camera.eye) + drawing.parallel_far + plane.depth;
+    const double error = times * 32 * v * scale;
+    return nearest <= plane.depth + error && furthest >= plane.depth - error;
 }
 
-void CutSurfaces::find(std::uint32_t triangle, Plane& near, Plane& far) const {
+void CutSurfaces::find(std::uint32_t triangle, Plane& plane, double ClipErrors::*side) const {
     const Scene& scene = tracer_.scene();
-    const ClipErrors errors = clip_errors(scene, triangle, picture_.drawing);
-    const std::array<ViewCorner, 3> corners = viewed(scene, triangle, picture_.drawing);
-    const auto add = [&](Plane& plane, double error) {
-        const double reach =
-            plane.clips ? error : std::max(error, std::abs(fragment_reach * plane.depth));
-        if (std::isfinite(plane.depth) && passes_slab(scene.camera, corners, picture_.drawing,
-                                                      plane.depth - reach, plane.depth + reach))
-            plane.surfaces.push_back({triangle, error, plane_before_eye(scene, triangle)});
-    };
-    add(near, errors.near);
-    add(far, errors.far);
+    if (!std::isfinite(plane.depth) || (plane.clips && !may_reach(plane, triangle))) return;
+    const double error = plane.clips ? clip_errors(scene, triangle, picture_.drawing).*side : 0;
+    const double reach = plane.clips ? error : depth_of_key_error(picture_, triangle, plane.depth);
+    if (passes_slab(scene.camera, viewed(scene, triangle, picture_.drawing), picture_.drawing,
+                    plane.depth - reach, plane.depth + reach))
+        plane.surfaces.push_back({triangle, error, plane_before_eye(scene, triangle)});
 }
 
 std::vector<CutSurfaces::Met> CutSurfaces::met(const Plane& plane, const glm::dvec3& line) const {

@@ -73,8 +73,8 @@ private:
     Plane near_;
     Plane far_;
 
-    bool may_reach_planes(std::uint32_t triangle) const;
-    void find(std::uint32_t triangle, Plane& near, Plane& far) const;
+    bool may_reach(const Plane& plane, std::uint32_t triangle) const;
+    void find(std::uint32_t triangle, Plane& plane, double ClipErrors::*side) const;
     std::vector<Met> met(const Plane& plane, const glm::dvec3& line) const;
     std::vector<OpenRay> open_rays(std::span<const Neighbourhood> around) const;
     static std::optional<double> reach_of_open(std::span<const OpenRay> rays,
