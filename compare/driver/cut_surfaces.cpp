@@ -83,17 +83,15 @@ double depth_of_key_error(const DepthPicture& picture, std::uint32_t triangle, d
     const Scene& scene = picture.scene;
     const bool is_parallel = scene.camera.is_orthographic();
     const auto at = [&](int k) { return glm::dvec4(corner(scene, triangle, k), 1); };
+    std::vector<std::array<PicturePoint, 3>> parts =
+        set_up(scene.camera, {at(0), at(1), at(2)}, picture.drawing);
+    if (!is_parallel) parts = with_inverse_w(std::move(parts));
     double error = 0;
-    for (std::array<PicturePoint, 3> part :
-         set_up(scene.camera, {at(0), at(1), at(2)}, picture.drawing)) {
-        double aside = 0;
-        for (PicturePoint& point : part) {
-            aside = std::max(aside, point.place_error);
-            if (is_parallel) continue;
-            point.key = point.inverse_w;
-            point.depth_error = point.w_error;
-        }
-        error = std::max(error, largest_setup_error(part, picture.snapped_by + aside));
+    for (const std::array<PicturePoint, 3>& part : parts) {
+        double aside = picture.snapped_by;
+        for (const PicturePoint& point : part)
+            aside = std::max(aside, picture.snapped_by + point.place_error);
+        error = std::max(error, largest_setup_error(part, aside));
     }
     constexpr double infinity = std::numeric_limits<double>::infinity();
     if (!(error < infinity)) return infinity;

@@ -352,14 +352,17 @@ double setup_error(const Scene& scene, std::uint32_t triangle, const CoveredPixe
 }
 
 // It is set up as the key is, of its own values at the corners.
-double inverse_w_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
-    std::vector<PictureTriangle> fan = set_up(scene, triangle, pixel);
-    for (PictureTriangle& part : fan)
-        for (PicturePoint& point : part) {
+std::vector<PictureTriangle> with_inverse_w(std::vector<PictureTriangle> triangles) {
+    for (PictureTriangle& triangle : triangles)
+        for (PicturePoint& point : triangle) {
             point.key = point.inverse_w;
             point.depth_error = point.w_error;
         }
-    return largest_error(scene.camera, fan, pixel);
+    return triangles;
+}
+
+double inverse_w_error(const Scene& scene, std::uint32_t triangle, const CoveredPixel& pixel) {
+    return largest_error(scene.camera, with_inverse_w(set_up(scene, triangle, pixel)), pixel);
 }
 
 double setup_error(const PictureTriangle& triangle, const glm::dvec2& place, double reach) {

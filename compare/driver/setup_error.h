@@ -50,7 +50,11 @@ bool may_be_flipped(const std::array<PicturePoint, 3>& triangle, double reach);
 std::vector<std::array<PicturePoint, 3>>
 set_up(const Camera& camera, const std::array<glm::dvec4, 3>& corners, const Drawing& drawing);
 
-/// The same of what clipping has left.
+/// The same triangles with the inverse of w, and its error, for key.
+std::vector<std::array<PicturePoint, 3>>
+with_inverse_w(std::vector<std::array<PicturePoint, 3>> triangles);
+
+/// Those of what clipping has left.
 std::vector<std::array<PicturePoint, 3>> fan_of(const std::vector<PicturePoint>& polygon);
 
 /// Whether a triangle of the picture comes within `reach` pixels of a place.
