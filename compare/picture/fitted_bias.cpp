@@ -25,20 +25,19 @@ std::optional<FittedBias> fitted_bias(const Trial& trial, const std::vector<Ligh
     std::vector<Threshold> thresholds;
     thresholds.reserve(samples.size());
     const bool directional = is_directional(trial);
-    auto next = samples.begin();
-    const auto width = static_cast<std::size_t>(trial.truth().depth.width);
-    for (const Patch& patch : trial.sample())
-        for_each_pixel(patch, [&](int x, int y) {
-            const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            if (!may_be_lit(trial.traced(), i)) return;
-            const double excess = (next++)->excess(like, directional);
-            if (!trial.is_wrong(x, y) && !trial.is_right(x, y)) return;
-            const bool is_lit = trial.frame().claim.at(x, y) == Visibility::lit;
-            thresholds.push_back({excess, is_lit ? 1 : -1});
-        });
+    std::int64_t score = 0; // where the bias decides nothing, but for a constant
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const SampledPixel& p = trial.sampled_pixels()[i];
+        if (!p.counts) continue;
+        const double excess = samples[i].excess(like, directional);
+        const std::int64_t gain = trial.frame().claim.at(p.x, p.y) == Visibility::lit ? 1 : -1;
+        if (std::isfinite(excess))
+            thresholds.push_back({excess, gain});
+        else if (excess < 0)
+            score += gain;
+    }
     std::sort(thresholds.begin(), thresholds.end(),
               [](const Threshold& a, const Threshold& b) { return a.excess < b.excess; });
-    std::int64_t score = 0;
     std::optional<FittedBias> best;
     for (std::size_t i = 0; i + 1 < thresholds.size(); ++i) {
         score += thresholds[i].gain;

@@ -5,6 +5,9 @@
 #include "compare/picture/trial.h"
 #include "compare/picture/volume_counts.h"
 
+#include <span>
+#include <vector>
+
 namespace shadowproof {
 
 void try_operations(Trial& trial);  ///< no_shadow, inverted
@@ -25,6 +28,10 @@ void try_cube_maps(Trial& trial);  ///< shadow_map of a point light
 void try_plane_maps(Trial& trial); ///< shadow_map of a spot, or of a directional light
 
 inline constexpr const char* dark_beyond = ", and all in shadow beyond";
+
+/// The same with a narrow filter, and with a wide one: where shadows are soft, maps without any
+/// explain little. None where the picture has no soft shadows.
+std::vector<LightSampling> filtered(const Trial& trial, std::span<const LightSampling> views);
 
 /// The map with each filter that is usual; none where the picture has no soft shadows.
 std::vector<LightSampling> with_filters(const Trial& trial, const LightSampling& view);

@@ -1,6 +1,7 @@
 #include "compare/picture/fitted_bias.h"
 #include "compare/picture/hypotheses.h"
 #include "compare/picture/light_sampling.h"
+#include "reference/parallel.h"
 
 #include <fmt/format.h>
 
@@ -74,9 +75,29 @@ void add_filter(MapWords& words, const MapFilter& filter) {
     if (filter.width == 0) return;
     words.parameters.emplace_back("filter", filter.width);
     words.text += fmt::format(", over {} x {} texels", filter.width, filter.width);
-    if (!filter.smooth) return;
-    words.parameters.emplace_back("smooth", 1);
-    words.text += " smoothly";
+    if (filter.over == MapFilter::Over::square) {
+        words.parameters.emplace_back("smooth", 1);
+        words.text += " smoothly";
+    }
+    if (filter.over == MapFilter::Over::points) {
+        words.parameters.emplace_back("points", 1);
+        words.text += " at single points";
+    }
+}
+
+std::vector<LightSampling> filtered(const Trial& trial, std::span<const LightSampling> views) {
+    using Over = MapFilter::Over;
+    std::vector<LightSampling> all;
+    if (!trial.is_soft()) return all;
+    const double half = usual_lit_from.front();
+    std::vector<MapFilter> filters{{1, Over::square, half}};
+    for (const double lit_from : usual_lit_from) filters.push_back({3, Over::square, lit_from});
+    for (const MapFilter& filter : filters)
+        for (const LightSampling& view : views) {
+            all.push_back(view);
+            all.back().filter = filter;
+        }
+    return all;
 }
 
 std::vector<LightSampling> with_filters(const Trial& trial, const LightSampling& view) {
@@ -167,7 +188,7 @@ void try_epsilon(Trial& trial) {
     if (from_light.triangles.empty()) return;
     const Tracer tracer(from_light, trial.traced().tracer().threads());
     const auto best =
-        fitted_bias(trial, sample_light(trial.traced(), tracer, {}, trial.sample()), MapBias{});
+        fitted_bias(trial, sample_light(tracer, {}, trial.sampled_points()), MapBias{});
     if (best && best->bias.constant > 0)
         trial.consider(
             "ray_epsilon", {{"epsilon", best->bias.constant}},
@@ -191,35 +212,53 @@ void try_cube_maps(Trial& trial) {
     }
     std::optional<FittedBias> best;
     LightSampling best_view;
-    const auto look = [&](const Tracer& tracer, const LightSampling& view, bool finely) {
-        const std::vector<LightSample> samples =
-            sample_light(trial.traced(), tracer, view, trial.sample());
-        const auto found =
-            finely ? fitted_bias(trial, samples) : fitted_bias(trial, samples, MapBias{});
-        if (!found || (best && found->score <= best->score)) return;
-        best = found;
-        best_view = view;
+    const int threads = trial.traced().tracer().threads();
+    // Of each view the best bias; views are tried side by side.
+    const auto look = [&](const Tracer& tracer, const std::vector<LightSampling>& views,
+                          bool finely) {
+        std::vector<std::optional<FittedBias>> found(views.size());
+        parallel_for(static_cast<int>(views.size()), threads, [&](int view, int) {
+            const auto i = static_cast<std::size_t>(view);
+            const std::vector<LightSample> samples =
+                sample_light(tracer, views[i], trial.sampled_points());
+            found[i] =
+                finely ? fitted_bias(trial, samples) : fitted_bias(trial, samples, MapBias{});
+        });
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (!found[i] || (best && found[i]->score <= best->score)) continue;
+            best = found[i];
+            best_view = views[i];
+        }
     };
     using Culled = LightSampling::Culled;
     for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
         const Scene from_light = seen_from_light(trial.scene(), culled);
         if (from_light.triangles.empty()) return;
-        const Tracer tracer(from_light, trial.traced().tracer().threads());
-        LightSampling view = ended;
-        view.culled = culled;
-        for (view.inset = 0; view.inset <= 1; ++view.inset)
-            for (view.texels = smallest; view.texels <= largest; view.texels *= 2)
-                look(tracer, view, false);
+        std::vector<LightSampling> views;
+        for (int inset = 0; inset <= 1; ++inset)
+            for (int texels = smallest; texels <= largest; texels *= 2) {
+                views.push_back(ended);
+                views.back().culled = culled;
+                views.back().inset = inset;
+                views.back().texels = texels;
+            }
+        const Tracer tracer(from_light, 1);
+        look(tracer, views, false);
+        look(tracer, filtered(trial, views), false);
     }
     if (!best) return;
     const Scene from_light = seen_from_light(trial.scene(), best_view.culled);
-    const Tracer tracer(from_light, trial.traced().tracer().threads());
-    look(tracer, best_view, true);
+    const Tracer tracer(from_light, 1);
     LightSampling endless = best_view;
     endless.range = infinity;
-    look(tracer, endless, true);
-    for (const LightSampling& filtered : with_filters(trial, best_view))
-        look(tracer, filtered, true);
+    look(tracer, {best_view, endless}, true);
+    std::vector<LightSampling> alternatives = with_filters(trial, best_view);
+    const std::size_t count = alternatives.size();
+    for (std::size_t i = 0; i < count; ++i) { // what a filter hides, another one shows
+        alternatives.push_back(alternatives[i]);
+        alternatives.back().inset = 1 - best_view.inset;
+    }
+    look(tracer, alternatives, true);
     consider_cube(trial, best_view, best->bias);
 }
 

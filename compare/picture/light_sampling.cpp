@@ -3,6 +3,7 @@
 #include "reference/trace/first_met.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,22 +25,31 @@ int major_axis(const glm::dvec3& direction) {
 /// Where a point is looked up: on a plane of texels, or on a face of a cube, which lies across an
 /// axis: all cube maps are divided so, whichever way a face is turned.
 struct Lookup {
+    int face = 0; ///< of a cube: twice the axis, and one more on its negative side
     LightAxes axes;
     double side = 0;         ///< of a texel, in the units of place_from_light; 0: none to speak of
     glm::dvec2 corner{0, 0}; ///< where texel (0,0) begins, in texels from the middle
     glm::dvec2 place{0, 0};  ///< in texels from there; without texels in the units of the place
     int texels = 0;          ///< along a side; 0: any number
+    glm::dvec2 across{0, 0}; ///< the point's own place on a cube's face
+    double narrower = 1;     ///< of a cube: by which the face is asked as if it were smaller
 };
+
+/// In texels, of a place on a cube's face.
+glm::dvec2 in_texels(const Lookup& at, const glm::dvec2& across) {
+    return (at.narrower * across + 1.0) / 2.0 * static_cast<double>(at.texels);
+}
 
 Lookup lookup(const Light& light, const LightSampling& view, const glm::dvec3& point) {
     if (view.plane) {
         const TexelPlane& plane = *view.plane;
         const glm::dvec2 place(place_from_light(light, plane.axes, point));
-        if (plane.side == 0) return {plane.axes, 0, {0, 0}, place, 0};
-        return {plane.axes, plane.side, plane.corner, place / plane.side - plane.corner, 0};
+        if (plane.side == 0) return {0, plane.axes, 0, {0, 0}, place, 0};
+        return {0, plane.axes, plane.side, plane.corner, place / plane.side - plane.corner, 0};
     }
     if (light.kind == Light::Kind::directional)
-        return {usual_axes(light).front(),
+        return {0,
+                usual_axes(light).front(),
                 0,
                 {0, 0},
                 glm::dvec2(place_from_light(light, usual_axes(light).front(), point)),
@@ -51,44 +61,116 @@ Lookup lookup(const Light& light, const LightSampling& view, const glm::dvec3& p
     axes.right[(axis + 1) % 3] = 1;
     axes.up[(axis + 2) % 3] = 1;
     const glm::dvec2 place(place_from_light(light, axes, point));
-    if (view.texels == 0) return {axes, 0, {0, 0}, place, 0};
+    const int face = 2 * axis + (way[axis] < 0 ? 1 : 0);
+    if (view.texels == 0) return {face, axes, 0, {0, 0}, place, 0};
     const double narrower = 1 - static_cast<double>(view.inset) / view.texels;
-    return {axes, 2.0 / view.texels, glm::dvec2(-view.texels / 2.0),
-            (narrower * place + 1.0) / 2.0 * static_cast<double>(view.texels), view.texels};
+    Lookup at{face,        axes,  2.0 / view.texels, glm::dvec2(-view.texels / 2.0), {},
+              view.texels, place, narrower};
+    at.place = in_texels(at, place);
+    return at;
 }
 
-/// A texel that is asked, and its part of the average.
-struct Asked {
-    glm::dvec2 middle{0, 0}; ///< in the units of place_from_light
-    double weight = 1;
-};
+/// Calls visit(place) for each of MapFilter::Over::points.
+template <class Visit>
+void visit_points(const Lookup& at, const Visit& visit) {
+    visit(at.place);
+    if (at.texels == 0) {
+        for (const double away : {0.5, 1.0})
+            for (const int x : {-1, 0, 1})
+                for (const int y : {-1, 0, 1})
+                    if (x != 0 || y != 0) visit(at.place + away * glm::dvec2(x, y));
+        return;
+    }
+    // In all three directions of space, which way the face lies or not.
+    const double away = std::hypot(at.across.x, at.across.y, 1.0) / (2.0 * at.texels);
+    for (const int x : {-1, 1})
+        for (const int y : {-1, 1})
+            for (const int depth : {-1, 1})
+                visit(in_texels(at, (at.across + away * glm::dvec2(x, y)) / (1 + away * depth)));
+}
 
-std::vector<Asked> asked(const Lookup& at, const MapFilter& filter) {
-    if (at.side == 0) return {{at.place, 1}};
-    const auto middle = [&](const glm::dvec2& texel) {
-        const double last = at.texels > 0 ? at.texels - 1.0 : infinity;
-        const double first = at.texels > 0 ? 0 : -infinity;
-        return at.side * (glm::clamp(texel, first, last) + 0.5 + at.corner);
+/// Calls visit(texel, weight) for each texel that is asked: its number along both sides, and its
+/// part of the average. Where there are no texels to speak of, for the place itself.
+template <class Visit>
+void visit_asked(const Lookup& at, const MapFilter& filter, const Visit& visit) {
+    if (at.side == 0) return visit(at.place, 1);
+    const double last_texel = at.texels > 0 ? at.texels - 1.0 : infinity;
+    const double first_texel = at.texels > 0 ? 0 : -infinity;
+    const auto in_map = [&](const glm::dvec2& texel) {
+        return glm::clamp(texel, first_texel, last_texel);
     };
-    if (filter.width == 0) return {{middle(glm::floor(at.place)), 1}};
+    if (filter.width == 0) return visit(in_map(glm::floor(at.place)), 1);
+    if (filter.over == MapFilter::Over::points)
+        return visit_points(at,
+                            [&](const glm::dvec2& place) { visit(in_map(glm::floor(place)), 1); });
+    const bool is_square = filter.over == MapFilter::Over::square;
     const double width = filter.width;
-    const glm::dvec2 low = filter.smooth ? at.place - width / 2 : at.place - (width - 1) / 2;
+    const glm::dvec2 low = is_square ? at.place - width / 2 : at.place - (width - 1) / 2;
     const glm::dvec2 first = glm::floor(low);
-    const int count = filter.smooth ? filter.width + 1 : filter.width;
-    std::vector<Asked> all;
+    const int count = is_square ? filter.width + 1 : filter.width;
     for (int y = 0; y < count; ++y)
         for (int x = 0; x < count; ++x) {
             const glm::dvec2 texel = first + glm::dvec2(x, y);
             const glm::dvec2 part = glm::min(texel + 1.0, low + width) - glm::max(texel, low);
-            const double weight = filter.smooth ? std::max(part.x, 0.0) * std::max(part.y, 0.0) : 1;
-            if (weight > 0) all.push_back({middle(texel), weight});
+            const double weight = is_square ? std::max(part.x, 0.0) * std::max(part.y, 0.0) : 1;
+            if (weight > 0) visit(in_map(texel), weight);
         }
-    return all;
 }
 
+/// For one point, at most.
+std::size_t most_asked(const MapFilter& filter) {
+    if (filter.over == MapFilter::Over::points) return 17;
+    const int side = filter.over == MapFilter::Over::square ? filter.width + 1 : filter.width;
+    return static_cast<std::size_t>(std::max(side * side, 1));
+}
+
+/// A texel that some lookup asks.
+struct Texel {
+    std::size_t lookup = 0; ///< the number of the first one that does
+    glm::dvec2 number{0, 0};
+    glm::dvec2 middle{0, 0}; ///< in the units of place_from_light
+};
+
+/// The texels that lookups ask. Those beside each other ask the same ones, which are remembered,
+/// most of them.
+class Texels {
+public:
+    std::size_t find_or_add(std::span<const Lookup> lookups, std::size_t lookup,
+                            const glm::dvec2& number) {
+        const Lookup& at = lookups[lookup];
+        if (at.side == 0) return add({lookup, number, number});
+        const auto is_it = [&](const Texel& other) {
+            return other.number == number && lookups[other.lookup].face == at.face;
+        };
+        std::size_t& remembered = remembered_[hash(number) % remembered_.size()];
+        if (remembered == none || !is_it(all[remembered]))
+            remembered = add({lookup, number, at.side * (number + 0.5 + at.corner)});
+        return remembered;
+    }
+
+    std::vector<Texel> all;
+
+private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> remembered_ = std::vector<std::size_t>(1 << 14, none);
+
+    /// Spread evenly over the low bits, which are the last ones of a product's upper half.
+    static std::uint64_t hash(const glm::dvec2& number) {
+        constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
+        return ((std::bit_cast<std::uint64_t>(number.x) * odd +
+                 std::bit_cast<std::uint64_t>(number.y)) *
+                odd) >>
+               40;
+    }
+    std::size_t add(const Texel& texel) {
+        all.push_back(texel);
+        return all.size() - 1;
+    }
+};
+
 /// Of depth 1.
-glm::dvec3 direction_of(const Lookup& at, const Asked& texel) {
-    return at.axes.forward + texel.middle.x * at.axes.right + texel.middle.y * at.axes.up;
+glm::dvec3 direction_of(const Lookup& at, const glm::dvec2& middle) {
+    return at.axes.forward + middle.x * at.axes.right + middle.y * at.axes.up;
 }
 
 /// Change over a texel of what is seen, on its own plane (LightSample::slope).
@@ -115,26 +197,24 @@ bool is_drawn(const Scene& from_light, std::uint32_t triangle, const glm::dvec3&
     return glm::dot(normal, forward) < 0;
 }
 
-/// What the light sees through texels, each of the lookup whose number stands beside it. Depths of
-/// a directional light are from the origin.
+/// What the light sees through texels. Depths of a directional light are from the origin.
 std::vector<SeenSurface> seen_through(const Tracer& light_tracer, std::span<const Lookup> lookups,
-                                      std::span<const Asked> texels,
-                                      std::span<const std::size_t> lookup_of) {
+                                      std::span<const Texel> texels) {
     const Scene& from_light = light_tracer.scene();
     const Light& light = chosen_light(from_light);
     if (light.kind != Light::Kind::directional) {
         std::vector<glm::dvec3> directions;
         directions.reserve(texels.size());
-        for (std::size_t i = 0; i < texels.size(); ++i)
-            directions.push_back(direction_of(lookups[lookup_of[i]], texels[i]));
+        for (const Texel& texel : texels)
+            directions.push_back(direction_of(lookups[texel.lookup], texel.middle));
         return see_rays(light_tracer, directions);
     }
     std::vector<AnyRay> rays;
     rays.reserve(texels.size());
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const LightAxes& axes = lookups[lookup_of[i]].axes;
-        rays.push_back({texels[i].middle.x * axes.right + texels[i].middle.y * axes.up,
-                        light.direction, -infinity, infinity});
+    for (const Texel& texel : texels) {
+        const LightAxes& axes = lookups[texel.lookup].axes;
+        rays.push_back({texel.middle.x * axes.right + texel.middle.y * axes.up, light.direction,
+                        -infinity, infinity});
     }
     std::vector<SeenSurface> seen;
     seen.reserve(rays.size());
@@ -146,7 +226,7 @@ std::vector<SeenSurface> seen_through(const Tracer& light_tracer, std::span<cons
 }
 
 LightSample sampled(const Scene& from_light, const LightSampling& view, const glm::dvec3& point,
-                    const Lookup& at, const Asked& texel, const SeenSurface& seen) {
+                    const Lookup& at, const Texel& texel, const SeenSurface& seen) {
     const Light& light = chosen_light(from_light);
     const bool directional = light.kind == Light::Kind::directional;
     LightSample sample;
@@ -154,7 +234,7 @@ LightSample sampled(const Scene& from_light, const LightSampling& view, const gl
     sample.own_depth = glm::dot(way, at.axes.forward);
     if (!directional) {
         sample.own_stretch = glm::length(way) / sample.own_depth;
-        sample.seen_stretch = glm::length(direction_of(at, texel));
+        sample.seen_stretch = glm::length(direction_of(at, texel.middle));
     }
     const bool is_beyond = !directional && reach_of(way, view.range_along_axes) > view.range;
     const bool is_outside =
@@ -254,38 +334,37 @@ Scene seen_from_light(const Scene& scene, LightSampling::Culled culled) {
     return casters;
 }
 
-std::vector<LightSample> sample_light(const TracedScene& traced, const Tracer& light_tracer,
-                                      const LightSampling& view, std::span<const Patch> patches) {
+std::vector<LightSample> sample_light(const Tracer& light_tracer, const LightSampling& view,
+                                      std::span<const glm::dvec3> points) {
     const Scene& from_light = light_tracer.scene();
     const Light& light = chosen_light(from_light);
-    std::vector<glm::dvec3> points;
-    const auto width = static_cast<std::size_t>(traced.truth().depth.width);
-    for (const Patch& patch : patches)
-        for_each_pixel(patch, [&](int x, int y) {
-            const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            if (may_be_lit(traced, i)) points.push_back(seen_point(traced, x, y));
-        });
+    struct Asked {
+        std::size_t texel = 0;
+        double weight = 1;
+    };
     std::vector<Lookup> lookups;
-    std::vector<Asked> texels;
-    std::vector<std::size_t> lookup_of;
     lookups.reserve(points.size());
-    for (const glm::dvec3& point : points) {
-        lookups.push_back(lookup(light, view, point));
-        for (const Asked& texel : asked(lookups.back(), view.filter)) {
-            texels.push_back(texel);
-            lookup_of.push_back(lookups.size() - 1);
-        }
+    for (const glm::dvec3& point : points) lookups.push_back(lookup(light, view, point));
+    Texels texels;
+    std::vector<Asked> asked;
+    std::vector<std::size_t> end_of; // of a lookup's among those asked
+    for (std::size_t i = 0; i < lookups.size(); ++i) {
+        visit_asked(lookups[i], view.filter, [&](const glm::dvec2& number, double weight) {
+            asked.push_back({texels.find_or_add(lookups, i, number), weight});
+        });
+        end_of.push_back(asked.size());
     }
-    const std::vector<SeenSurface> seen = seen_through(light_tracer, lookups, texels, lookup_of);
+    const std::vector<SeenSurface> seen = seen_through(light_tracer, lookups, texels.all);
     std::vector<LightSample> samples;
     samples.reserve(points.size());
-    for (std::size_t i = 0; i < texels.size();) {
-        const std::size_t point = lookup_of[i];
-        std::vector<WeightedSample> block;
-        for (; i < texels.size() && lookup_of[i] == point; ++i)
-            block.push_back(
-                {sampled(from_light, view, points[point], lookups[point], texels[i], seen[i]),
-                 texels[i].weight});
+    std::vector<WeightedSample> block;
+    auto next = asked.begin();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        block.clear();
+        for (; next != asked.begin() + static_cast<std::ptrdiff_t>(end_of[i]); ++next)
+            block.push_back({sampled(from_light, view, points[i], lookups[i],
+                                     texels.all[next->texel], seen[next->texel]),
+                             next->weight});
         samples.push_back(block.size() == 1 ? block.front().sample
                                             : deciding(block, view.filter.lit_from,
                                                        light.kind == Light::Kind::directional));
@@ -303,25 +382,24 @@ Predict lit_within(const TracedScene& traced, const LightSampling& view, const M
         const Scene scene = seen_from_light(traced.scene(), view.culled);
         const Tracer tracer(scene, traced.tracer().threads());
         const bool directional = chosen_light(scene).kind == Light::Kind::directional;
-        const auto width = static_cast<std::size_t>(picture.width);
-        const std::size_t texels =
-            view.filter.width > 0 ? static_cast<std::size_t>(view.filter.width * view.filter.width)
-                                  : 1;
         const std::size_t at_once =
-            std::max<std::size_t>(128 / texels, 1); // some megabytes of rays
+            std::max<std::size_t>(128 / most_asked(view.filter), 1); // some megabytes of rays
         for (std::size_t first = 0; first < patches.size(); first += at_once) {
             const auto part = patches.subspan(first, std::min(at_once, patches.size() - first));
-            const std::vector<LightSample> samples = sample_light(traced, tracer, view, part);
-            auto next = samples.begin();
+            std::vector<glm::dvec3> points;
+            for_each_lightable(traced, part,
+                               [&](int x, int y) { points.push_back(seen_point(traced, x, y)); });
+            const std::vector<LightSample> samples = sample_light(tracer, view, points);
             for (const Patch& patch : part)
                 for_each_pixel(patch, [&](int x, int y) {
-                    const std::size_t i =
-                        static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-                    if (!faces_light(traced, i)) return;
-                    const bool lit = may_be_lit(traced, i) &&
-                                     (next++)->excess(bias, directional) <= bias.constant;
-                    picture.at(x, y) = lit ? Visibility::lit : Visibility::shadowed;
+                    if (faces_light(traced, picture.index(x, y)))
+                        picture.at(x, y) = Visibility::shadowed;
                 });
+            auto next = samples.begin();
+            for_each_lightable(traced, part, [&](int x, int y) {
+                if ((next++)->excess(bias, directional) <= bias.constant)
+                    picture.at(x, y) = Visibility::lit;
+            });
         }
     };
 }

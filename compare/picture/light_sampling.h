@@ -35,6 +35,7 @@ struct TexelPlane {
     LightAxes axes;
     double side = 0;         ///< of a texel, in the units of place_from_light; 0: none to speak of
     glm::dvec2 corner{0, 0}; ///< where some texel begins, in texels from x = y = 0
+    bool is_exact = false;   ///< as a renderer has it, and not read off the picture
 };
 
 /// Places between which there is a map; elsewhere all is lit, or all in shadow.
@@ -48,10 +49,15 @@ struct LightFrustum {
 
 /// Over which texels comparisons are averaged.
 struct MapFilter {
-    int width = 0; ///< texels a side; 0: none is
-    /// The square that is averaged lies around the point itself, and has parts of texels (bilinear
-    /// filtering is that of width 1). Otherwise it is whole texels, those around the point.
-    bool smooth = false;
+    enum class Over : std::uint8_t {
+        texels, ///< whole ones, a square of those around the point
+        square, ///< around the point itself, with parts of texels: bilinear filtering is of width 1
+        points, ///< places around it, as a PCFShadowMap of three.js has them: in a plane 17 as far
+                ///< as a texel away, on a cube 9 as far as a quarter of one, of the distance from
+                ///< the light
+    };
+    int width = 0; ///< texels a side; 0: none are averaged. Of points: 2
+    Over over = Over::texels;
     /// The share of light from which a pixel is nearer to lit than to shadowed.
     double lit_from = 0.5;
 };
@@ -59,8 +65,12 @@ struct MapFilter {
 /// In a picture of linear values half the light is half way; in sRGB a third or so is, as half way
 /// between 60 and 190 of 255 is 0.34 of the way in linear light.
 inline constexpr std::array usual_lit_from{0.5, 0.35};
-inline constexpr std::array<MapFilter, 5> usual_filters{
-    {{2, false}, {3, false}, {5, false}, {1, true}, {3, true}}};
+inline constexpr std::array<MapFilter, 6> usual_filters{{{2, MapFilter::Over::texels},
+                                                         {3, MapFilter::Over::texels},
+                                                         {5, MapFilter::Over::texels},
+                                                         {1, MapFilter::Over::square},
+                                                         {3, MapFilter::Over::square},
+                                                         {2, MapFilter::Over::points}}};
 
 struct LightSampling {
     /// Sides of single-sided casters that are left out.
@@ -112,9 +122,9 @@ struct LightSample {
 /// The scene as the light sees it: casters alone.
 Scene seen_from_light(const Scene& scene, LightSampling::Culled culled);
 
-/// For each pixel of the patches that may_be_lit, in order. `light_tracer`: of seen_from_light.
-std::vector<LightSample> sample_light(const TracedScene& traced, const Tracer& light_tracer,
-                                      const LightSampling& view, std::span<const Patch> patches);
+/// For each point, in order. `light_tracer`: of seen_from_light.
+std::vector<LightSample> sample_light(const Tracer& light_tracer, const LightSampling& view,
+                                      std::span<const glm::dvec3> points);
 
 /// Lit, except where the light sees something that is closer to it by more than the bias.
 Predict lit_within(const TracedScene& traced, const LightSampling& view, const MapBias& bias);

@@ -2,15 +2,20 @@
 #include "compare/picture/hypotheses.h"
 #include "compare/picture/map_ends.h"
 #include "compare/picture/texel_planes.h"
+#include "reference/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <glm/common.hpp>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace shadowproof {
@@ -59,8 +64,8 @@ void add_frustum(MapWords& words, const LightFrustum& frustum) {
 
 std::optional<FittedMap> fitted(const Trial& trial, const Tracer& from_light,
                                 const LightSampling& view) {
-    const auto bias = fitted_bias(
-        trial, sample_light(trial.traced(), from_light, view, trial.sample()), MapBias{});
+    const auto bias =
+        fitted_bias(trial, sample_light(from_light, view, trial.sampled_points()), MapBias{});
     if (!bias) return std::nullopt;
     return FittedMap{view, *bias};
 }
@@ -69,6 +74,7 @@ std::optional<FittedMap> fitted(const Trial& trial, const Tracer& from_light,
 /// explains more: borders that steps tell to a part of a pixel are told by all pixels together.
 void climb(const Trial& trial, const Tracer& from_light, FittedMap& best) {
     constexpr int rounds = 10;
+    if (best.view.plane->is_exact) return;
     const Light& light = chosen_light(trial.scene());
     glm::dvec2 low(infinity);
     glm::dvec2 high(-infinity);
@@ -101,15 +107,76 @@ void climb(const Trial& trial, const Tracer& from_light, FittedMap& best) {
     }
 }
 
-/// The best bias and filter of a map whose texels are known.
-void settle_bias(const Trial& trial, const Tracer& from_light, FittedMap& map) {
-    const auto look = [&](const LightSampling& view) {
+/// Whether what is averaged is as wide as a pixel; narrower, it changes nothing that is seen.
+bool is_visible(const LightSampling& view, double pixel) {
+    return view.filter.width * view.plane->side >= pixel;
+}
+
+/// The best bias and filter of a map whose texels are known. `pixel`: what one sees of the map.
+void settle_bias(const Trial& trial, const Tracer& from_light, double pixel, FittedMap& map) {
+    const auto look = [&](const LightSampling& view, std::int64_t least) {
         const auto bias =
-            fitted_bias(trial, sample_light(trial.traced(), from_light, view, trial.sample()));
-        if (bias && bias->score >= map.fitted.score + least_gain) map = {view, *bias};
+            fitted_bias(trial, sample_light(from_light, view, trial.sampled_points()));
+        if (bias && bias->score >= least) map = {view, *bias};
     };
-    look(map.view);
-    for (const LightSampling& filtered : with_filters(trial, map.view)) look(filtered);
+    look(map.view, map.fitted.score + least_gain);
+    for (const LightSampling& filtered : with_filters(trial, map.view))
+        if (is_visible(filtered, pixel)) look(filtered, map.fitted.score + least_gain);
+    if (!map.view.frustum) return;
+    LightSampling endless = map.view; // texels may look as if shadows ended
+    endless.frustum.reset();
+    look(endless, map.fitted.score - static_cast<std::int64_t>(trial.sampled_wrong() / 20));
+}
+
+/// What lights see, one for each side of casters that may be left out. Views are tried side by
+/// side: each tracer has one thread.
+class CasterTracers {
+public:
+    explicit CasterTracers(const Scene& scene) {
+        using Culled = LightSampling::Culled;
+        for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
+            scenes_.push_back(std::make_unique<Scene>(seen_from_light(scene, culled)));
+            if (!are_any()) return;
+            tracers_.push_back(std::make_unique<Tracer>(*scenes_.back(), 1));
+        }
+    }
+    bool are_any() const { return !scenes_.back()->triangles.empty(); }
+    const Tracer& of(const LightSampling& view) const {
+        return *tracers_[static_cast<std::size_t>(view.culled)];
+    }
+
+private:
+    std::vector<std::unique_ptr<Scene>> scenes_;
+    std::vector<std::unique_ptr<Tracer>> tracers_;
+};
+
+/// The filter that contradicts least, of those whose maps explain about as much. Other than the
+/// score by which they were found, the picture's does not count what is right next to an outline.
+void settle_filter(Trial& trial, const CasterTracers& tracers, double pixel, FittedMap& map) {
+    const auto fit = [&](const FittedMap& tried) {
+        return trial.fit(lit_within(trial.traced(), tried.view, tried.fitted.bias)).score();
+    };
+    const std::int64_t least =
+        map.fitted.score - least_gain - static_cast<std::int64_t>(trial.wrong() / 20);
+    std::int64_t best = 0;
+    for (const LightSampling& filtered : with_filters(trial, map.view)) {
+        if (!is_visible(filtered, pixel)) continue;
+        const std::optional<FittedMap> tried = fitted(trial, tracers.of(filtered), filtered);
+        if (!tried || tried->fitted.score < least) continue;
+        if (best == 0) best = fit(map);
+        if (const std::int64_t score = fit(*tried); score > best) {
+            map = *tried;
+            best = score;
+        }
+    }
+}
+
+/// Whether a map as a renderer has it leaves next to nothing for others to explain.
+bool explains_nearly_all(Trial& trial, const FittedMap& map) {
+    if (!map.view.plane->is_exact) return false;
+    const Fit fit = trial.fit(lit_within(trial.traced(), map.view, map.fitted.bias));
+    return 10 * fit.explained >= 9 * trial.sampled_wrong() &&
+           10 * fit.contradicted <= fit.explained;
 }
 
 void consider_plane(Trial& trial, const FittedMap& map, const std::optional<int>& resolution) {
@@ -139,35 +206,63 @@ void consider_ends(Trial& trial, const LightFrustum& frustum) {
     trial.consider("shadow_map", words.parameters, words.text, ended(trial, frustum));
 }
 
-/// Squares whose texels are tried: those that are usual, and those whose ends were found.
-std::vector<MapSquare> squares_of(const Scene& scene, const std::optional<LightFrustum>& frustum) {
-    std::vector<MapSquare> squares = usual_squares(scene);
+/// Squares whose texels are tried: those that are usual, and those whose ends were found, last.
+struct Squares {
+    std::vector<MapSquare> all;
+    std::size_t measured = 0; ///< how many of them
+
+    /// Those that a map may have: where it shows where it ends, no other.
+    std::span<const MapSquare> possible(const LightSampling& view) const {
+        return std::span(all).last(view.frustum && measured > 0 ? measured : all.size());
+    }
+};
+
+Squares squares_of(const Scene& scene, const std::optional<LightFrustum>& frustum) {
+    Squares squares{usual_squares(scene)};
     if (!frustum) return squares;
-    for (const MapSquare& square : measured_squares(*frustum)) squares.push_back(square);
+    for (const MapSquare& square : measured_squares(*frustum, chosen_light(scene))) {
+        squares.all.push_back(square);
+        ++squares.measured;
+    }
     return squares;
 }
 
-std::vector<TexelPlane> possible_planes(const Trial& trial, const std::vector<MapSquare>& squares) {
+/// The picture's steps as each of a light's cameras sees them.
+class StepsByAxes {
+public:
+    explicit StepsByAxes(const Trial& trial) : trial_(trial) {}
+
+    const ShadowSteps& of(const LightAxes& axes) {
+        for (const ShadowSteps& steps : known_)
+            if (steps.axes.right == axes.right && steps.axes.up == axes.up) return steps;
+        return known_.emplace_back(shadow_steps(trial_, axes));
+    }
+
+private:
+    const Trial& trial_;
+    std::deque<ShadowSteps> known_;
+};
+
+std::vector<TexelPlane> possible_planes(const Trial& trial, const std::vector<MapSquare>& squares,
+                                        StepsByAxes& steps) {
     const Light& light = chosen_light(trial.scene());
     std::vector<TexelPlane> planes;
     for (const LightAxes& axes : usual_axes(light))
-        for (const TexelPlane& plane : proposed_planes(shadow_steps(trial, axes))) {
+        for (const TexelPlane& plane : proposed_planes(steps.of(axes))) {
             planes.push_back(plane);
             if (light.kind != Light::Kind::spot) continue;
             planes.push_back(plane); // a map around the axis, of an even number of texels
             planes.back().corner = {0, 0};
         }
-    for (const MapSquare& square : squares) {
-        const ShadowSteps steps = shadow_steps(trial, square.axes);
+    for (const MapSquare& square : squares)
         for (int texels = smallest; texels <= largest; texels *= 2)
-            planes.push_back(divided(steps, square, texels));
-    }
+            planes.push_back(divided(steps.of(square.axes), square, texels));
     return planes;
 }
 
 /// How many texels a known square has along its side. Nothing where that is no power of two: texels
 /// of any size divide some square into a whole number of them.
-std::optional<int> across(const TexelPlane& plane, const std::vector<MapSquare>& squares) {
+std::optional<int> across(const TexelPlane& plane, std::span<const MapSquare> squares) {
     constexpr double tolerance = 0.01; // two powers are a hundred times as far apart
     for (const MapSquare& square : squares)
         for (int texels = smallest; texels <= largest; texels *= 2)
@@ -176,49 +271,108 @@ std::optional<int> across(const TexelPlane& plane, const std::vector<MapSquare>&
     return std::nullopt;
 }
 
+/// Adds each view with its best bias, where there is one.
+void add_fitted(const Trial& trial, const CasterTracers& tracers,
+                std::span<const LightSampling> views, std::vector<FittedMap>& maps) {
+    std::vector<std::optional<FittedMap>> tried(views.size());
+    parallel_for(static_cast<int>(views.size()), trial.traced().tracer().threads(),
+                 [&](int view, int) {
+                     const auto i = static_cast<std::size_t>(view);
+                     tried[i] = fitted(trial, tracers.of(views[i]), views[i]);
+                 });
+    for (const std::optional<FittedMap>& map : tried)
+        if (map) maps.push_back(*map);
+}
+
+bool explains_more(const FittedMap& a, const FittedMap& b) {
+    return a.fitted.score > b.fitted.score;
+}
+
+/// Of maps whose planes are the same the best, the best first.
+template <class Same>
+std::vector<FittedMap> best_of(std::vector<FittedMap> maps, std::size_t most, const Same& same) {
+    std::stable_sort(maps.begin(), maps.end(), explains_more);
+    std::vector<FittedMap> best;
+    for (const FittedMap& map : maps) {
+        const bool is_new = std::none_of(best.begin(), best.end(), [&](const FittedMap& other) {
+            return same(*other.view.plane, *map.view.plane);
+        });
+        if (is_new && best.size() < most) best.push_back(map);
+    }
+    return best;
+}
+
+bool are_same_planes(const TexelPlane& a, const TexelPlane& b) {
+    return a.axes.up == b.axes.up && a.side == b.side && a.corner == b.corner;
+}
+
+/// As near as climbing comes from one to the other.
+bool have_same_sides(const TexelPlane& a, const TexelPlane& b) {
+    constexpr double least_difference = 0.02;
+    return std::abs(a.side - b.side) < least_difference * b.side;
+}
+
+/// The maps whose shadows may be soft, with filters: those that renderers have, each as it explains
+/// most, and of others the best.
+std::vector<LightSampling> softened(const Trial& trial, const std::vector<FittedMap>& maps,
+                                    StepsByAxes& steps) {
+    constexpr std::size_t most = 16;
+    if (!trial.is_soft()) return {};
+    std::vector<FittedMap> exact;
+    std::vector<FittedMap> others;
+    for (const FittedMap& map : maps) (map.view.plane->is_exact ? exact : others).push_back(map);
+    std::vector<LightSampling> views;
+    const std::size_t all = exact.size();
+    for (const FittedMap& map : best_of(std::move(exact), all, are_same_planes)) {
+        views.push_back(map.view);
+        if (!map.view.frustum) continue;
+        views.push_back(map.view); // soft shadows may look as if they ended
+        views.back().frustum.reset();
+    }
+    for (const FittedMap& map : best_of(std::move(others), most, have_same_sides))
+        views.push_back(map.view);
+    views = filtered(trial, views);
+    std::erase_if(views, [&](const LightSampling& view) {
+        return !is_visible(view, steps.of(view.plane->axes).apart);
+    });
+    return views;
+}
+
 } // namespace
 
 void try_plane_maps(Trial& trial) {
-    using Culled = LightSampling::Culled;
     constexpr std::size_t most_climbed = 4;
-    constexpr double least_difference = 0.02; // of sides, below which climbing finds the other
     if (chosen_light(trial.scene()).kind == Light::Kind::point) return;
     const std::optional<LightFrustum> frustum = fitted_frustum(trial);
     if (frustum) consider_ends(trial, *frustum);
-    std::vector<FittedMap> maps;
-    const std::vector<MapSquare> squares = squares_of(trial.scene(), frustum);
-    const std::vector<TexelPlane> planes = possible_planes(trial, squares);
-    for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
-        const Scene from_light = seen_from_light(trial.scene(), culled);
-        if (from_light.triangles.empty()) return;
-        const Tracer tracer(from_light, trial.traced().tracer().threads());
+    const CasterTracers tracers(trial.scene());
+    if (!tracers.are_any()) return;
+    const Squares squares = squares_of(trial.scene(), frustum);
+    StepsByAxes steps(trial);
+    const std::vector<TexelPlane> planes = possible_planes(trial, squares.all, steps);
+    std::vector<LightSampling> views;
+    using Culled = LightSampling::Culled;
+    for (const Culled culled : {Culled::none, Culled::front, Culled::back})
         for (const TexelPlane& plane : planes)
-            if (const auto found =
-                    fitted(trial, tracer, {.culled = culled, .plane = plane, .frustum = frustum}))
-                maps.push_back(*found);
-    }
+            views.push_back({.culled = culled, .plane = plane, .frustum = frustum});
+    std::vector<FittedMap> maps;
+    add_fitted(trial, tracers, views, maps);
+    add_fitted(trial, tracers, softened(trial, maps, steps), maps);
     if (maps.empty()) return;
-    const auto by_score = [](const FittedMap& a, const FittedMap& b) {
-        return a.fitted.score > b.fitted.score;
-    };
-    std::stable_sort(maps.begin(), maps.end(), by_score);
-    std::vector<FittedMap> climbed; // of each side of texels the best
-    for (const FittedMap& map : maps) {
-        const double side = map.view.plane->side;
-        const bool is_new =
-            std::none_of(climbed.begin(), climbed.end(), [&](const FittedMap& other) {
-                return std::abs(other.view.plane->side - side) < least_difference * side;
-            });
-        if (is_new && climbed.size() < most_climbed) climbed.push_back(map);
-    }
-    for (FittedMap& map : climbed) {
-        const Scene from_light = seen_from_light(trial.scene(), map.view.culled);
-        const Tracer tracer(from_light, trial.traced().tracer().threads());
-        climb(trial, tracer, map);
-        settle_bias(trial, tracer, map);
-    }
-    const FittedMap& best = *std::min_element(climbed.begin(), climbed.end(), by_score);
-    consider_plane(trial, best, across(*best.view.plane, squares));
+    std::vector<FittedMap> climbed = best_of(std::move(maps), most_climbed, have_same_sides);
+    std::vector<double> pixels;
+    for (const FittedMap& map : climbed) pixels.push_back(steps.of(map.view.plane->axes).apart);
+    settle_filter(trial, tracers, pixels.front(), climbed.front());
+    if (explains_nearly_all(trial, climbed.front())) climbed.resize(1);
+    parallel_for(
+        static_cast<int>(climbed.size()), trial.traced().tracer().threads(), [&](int i, int) {
+            FittedMap& map = climbed[static_cast<std::size_t>(i)];
+            climb(trial, tracers.of(map.view), map);
+            settle_bias(trial, tracers.of(map.view), pixels[static_cast<std::size_t>(i)], map);
+        });
+    FittedMap& best = *std::min_element(climbed.begin(), climbed.end(), explains_more);
+    settle_filter(trial, tracers, steps.of(best.view.plane->axes).apart, best);
+    consider_plane(trial, best, across(*best.view.plane, squares.possible(best.view)));
 }
 
 } // namespace shadowproof

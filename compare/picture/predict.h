@@ -30,6 +30,16 @@ bool in_cone(const GroundTruth& truth, std::size_t pixel);
 /// Both: others are dark in any case.
 bool may_be_lit(const TracedScene& traced, std::size_t pixel);
 
+/// Calls visit(x, y) for each pixel of the patches that may_be_lit, in order.
+template <class Visit>
+void for_each_lightable(const TracedScene& traced, std::span<const Patch> patches,
+                        const Visit& visit) {
+    for (const Patch& patch : patches)
+        for_each_pixel(patch, [&](int x, int y) {
+            if (may_be_lit(traced, traced.truth().visibility.index(x, y))) visit(x, y);
+        });
+}
+
 /// The point that is seen at a pixel, in double.
 glm::dvec3 seen_point(const TracedScene& traced, int x, int y);
 

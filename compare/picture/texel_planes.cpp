@@ -3,6 +3,7 @@
 #include "scenes/shadow_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <glm/common.hpp>
@@ -56,6 +57,18 @@ void settle(const ShadowSteps& steps, TexelPlane& plane, bool and_side) {
             }
 }
 
+/// Where a directional light's camera stands: where the file has the light, or at the origin.
+std::array<glm::dvec2, 2> usual_middles(const Light& light, const LightAxes& axes) {
+    return {glm::dvec2(place_from_light(light, axes, light.position)),
+            glm::dvec2(place_from_light(light, axes, glm::dvec3(0)))};
+}
+
+/// As people give lengths.
+double in_two_digits(double length) {
+    const double digit = std::pow(10, std::floor(std::log10(length)) - 1);
+    return std::round(length / digit) * digit;
+}
+
 } // namespace
 
 TexelPlane moved(TexelPlane plane, int axis, double texels) {
@@ -89,23 +102,39 @@ std::vector<MapSquare> usual_squares(const Scene& scene) {
          glm::dvec2(glm::dot(camera.right, fitted.eye), glm::dot(camera.up, fitted.eye)) -
              fitted.half_side,
          false}};
-    for (const LightAxes& axes : usual_axes(light))
-        squares.push_back({axes, of_three / scene.unit, std::nullopt, false});
+    const double side = of_three / scene.unit;
+    for (const LightAxes& axes : usual_axes(light)) {
+        squares.push_back({axes, side, std::nullopt, false});
+        for (const glm::dvec2& middle : usual_middles(light, axes))
+            squares.push_back({axes, side, middle - side / 2, false});
+    }
     return squares;
 }
 
-std::vector<MapSquare> measured_squares(const LightFrustum& frustum) {
+std::vector<MapSquare> measured_squares(const LightFrustum& frustum, const Light& light) {
+    constexpr double least_difference = 0.01; // an end lies between two pixels
     std::vector<MapSquare> squares;
     for (int axis = 0; axis < 2; ++axis) {
         const double side = frustum.high[axis] - frustum.low[axis];
         if (std::isfinite(side)) squares.push_back({frustum.axes, side, std::nullopt, true});
     }
+    if (light.kind != Light::Kind::directional) return squares;
+    for (const glm::dvec2& middle : usual_middles(light, frustum.axes))
+        for (int axis = 0; axis < 2; ++axis)
+            for (const double end : {frustum.low[axis], frustum.high[axis]}) {
+                const double half = std::abs(end - middle[axis]);
+                if (!std::isfinite(half)) continue;
+                squares.push_back({frustum.axes, 2 * half, middle - half, true});
+                const double rounded = in_two_digits(half);
+                if (std::abs(rounded - half) < least_difference * half)
+                    squares.push_back({frustum.axes, 2 * rounded, middle - rounded, false});
+            }
     return squares;
 }
 
 TexelPlane divided(const ShadowSteps& steps, const MapSquare& square, int across) {
     const double side = square.side / across;
-    if (square.low) return {square.axes, side, *square.low / side};
+    if (square.low) return {square.axes, side, *square.low / side, !square.is_measured};
     TexelPlane plane = plane_of(square.axes, waves_of(steps, 1 / side, 0, 1).front());
     plane.side = side;
     settle(steps, plane, square.is_measured);

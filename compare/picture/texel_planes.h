@@ -29,8 +29,10 @@ struct MapSquare {
 /// takes, which just holds the scene; and ten units, which a DirectionalLight of three.js takes
 /// where nothing is said.
 std::vector<MapSquare> usual_squares(const Scene& scene);
-/// Of which two opposite ends were found.
-std::vector<MapSquare> measured_squares(const LightFrustum& frustum);
+/// Of which two opposite ends were found; of a directional light one, if its middle is where the
+/// file has the light, or the world's origin: as it was measured, and if it then has a side of two
+/// digits, with that.
+std::vector<MapSquare> measured_squares(const LightFrustum& frustum, const Light& light);
 
 /// A square of so many texels a side; `steps`: of its axes. Where it may lie anywhere, so that
 /// their borders explain best where shadows begin and end.

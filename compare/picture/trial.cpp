@@ -13,6 +13,15 @@ namespace {
 /// double the time.
 constexpr std::size_t most_patches = 64;
 
+/// Whether the pixel lies within one class of a picture: next to others, half a pixel decides.
+bool is_inside(const Image<Visibility>& picture, int x, int y) {
+    const Visibility own = picture.at(x, y);
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture.height - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture.width - 1); ++u)
+            if (picture.at(u, v) != own) return false;
+    return true;
+}
+
 constexpr auto unexplained = static_cast<std::uint8_t>(Cause::unexplained);
 
 } // namespace
@@ -24,9 +33,22 @@ Trial::Trial(const TracedScene& traced, const Frame& frame, const Image<std::uin
         wrong.pixels[i] = cause.pixels[i] == unexplained ? 1 : 0;
         wrong_ += wrong.pixels[i];
     }
+    std::uint64_t between = 0;
+    for (int y = 0; y < cause.height; ++y)
+        for (int x = 0; x < cause.width; ++x) {
+            const float share = frame.pictured->lit_share.at(x, y);
+            between += is_wrong(x, y) && share > 0.1F && share < 0.9F ? 1U : 0U;
+        }
+    is_soft_ = between * 20 > wrong_; // a few are chance
     sample_ = sampled_patches(wrong, frame.pictured->decided, most_patches);
     for (const Patch& patch : sample_)
         for_each_pixel(patch, [&](int x, int y) { sampled_wrong_ += wrong.at(x, y); });
+    for_each_lightable(traced, sample_, [&](int x, int y) {
+        const bool counts =
+            is_wrong(x, y) || (is_right(x, y) && (!is_soft_ || is_inside(frame.claim, x, y)));
+        sampled_pixels_.push_back({x, y, counts});
+        sampled_points_.push_back(seen_point(traced, x, y));
+    });
 }
 
 bool Trial::is_wrong(int x, int y) const {
@@ -41,26 +63,6 @@ bool Trial::is_decidable(int x, int y) const {
     return (is_wrong(x, y) || is_right(x, y)) && may_be_lit(traced_, cause_.index(x, y));
 }
 
-bool Trial::is_soft() const {
-    std::uint64_t between = 0;
-    for (int y = 0; y < cause_.height; ++y)
-        for (int x = 0; x < cause_.width; ++x) {
-            const float share = frame_.pictured->lit_share.at(x, y);
-            between += is_wrong(x, y) && share > 0.1F && share < 0.9F ? 1U : 0U;
-        }
-    return between * 20 > wrong_; // a few are chance
-}
-
-/// Whether the pixel lies within one class of the predicted picture: next to others, half a pixel
-/// decides.
-bool Trial::is_inside(int x, int y) const {
-    const Visibility own = picture_.at(x, y);
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, picture_.height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, picture_.width - 1); ++u)
-            if (picture_.at(u, v) != own) return false;
-    return true;
-}
-
 Fit Trial::fit_in(std::span<const Patch> patches, const Predict& predict) {
     predict(patches, picture_);
     Fit fit;
@@ -69,7 +71,7 @@ Fit Trial::fit_in(std::span<const Patch> patches, const Predict& predict) {
             const bool as_claimed = picture_.at(x, y) == frame_.claim.at(x, y);
             if (is_wrong(x, y))
                 fit.explained += as_claimed ? 1U : 0U;
-            else if (!as_claimed && is_right(x, y) && is_inside(x, y))
+            else if (!as_claimed && is_right(x, y) && is_inside(picture_, x, y))
                 ++fit.contradicted;
         });
     for (const Patch& patch : patches)

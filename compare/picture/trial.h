@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,14 @@ enum class Settles : std::uint8_t {
     never, ///< it explains what it does not predict: another one may say why
 };
 
+struct SampledPixel {
+    int x = 0;
+    int y = 0;
+    /// Wrong or right; but of soft shadows, of which an outline is known to a pixel, not what is
+    /// right next to one.
+    bool counts = false;
+};
+
 class Trial {
 public:
     /// Keeps references; `cause`: Comparison::cause.
@@ -49,14 +58,18 @@ public:
     const GroundTruth& truth() const { return traced_.truth(); }
     const Frame& frame() const { return frame_; }
     std::uint64_t wrong() const { return wrong_; }
+    std::uint64_t sampled_wrong() const { return sampled_wrong_; }
     bool is_wrong(int x, int y) const;
     bool is_right(int x, int y) const; ///< decided, and no difference
     /// Right or wrong, and not dark whatever the shadows are.
     bool is_decidable(int x, int y) const;
     /// Whether some wrong pixels lie between light and shadow.
-    bool is_soft() const;
+    bool is_soft() const { return is_soft_; }
     /// Where hypotheses are compared before the best are predicted for the whole picture.
     const std::vector<Patch>& sample() const { return sample_; }
+    /// Its pixels that may_be_lit, in order, and the points that they see.
+    const std::vector<SampledPixel>& sampled_pixels() const { return sampled_pixels_; }
+    const std::vector<glm::dvec3>& sampled_points() const { return sampled_points_; }
 
     /// On the sample.
     Fit fit(const Predict& predict);
@@ -93,13 +106,15 @@ private:
     const Image<std::uint8_t>& cause_;
     std::uint64_t wrong_ = 0;
     std::uint64_t sampled_wrong_ = 0;
+    bool is_soft_ = false;
     std::vector<Patch> sample_;
+    std::vector<SampledPixel> sampled_pixels_;
+    std::vector<glm::dvec3> sampled_points_;
     Image<Visibility> picture_; ///< the truth, but while something is predicted
     std::vector<Considered> considered_;
 
     Fit fit_in(std::span<const Patch> patches, const Predict& predict);
     const Fit& whole_fit(Considered& each);
-    bool is_inside(int x, int y) const;
 };
 
 } // namespace shadowproof

@@ -50,10 +50,34 @@ for (const scene of ['sun', 'spot'])
     }
   });
 
+// Texels of a pixel: their steps are not seen, but the light's camera is where the file has the light.
+test('the map of three.js is named on sun, whose texels are as fine as pixels', () => {
+  const { cell: { diagnosis: [best] }, wrong } = checked('sun', { MAP_SIZE: '1024' });
+  assert.equal(best.hypothesis, 'shadow_map');
+  assert.equal(best.parameters.resolution, 1024);
+  assert.ok(Math.abs(best.parameters.texel * 1024 - 10) < 1e-9);
+  assert.ok(best.explained > 0.8 * wrong, `${best.explained} of ${wrong}`);
+});
+
+// Its own filters, which it takes where nothing is said: soft shadows, whose steps are hardly seen.
+for (const [scene, type, filtered] of [
+  ['overlapping', 'PCFShadowMap', [2, undefined, 1]], ['sun', 'PCFShadowMap', [2, undefined, 1]],
+  ['spot', 'PCFSoftShadowMap', [3, 1, undefined]]])
+  test(`the ${type} of three.js is named on ${scene}, with its filter`, () => {
+    const { cell: { diagnosis: [best] }, wrong } = checked(scene, { MAP_SIZE: '128', MAP_TYPE: type });
+    assert.equal(best.hypothesis, 'shadow_map');
+    const { resolution, filter, smooth, points } = best.parameters;
+    assert.equal(resolution, 128);
+    assert.deepEqual([filter, smooth, points], filtered);
+    assert.ok(best.explained > 0.9 * wrong, `${best.explained} of ${wrong}`);
+    assert.ok(best.contradicted < 0.1 * wrong, `${best.contradicted} of ${wrong}`);
+  });
+
 test('shadows that end with the square of a directional light are told, and where it ends', () => {
   const { cell: { diagnosis: [best] }, wrong } = checked('sun', { HALF_SIDE: '3', MAP_SIZE: '256' });
   assert.equal(best.hypothesis, 'shadow_map');
-  const { right, top, texel } = best.parameters;
+  const { right, top, texel, resolution } = best.parameters;
+  assert.equal(resolution, 256); // of a square around the light: two ends are seen, and no two opposite ones
   for (const [found, truly] of [[right, 3], [top, 3], [texel, 6 / 256]])
     assert.ok(Math.abs(found - truly) <= 0.02 * truly, `${found}, not ${truly}`);
   assert.ok(best.explained > 0.95 * wrong, `${best.explained} of ${wrong}`);
