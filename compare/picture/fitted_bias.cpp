@@ -25,7 +25,7 @@ std::optional<FittedBias> fitted_bias(const Trial& trial, const std::vector<Ligh
     std::vector<Threshold> thresholds;
     thresholds.reserve(samples.size());
     const bool directional = is_directional(trial);
-    std::int64_t score = 0; // where the bias decides nothing, but for a constant
+    std::int64_t score = 0; // of the pixels that no bias changes
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const SampledPixel& p = trial.sampled_pixels()[i];
         if (!p.counts) continue;
@@ -43,7 +43,7 @@ std::optional<FittedBias> fitted_bias(const Trial& trial, const std::vector<Ligh
         score += thresholds[i].gain;
         const double middle = (thresholds[i].excess + thresholds[i + 1].excess) / 2;
         const bool is_tie = thresholds[i].excess == thresholds[i + 1].excess;
-        if (is_tie || !std::isfinite(middle) || (best && score <= best->score)) continue;
+        if (is_tie || (best && score <= best->score)) continue;
         best = {like, score};
         best->bias.constant = middle;
     }

@@ -29,7 +29,7 @@ void try_plane_maps(Trial& trial); ///< shadow_map of a spot, or of a directiona
 
 inline constexpr const char* dark_beyond = ", and all in shadow beyond";
 
-/// The same with a narrow filter, and with a wide one: where shadows are soft, maps without any
+/// Views with a narrow filter, and with a wide one: where shadows are soft, maps without any
 /// explain little. None where the picture has no soft shadows.
 std::vector<LightSampling> filtered(const Trial& trial, std::span<const LightSampling> views);
 

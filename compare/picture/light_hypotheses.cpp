@@ -198,8 +198,6 @@ void try_epsilon(Trial& trial) {
 
 void try_cube_maps(Trial& trial) {
     if (chosen_light(trial.scene()).kind != Light::Kind::point) return;
-    constexpr int smallest = 64; // texels: engines offer powers of two
-    constexpr int largest = 8192;
     LightSampling ended; // at the range that explains something by itself
     if (const Parameters* found = trial.best_of("shadow_map")) {
         for (const auto& [name, value] : *found) {
@@ -236,7 +234,7 @@ void try_cube_maps(Trial& trial) {
         if (from_light.triangles.empty()) return;
         std::vector<LightSampling> views;
         for (int inset = 0; inset <= 1; ++inset)
-            for (int texels = smallest; texels <= largest; texels *= 2) {
+            for (int texels = smallest_map; texels <= largest_map; texels *= 2) {
                 views.push_back(ended);
                 views.back().culled = culled;
                 views.back().inset = inset;
@@ -254,7 +252,7 @@ void try_cube_maps(Trial& trial) {
     look(tracer, {best_view, endless}, true);
     std::vector<LightSampling> alternatives = with_filters(trial, best_view);
     const std::size_t count = alternatives.size();
-    for (std::size_t i = 0; i < count; ++i) { // what a filter hides, another one shows
+    for (std::size_t i = 0; i < count; ++i) { // without the right filter, either may fit
         alternatives.push_back(alternatives[i]);
         alternatives.back().inset = 1 - best_view.inset;
     }

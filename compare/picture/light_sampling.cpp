@@ -73,15 +73,16 @@ Lookup lookup(const Light& light, const LightSampling& view, const glm::dvec3& p
 /// Calls visit(place) for each of MapFilter::Over::points.
 template <class Visit>
 void visit_points(const Lookup& at, const Visit& visit) {
+    const bool is_cube = at.texels > 0;
     visit(at.place);
-    if (at.texels == 0) {
+    if (!is_cube) {
         for (const double away : {0.5, 1.0})
             for (const int x : {-1, 0, 1})
                 for (const int y : {-1, 0, 1})
                     if (x != 0 || y != 0) visit(at.place + away * glm::dvec2(x, y));
         return;
     }
-    // In all three directions of space, which way the face lies or not.
+    // Along all three axes of space, that of the face as well.
     const double away = std::hypot(at.across.x, at.across.y, 1.0) / (2.0 * at.texels);
     for (const int x : {-1, 1})
         for (const int y : {-1, 1})
@@ -142,7 +143,7 @@ public:
         const auto is_it = [&](const Texel& other) {
             return other.number == number && lookups[other.lookup].face == at.face;
         };
-        std::size_t& remembered = remembered_[hash(number) % remembered_.size()];
+        std::size_t& remembered = remembered_[hash(number)];
         if (remembered == none || !is_it(all[remembered]))
             remembered = add({lookup, number, at.side * (number + 0.5 + at.corner)});
         return remembered;
@@ -152,15 +153,16 @@ public:
 
 private:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> remembered_ = std::vector<std::size_t>(1 << 14, none);
+    static constexpr int bits = 14; // of what is remembered: more is slower to look at
+    std::vector<std::size_t> remembered_ = std::vector<std::size_t>(std::size_t{1} << bits, none);
 
-    /// Spread evenly over the low bits, which are the last ones of a product's upper half.
-    static std::uint64_t hash(const glm::dvec2& number) {
+    /// The top bits of a product, which depend on all bits of both numbers.
+    static std::size_t hash(const glm::dvec2& number) {
         constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;
         return ((std::bit_cast<std::uint64_t>(number.x) * odd +
                  std::bit_cast<std::uint64_t>(number.y)) *
                 odd) >>
-               40;
+               (64 - bits);
     }
     std::size_t add(const Texel& texel) {
         all.push_back(texel);
@@ -352,6 +354,9 @@ std::vector<LightSample> sample_light(const Tracer& light_tracer, const LightSam
         visit_asked(lookups[i], view.filter, [&](const glm::dvec2& number, double weight) {
             asked.push_back({texels.find_or_add(lookups, i, number), weight});
         });
+        // Where a place has no parts of texels, none has a weight.
+        if (asked.size() == (i == 0 ? 0 : end_of.back()))
+            asked.push_back({texels.find_or_add(lookups, i, glm::floor(lookups[i].place)), 1});
         end_of.push_back(asked.size());
     }
     const std::vector<SeenSurface> seen = seen_through(light_tracer, lookups, texels.all);

@@ -47,16 +47,20 @@ struct LightFrustum {
     bool holds(const glm::dvec3& place) const;
 };
 
+/// Texels along a side: engines offer powers of two.
+inline constexpr int smallest_map = 64;
+inline constexpr int largest_map = 8192;
+
 /// Over which texels comparisons are averaged.
 struct MapFilter {
     enum class Over : std::uint8_t {
         texels, ///< whole ones, a square of those around the point
         square, ///< around the point itself, with parts of texels: bilinear filtering is of width 1
-        points, ///< places around it, as a PCFShadowMap of three.js has them: in a plane 17 as far
-                ///< as a texel away, on a cube 9 as far as a quarter of one, of the distance from
-                ///< the light
+        points, ///< single places, as a PCFShadowMap of three.js (r170) asks them: in a plane 17,
+                ///< to a texel away; on a cube 9, moved along each axis by the distance from the
+                ///< light over twice its texels
     };
-    int width = 0; ///< texels a side; 0: none are averaged. Of points: 2
+    int width = 0; ///< texels a side; 0: none are averaged. Points lie within 2
     Over over = Over::texels;
     /// The share of light from which a pixel is nearer to lit than to shadowed.
     double lit_from = 0.5;

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <deque>
 #include <glm/common.hpp>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -23,9 +22,6 @@ namespace shadowproof {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-constexpr int smallest = 64; // texels: engines offer powers of two
-constexpr int largest = 8192;
 
 struct FittedMap {
     LightSampling view;
@@ -63,9 +59,9 @@ void add_frustum(MapWords& words, const LightFrustum& frustum) {
 }
 
 std::optional<FittedMap> fitted(const Trial& trial, const Tracer& from_light,
-                                const LightSampling& view) {
+                                const LightSampling& view, const MapBias& like = {}) {
     const auto bias =
-        fitted_bias(trial, sample_light(from_light, view, trial.sampled_points()), MapBias{});
+        fitted_bias(trial, sample_light(from_light, view, trial.sampled_points()), like);
     if (!bias) return std::nullopt;
     return FittedMap{view, *bias};
 }
@@ -108,20 +104,21 @@ void climb(const Trial& trial, const Tracer& from_light, FittedMap& best) {
 }
 
 /// Whether what is averaged is as wide as a pixel; narrower, it changes nothing that is seen.
-bool is_visible(const LightSampling& view, double pixel) {
-    return view.filter.width * view.plane->side >= pixel;
+bool is_visible(const LightSampling& view, double pixel_width) {
+    return view.filter.width * view.plane->side >= pixel_width;
 }
 
-/// The best bias and filter of a map whose texels are known. `pixel`: what one sees of the map.
-void settle_bias(const Trial& trial, const Tracer& from_light, double pixel, FittedMap& map) {
+/// The best bias and filter of a map whose texels are known. `pixel_width`: between the places
+/// of neighbouring pixels.
+void settle_bias(const Trial& trial, const Tracer& from_light, double pixel_width, FittedMap& map) {
     const auto look = [&](const LightSampling& view, std::int64_t least) {
         const auto bias =
             fitted_bias(trial, sample_light(from_light, view, trial.sampled_points()));
         if (bias && bias->score >= least) map = {view, *bias};
     };
     look(map.view, map.fitted.score + least_gain);
-    for (const LightSampling& filtered : with_filters(trial, map.view))
-        if (is_visible(filtered, pixel)) look(filtered, map.fitted.score + least_gain);
+    for (const LightSampling& softer : with_filters(trial, map.view))
+        if (is_visible(softer, pixel_width)) look(softer, map.fitted.score + least_gain);
     if (!map.view.frustum) return;
     LightSampling endless = map.view; // texels may look as if shadows ended
     endless.frustum.reset();
@@ -150,25 +147,42 @@ private:
     std::vector<std::unique_ptr<Tracer>> tracers_;
 };
 
-/// The filter that contradicts least, of those whose maps explain about as much. Other than the
-/// score by which they were found, the picture's does not count what is right next to an outline.
-void settle_filter(Trial& trial, const CasterTracers& tracers, double pixel, FittedMap& map) {
+/// Adds each view with its best bias, where there is one. `like`: as of fitted_bias.
+void add_fitted(const Trial& trial, const CasterTracers& tracers,
+                std::span<const LightSampling> views, const MapBias& like,
+                std::vector<FittedMap>& maps) {
+    std::vector<std::optional<FittedMap>> tried(views.size());
+    parallel_for(static_cast<int>(views.size()), trial.traced().tracer().threads(),
+                 [&](int view, int) {
+                     const auto i = static_cast<std::size_t>(view);
+                     tried[i] = fitted(trial, tracers.of(views[i]), views[i], like);
+                 });
+    for (const std::optional<FittedMap>& map : tried)
+        if (map) maps.push_back(*map);
+}
+
+/// The filter that fits best on the sample's pictures, of those whose maps explain about as much:
+/// scores leave out what is right next to the picture's outlines, fits what is next to those that
+/// are predicted.
+void settle_filter(Trial& trial, const CasterTracers& tracers, double pixel_width, FittedMap& map) {
+    std::vector<LightSampling> views = with_filters(trial, map.view);
+    std::erase_if(views, [&](const LightSampling& view) { return !is_visible(view, pixel_width); });
+    std::vector<FittedMap> filtered;
+    add_fitted(trial, tracers, views, {.of = map.fitted.bias.of, .slope = map.fitted.bias.slope},
+               filtered);
+    const std::int64_t least =
+        map.fitted.score - static_cast<std::int64_t>(trial.sampled_wrong() / 20);
+    std::erase_if(filtered, [&](const FittedMap& each) { return each.fitted.score < least; });
+    if (filtered.empty()) return;
     const auto fit = [&](const FittedMap& tried) {
         return trial.fit(lit_within(trial.traced(), tried.view, tried.fitted.bias)).score();
     };
-    const std::int64_t least =
-        map.fitted.score - least_gain - static_cast<std::int64_t>(trial.wrong() / 20);
-    std::int64_t best = 0;
-    for (const LightSampling& filtered : with_filters(trial, map.view)) {
-        if (!is_visible(filtered, pixel)) continue;
-        const std::optional<FittedMap> tried = fitted(trial, tracers.of(filtered), filtered);
-        if (!tried || tried->fitted.score < least) continue;
-        if (best == 0) best = fit(map);
-        if (const std::int64_t score = fit(*tried); score > best) {
-            map = *tried;
+    std::int64_t best = fit(map);
+    for (const FittedMap& tried : filtered)
+        if (const std::int64_t score = fit(tried); score > best) {
+            map = tried;
             best = score;
         }
-    }
 }
 
 /// Whether a map as a renderer has it leaves next to nothing for others to explain.
@@ -248,14 +262,10 @@ std::vector<TexelPlane> possible_planes(const Trial& trial, const std::vector<Ma
     const Light& light = chosen_light(trial.scene());
     std::vector<TexelPlane> planes;
     for (const LightAxes& axes : usual_axes(light))
-        for (const TexelPlane& plane : proposed_planes(steps.of(axes))) {
+        for (const TexelPlane& plane : proposed_planes(steps.of(axes), light))
             planes.push_back(plane);
-            if (light.kind != Light::Kind::spot) continue;
-            planes.push_back(plane); // a map around the axis, of an even number of texels
-            planes.back().corner = {0, 0};
-        }
     for (const MapSquare& square : squares)
-        for (int texels = smallest; texels <= largest; texels *= 2)
+        for (int texels = smallest_map; texels <= largest_map; texels *= 2)
             planes.push_back(divided(steps.of(square.axes), square, texels));
     return planes;
 }
@@ -265,30 +275,17 @@ std::vector<TexelPlane> possible_planes(const Trial& trial, const std::vector<Ma
 std::optional<int> across(const TexelPlane& plane, std::span<const MapSquare> squares) {
     constexpr double tolerance = 0.01; // two powers are a hundred times as far apart
     for (const MapSquare& square : squares)
-        for (int texels = smallest; texels <= largest; texels *= 2)
+        for (int texels = smallest_map; texels <= largest_map; texels *= 2)
             if (std::abs(plane.side * texels - square.side) <= tolerance * square.side)
                 return texels;
     return std::nullopt;
-}
-
-/// Adds each view with its best bias, where there is one.
-void add_fitted(const Trial& trial, const CasterTracers& tracers,
-                std::span<const LightSampling> views, std::vector<FittedMap>& maps) {
-    std::vector<std::optional<FittedMap>> tried(views.size());
-    parallel_for(static_cast<int>(views.size()), trial.traced().tracer().threads(),
-                 [&](int view, int) {
-                     const auto i = static_cast<std::size_t>(view);
-                     tried[i] = fitted(trial, tracers.of(views[i]), views[i]);
-                 });
-    for (const std::optional<FittedMap>& map : tried)
-        if (map) maps.push_back(*map);
 }
 
 bool explains_more(const FittedMap& a, const FittedMap& b) {
     return a.fitted.score > b.fitted.score;
 }
 
-/// Of maps whose planes are the same the best, the best first.
+/// `most` maps, the best first; of those whose planes are the same, the best alone.
 template <class Same>
 std::vector<FittedMap> best_of(std::vector<FittedMap> maps, std::size_t most, const Same& same) {
     std::stable_sort(maps.begin(), maps.end(), explains_more);
@@ -356,20 +353,22 @@ void try_plane_maps(Trial& trial) {
         for (const TexelPlane& plane : planes)
             views.push_back({.culled = culled, .plane = plane, .frustum = frustum});
     std::vector<FittedMap> maps;
-    add_fitted(trial, tracers, views, maps);
-    add_fitted(trial, tracers, softened(trial, maps, steps), maps);
+    add_fitted(trial, tracers, views, MapBias{}, maps);
+    add_fitted(trial, tracers, softened(trial, maps, steps), MapBias{}, maps);
     if (maps.empty()) return;
     std::vector<FittedMap> climbed = best_of(std::move(maps), most_climbed, have_same_sides);
-    std::vector<double> pixels;
-    for (const FittedMap& map : climbed) pixels.push_back(steps.of(map.view.plane->axes).apart);
-    settle_filter(trial, tracers, pixels.front(), climbed.front());
+    std::vector<double> pixel_widths;
+    for (const FittedMap& map : climbed)
+        pixel_widths.push_back(steps.of(map.view.plane->axes).apart);
+    settle_filter(trial, tracers, pixel_widths.front(), climbed.front());
     if (explains_nearly_all(trial, climbed.front())) climbed.resize(1);
-    parallel_for(
-        static_cast<int>(climbed.size()), trial.traced().tracer().threads(), [&](int i, int) {
-            FittedMap& map = climbed[static_cast<std::size_t>(i)];
-            climb(trial, tracers.of(map.view), map);
-            settle_bias(trial, tracers.of(map.view), pixels[static_cast<std::size_t>(i)], map);
-        });
+    parallel_for(static_cast<int>(climbed.size()), trial.traced().tracer().threads(),
+                 [&](int i, int) {
+                     FittedMap& map = climbed[static_cast<std::size_t>(i)];
+                     climb(trial, tracers.of(map.view), map);
+                     settle_bias(trial, tracers.of(map.view),
+                                 pixel_widths[static_cast<std::size_t>(i)], map);
+                 });
     FittedMap& best = *std::min_element(climbed.begin(), climbed.end(), explains_more);
     settle_filter(trial, tracers, steps.of(best.view.plane->axes).apart, best);
     consider_plane(trial, best, across(*best.view.plane, squares.possible(best.view)));

@@ -8,6 +8,7 @@
 #include <complex>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -57,10 +58,52 @@ void settle(const ShadowSteps& steps, TexelPlane& plane, bool and_side) {
             }
 }
 
-/// Where a directional light's camera stands: where the file has the light, or at the origin.
-std::array<glm::dvec2, 2> usual_middles(const Light& light, const LightAxes& axes) {
-    return {glm::dvec2(place_from_light(light, axes, light.position)),
-            glm::dvec2(place_from_light(light, axes, glm::dvec3(0)))};
+/// The middle of a light's map: a spot's axis; of a directional light where the file has it, or the
+/// world's origin. An even number of texels has a border there.
+std::vector<glm::dvec2> usual_middles(const Light& light, const LightAxes& axes) {
+    if (light.kind == Light::Kind::spot) return {{0, 0}};
+    const glm::dvec2 own(place_from_light(light, axes, light.position));
+    const glm::dvec2 origin(place_from_light(light, axes, glm::dvec3(0)));
+    if (own == origin) return {own};
+    return {own, origin};
+}
+
+/// Of each wave the part that has a crest at a place.
+std::vector<Wave> with_crests_at(const glm::dvec2& place, std::vector<Wave> waves) {
+    for (Wave& wave : waves)
+        for (int k = 0; k < 2; ++k) {
+            std::complex<double>& mean = wave.mean[static_cast<std::size_t>(k)];
+            const auto crest = std::polar(1.0, 2 * std::numbers::pi * wave.frequency * place[k]);
+            mean = std::max((mean * std::conj(crest)).real(), 0.0) * crest;
+        }
+    return waves;
+}
+
+Wave strongest(const std::vector<Wave>& waves) {
+    return *std::max_element(waves.begin(), waves.end(),
+                             [](const Wave& a, const Wave& b) { return a.power() < b.power(); });
+}
+
+/// Of a measured side, as an end lies between two pixels.
+constexpr double measured_to = 0.01;
+
+/// Half the side of a square around a middle that ends where the frustum does; nothing where the
+/// middle is not in it, or its ends are not equally far away.
+std::optional<double> half_side_around(const glm::dvec2& middle, const LightFrustum& frustum) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (!(frustum.low[axis] < middle[axis] && middle[axis] < frustum.high[axis]))
+            return std::nullopt;
+        for (const double end : {frustum.low[axis], frustum.high[axis]}) {
+            const double half = std::abs(end - middle[axis]);
+            if (!std::isfinite(half)) continue;
+            least = std::min(least, half);
+            most = std::max(most, half);
+        }
+    }
+    if (most == 0 || most - least > measured_to * most) return std::nullopt;
+    return (least + most) / 2;
 }
 
 /// As people give lengths.
@@ -112,39 +155,40 @@ std::vector<MapSquare> usual_squares(const Scene& scene) {
 }
 
 std::vector<MapSquare> measured_squares(const LightFrustum& frustum, const Light& light) {
-    constexpr double least_difference = 0.01; // an end lies between two pixels
     std::vector<MapSquare> squares;
     for (int axis = 0; axis < 2; ++axis) {
         const double side = frustum.high[axis] - frustum.low[axis];
         if (std::isfinite(side)) squares.push_back({frustum.axes, side, std::nullopt, true});
     }
     if (light.kind != Light::Kind::directional) return squares;
-    for (const glm::dvec2& middle : usual_middles(light, frustum.axes))
-        for (int axis = 0; axis < 2; ++axis)
-            for (const double end : {frustum.low[axis], frustum.high[axis]}) {
-                const double half = std::abs(end - middle[axis]);
-                if (!std::isfinite(half)) continue;
-                squares.push_back({frustum.axes, 2 * half, middle - half, true});
-                const double rounded = in_two_digits(half);
-                if (std::abs(rounded - half) < least_difference * half)
-                    squares.push_back({frustum.axes, 2 * rounded, middle - rounded, false});
-            }
+    for (const glm::dvec2& middle : usual_middles(light, frustum.axes)) {
+        const std::optional<double> half = half_side_around(middle, frustum);
+        if (!half) continue;
+        squares.push_back({frustum.axes, 2 * *half, middle - *half, true});
+        const double rounded = in_two_digits(*half);
+        if (std::abs(rounded - *half) < measured_to * *half)
+            squares.push_back({frustum.axes, 2 * rounded, middle - rounded, false});
+    }
     return squares;
 }
 
 TexelPlane divided(const ShadowSteps& steps, const MapSquare& square, int across) {
     const double side = square.side / across;
-    if (square.low) return {square.axes, side, *square.low / side, !square.is_measured};
+    constexpr double most_texels = 0x1p40; // from the middle, where places have parts of them
+    if (square.low &&
+        std::max(std::abs(square.low->x), std::abs(square.low->y)) < most_texels * side)
+        return {square.axes, side, *square.low / side, !square.is_measured};
     TexelPlane plane = plane_of(square.axes, waves_of(steps, 1 / side, 0, 1).front());
     plane.side = side;
     settle(steps, plane, square.is_measured);
     return plane;
 }
 
-std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps) {
+std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps, const Light& light) {
     constexpr std::size_t most = 24;
-    constexpr double fewest = 8; // texels over all steps
-    constexpr double coarse = 4; // waves told apart over all steps
+    constexpr std::size_t most_around = 12; // a middle
+    constexpr double fewest = 8;            // texels over all steps
+    constexpr double coarse = 4;            // waves told apart over all steps
     constexpr int most_waves = 1 << 15;
     const glm::dvec2 size = steps.high - steps.low;
     const double extent = std::max(size.x, size.y);
@@ -155,16 +199,18 @@ std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps) {
     const double last = 1 / steps.apart; // finer texels are no steps of pixels
     const int count = static_cast<int>(std::min((last - first) / step, double{most_waves}));
     if (count < 3) return planes;
-    for (const Wave& peak : peaks(waves_of(steps, first, step, count), most)) {
+    const std::vector<Wave> waves = waves_of(steps, first, step, count);
+    const auto around = [&](const Wave& peak) {
         constexpr int finer = 32;
-        const double from = peak.frequency - step;
-        const std::vector<Wave> around = waves_of(steps, from, 2 * step / finer, finer + 1);
-        planes.push_back(plane_of(steps.axes, *std::max_element(around.begin(), around.end(),
-                                                                [](const Wave& a, const Wave& b) {
-                                                                    return a.power() < b.power();
-                                                                })));
+        return waves_of(steps, peak.frequency - step, 2 * step / finer, finer + 1);
+    };
+    for (const Wave& peak : peaks(waves, most)) {
+        planes.push_back(plane_of(steps.axes, strongest(around(peak))));
         settle(steps, planes.back(), true);
     }
+    for (const glm::dvec2& middle : usual_middles(light, steps.axes))
+        for (const Wave& peak : peaks(with_crests_at(middle, waves), most_around))
+            planes.push_back(plane_of(steps.axes, strongest(with_crests_at(middle, around(peak)))));
     return planes;
 }
 

@@ -39,7 +39,8 @@ std::vector<MapSquare> measured_squares(const LightFrustum& frustum, const Light
 TexelPlane divided(const ShadowSteps& steps, const MapSquare& square, int across);
 
 /// Texels whose borders explain the places at which the picture's shadows begin and end, the best
-/// first; their corners and sides are as good as that tells them.
-std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps);
+/// first, wherever they begin; then those that lie evenly around the usual middles of such a
+/// light's map. Their corners and sides are as good as that tells them.
+std::vector<TexelPlane> proposed_planes(const ShadowSteps& steps, const Light& light);
 
 } // namespace shadowproof

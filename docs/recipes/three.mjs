@@ -12,8 +12,8 @@
 // Needs `npm install three playwright-core` in the current folder (or the one that MODULES names),
 // and Chromium (CHROMIUM names it). MAP_SIZE, BIAS and NORMAL_BIAS are those of the light's shadow,
 // and HALF_SIDE is half the square that a directional light's map holds; what is not given is
-// three.js's own. MAP_TYPE is that of the shadow map: PCFShadowMap, which three.js takes where nothing
-// is said, averages 17 comparisons; without it here, one decides (BasicShadowMap).
+// three.js's own. MAP_TYPE is that of the shadow map: BasicShadowMap, one comparison, where nothing is
+// said here; three.js itself takes PCFShadowMap then, which averages 17, or 9 of a point light.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { basename, dirname, join, resolve } from 'node:path';
@@ -38,6 +38,7 @@ async function render({ view, shadow, ownMaterials, file }) {
   renderer.setSize(view.width, view.height);
   renderer.toneMapping = THREE.NoToneMapping;
   renderer.shadowMap.enabled = true;
+  if (!(shadow.type in THREE)) throw new Error(`MAP_TYPE: three.js has no ${shadow.type}`);
   renderer.shadowMap.type = THREE[shadow.type];
   const { scene } = await new GLTFLoader().loadAsync(file);
   const fileLights = [];

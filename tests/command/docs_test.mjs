@@ -111,6 +111,21 @@ test('every test that the page of promises names is there, and each promise name
     assert.match(promise, /_test\.mjs`/, promise);
 });
 
+test('the hypotheses of a diagnosis are those that the program, the page and the schema name', () => {
+  const folder = join(root, 'compare/picture');
+  const source = readdirSync(folder).filter((file) => file.endsWith('_hypotheses.cpp') ||
+                                                      file === 'moved_light.cpp')
+    .map((file) => readFileSync(join(folder, file), 'utf8')).join('');
+  const tried = new Set([...source.matchAll(/(?:consider\(\s*|\.hypothesis = )"(\w+)"/g)]
+    .map(([, name]) => name));
+  const listed = new Set([...textOf('docs/results.schema.json')
+    .match(/"hypothesis": \{"enum": \[([^\]]*)\]/)[1].matchAll(/\w+/g)].map(([name]) => name));
+  const explained = new Set(tableOf('docs/check.md', 'hypothesis').slice(2)
+    .flatMap(([first]) => [...first.matchAll(/`(\w+)`/g)]).map(([, name]) => name));
+  assert.deepEqual([...explained].sort(), [...listed].sort());
+  assert.deepEqual([...tried].sort(), [...listed].sort());
+});
+
 test('what the pages link to is installed with them', () => {
   const installed = textOf('cmake/install.cmake');
   for (const [file] of pages.flatMap(linksOf))
