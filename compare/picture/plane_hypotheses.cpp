@@ -12,7 +12,6 @@
 #include <deque>
 #include <glm/common.hpp>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -125,38 +124,35 @@ void settle_bias(const Trial& trial, const Tracer& from_light, double pixel_widt
     look(endless, map.fitted.score - static_cast<std::int64_t>(trial.sampled_wrong() / 20));
 }
 
-/// What lights see, one for each side of casters that may be left out. Views are tried side by
-/// side: each tracer has one thread.
-class CasterTracers {
-public:
-    explicit CasterTracers(const Scene& scene) {
-        using Culled = LightSampling::Culled;
-        for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
-            scenes_.push_back(std::make_unique<Scene>(seen_from_light(scene, culled)));
-            if (!are_any()) return;
-            tracers_.push_back(std::make_unique<Tracer>(*scenes_.back(), 1));
-        }
-    }
-    bool are_any() const { return !scenes_.back()->triangles.empty(); }
-    const Tracer& of(const LightSampling& view) const {
-        return *tracers_[static_cast<std::size_t>(view.culled)];
-    }
+using Culled = LightSampling::Culled;
 
-private:
-    std::vector<std::unique_ptr<Scene>> scenes_;
-    std::vector<std::unique_ptr<Tracer>> tracers_;
-};
+/// Calls work(i, tracer) for each of `count` views, side by side, with a tracer of what the light
+/// sees without the sides that culled_of(i) leaves out. One such scene at a time is in memory.
+template <class CulledOf, class Work>
+void for_each_view(const Trial& trial, std::size_t count, const CulledOf& culled_of,
+                   const Work& work) {
+    for (const Culled culled : {Culled::none, Culled::front, Culled::back}) {
+        std::vector<std::size_t> some;
+        for (std::size_t i = 0; i < count; ++i)
+            if (culled_of(i) == culled) some.push_back(i);
+        if (some.empty()) continue;
+        const Scene from_light = seen_from_light(trial.scene(), culled);
+        if (from_light.triangles.empty()) return; // nothing casts
+        const Tracer tracer(from_light, 1);
+        parallel_for(static_cast<int>(some.size()), trial.traced().tracer().threads(),
+                     [&](int each, int) { work(some[static_cast<std::size_t>(each)], tracer); });
+    }
+}
 
 /// Adds each view with its best bias, where there is one. `like`: as of fitted_bias.
-void add_fitted(const Trial& trial, const CasterTracers& tracers,
-                std::span<const LightSampling> views, const MapBias& like,
+void add_fitted(const Trial& trial, std::span<const LightSampling> views, const MapBias& like,
                 std::vector<FittedMap>& maps) {
     std::vector<std::optional<FittedMap>> tried(views.size());
-    parallel_for(static_cast<int>(views.size()), trial.traced().tracer().threads(),
-                 [&](int view, int) {
-                     const auto i = static_cast<std::size_t>(view);
-                     tried[i] = fitted(trial, tracers.of(views[i]), views[i], like);
-                 });
+    for_each_view(
+        trial, views.size(), [&](std::size_t i) { return views[i].culled; },
+        [&](std::size_t i, const Tracer& tracer) {
+            tried[i] = fitted(trial, tracer, views[i], like);
+        });
     for (const std::optional<FittedMap>& map : tried)
         if (map) maps.push_back(*map);
 }
@@ -164,12 +160,11 @@ void add_fitted(const Trial& trial, const CasterTracers& tracers,
 /// The filter that fits best on the sample's pictures, of those whose maps explain about as much:
 /// scores leave out what is right next to the picture's outlines, fits what is next to those that
 /// are predicted.
-void settle_filter(Trial& trial, const CasterTracers& tracers, double pixel_width, FittedMap& map) {
+void settle_filter(Trial& trial, double pixel_width, FittedMap& map) {
     std::vector<LightSampling> views = with_filters(trial, map.view);
     std::erase_if(views, [&](const LightSampling& view) { return !is_visible(view, pixel_width); });
     std::vector<FittedMap> filtered;
-    add_fitted(trial, tracers, views, {.of = map.fitted.bias.of, .slope = map.fitted.bias.slope},
-               filtered);
+    add_fitted(trial, views, {.of = map.fitted.bias.of, .slope = map.fitted.bias.slope}, filtered);
     const std::int64_t least =
         map.fitted.score - static_cast<std::int64_t>(trial.sampled_wrong() / 20);
     std::erase_if(filtered, [&](const FittedMap& each) { return each.fitted.score < least; });
@@ -342,35 +337,31 @@ void try_plane_maps(Trial& trial) {
     if (chosen_light(trial.scene()).kind == Light::Kind::point) return;
     const std::optional<LightFrustum> frustum = fitted_frustum(trial);
     if (frustum) consider_ends(trial, *frustum);
-    const CasterTracers tracers(trial.scene());
-    if (!tracers.are_any()) return;
     const Squares squares = squares_of(trial.scene(), frustum);
     StepsByAxes steps(trial);
     const std::vector<TexelPlane> planes = possible_planes(trial, squares.all, steps);
     std::vector<LightSampling> views;
-    using Culled = LightSampling::Culled;
     for (const Culled culled : {Culled::none, Culled::front, Culled::back})
         for (const TexelPlane& plane : planes)
             views.push_back({.culled = culled, .plane = plane, .frustum = frustum});
     std::vector<FittedMap> maps;
-    add_fitted(trial, tracers, views, MapBias{}, maps);
-    add_fitted(trial, tracers, softened(trial, maps, steps), MapBias{}, maps);
+    add_fitted(trial, views, MapBias{}, maps);
+    add_fitted(trial, softened(trial, maps, steps), MapBias{}, maps);
     if (maps.empty()) return;
     std::vector<FittedMap> climbed = best_of(std::move(maps), most_climbed, have_same_sides);
     std::vector<double> pixel_widths;
     for (const FittedMap& map : climbed)
         pixel_widths.push_back(steps.of(map.view.plane->axes).apart);
-    settle_filter(trial, tracers, pixel_widths.front(), climbed.front());
+    settle_filter(trial, pixel_widths.front(), climbed.front());
     if (explains_nearly_all(trial, climbed.front())) climbed.resize(1);
-    parallel_for(static_cast<int>(climbed.size()), trial.traced().tracer().threads(),
-                 [&](int i, int) {
-                     FittedMap& map = climbed[static_cast<std::size_t>(i)];
-                     climb(trial, tracers.of(map.view), map);
-                     settle_bias(trial, tracers.of(map.view),
-                                 pixel_widths[static_cast<std::size_t>(i)], map);
-                 });
+    for_each_view(
+        trial, climbed.size(), [&](std::size_t i) { return climbed[i].view.culled; },
+        [&](std::size_t i, const Tracer& tracer) {
+            climb(trial, tracer, climbed[i]);
+            settle_bias(trial, tracer, pixel_widths[i], climbed[i]);
+        });
     FittedMap& best = *std::min_element(climbed.begin(), climbed.end(), explains_more);
-    settle_filter(trial, tracers, steps.of(best.view.plane->axes).apart, best);
+    settle_filter(trial, steps.of(best.view.plane->axes).apart, best);
     consider_plane(trial, best, across(*best.view.plane, squares.possible(best.view)));
 }
 
